@@ -1,13 +1,13 @@
-//! `cargo xtask ablate`: leaves out one mechanism of the search for a step's solution at a time, over all scenes, examples,
-//! verification models and random mechanisms, and prints what that costs. A mechanism without which nothing fails and nothing becomes
+//! `cargo xtask ablate`: switches off one feature of the nonlinear solver at a time, over all scenes, examples,
+//! verification models and random mechanisms, and prints what that costs. A feature without which nothing fails and nothing becomes
 //! dearer is to go. With `--numbers` it halves and doubles instead each number that these and the choice of steps go by. Knows
 //! no mechanics.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use lissom::core::mechanisms::MECHANISMS;
-use lissom::core::numbers::{NUMBERS, Number, Numbers};
+use lissom::core::solver_features::SOLVER_FEATURES;
+use lissom::core::tuning::{TUNING_PARAMETERS, Tuning, TuningParameter};
 use lissom::{Override, Session};
 
 use crate::AblateArguments;
@@ -31,7 +31,7 @@ struct Finished {
     values: Vec<f64>,
 }
 
-/// Runs everything with everything, then without each mechanism, and prints the table.
+/// Runs everything with everything, then without each feature, and prints the table.
 pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
     let mut subjects = subjects::with_further_schemes();
     subjects.extend(subjects::examples()?);
@@ -71,15 +71,15 @@ pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
 fn changes(of_numbers: bool) -> Vec<(String, Override)> {
     let change = |key: &str, word: &str| (format!("analysis.{key}"), format!("[\"{word}\"]"));
     if of_numbers {
-        let halved_and_doubled = NUMBERS.iter().flat_map(|(_, word, ..)| {
+        let halved_and_doubled = TUNING_PARAMETERS.iter().flat_map(|(_, word, ..)| {
             [(format!("½ {word}"), change("halved", word)), (format!("2 {word}"), change("doubled", word))]
         });
         return halved_and_doubled.collect();
     }
-    MECHANISMS.iter().map(|(_, word, _)| ((*word).to_owned(), change("without", word))).collect()
+    SOLVER_FEATURES.iter().map(|(_, word, _)| ((*word).to_owned(), change("without", word))).collect()
 }
 
-/// One line of the table: `runs` without a mechanism beside those with all, and fine ones.
+/// One line of the table: `runs` without a feature beside those with all, and fine ones.
 fn print_row(word: &str, subjects: &[Subject], (runs, whole, fine): (&[Finished], &[Finished], &[Finished])) {
     let (mut fails, mut saved) = (Vec::new(), Vec::new());
     let (mut times, mut counts) = (Vec::new(), Vec::new());
@@ -132,7 +132,7 @@ fn print_row(word: &str, subjects: &[Subject], (runs, whole, fine): (&[Finished]
 
 /// Iterations, and those that tangents cost.
 fn counted(run: &Finished) -> f64 {
-    run.iterations + run.tangents * Numbers::default().of(Number::TangentCost)
+    run.iterations + run.tangents * Tuning::default().of(TuningParameter::TangentCost)
 }
 
 fn list(names: &[&str]) -> String {

@@ -126,16 +126,16 @@ fn instructions_of(name: &str) -> Result<u64, CountError> {
         .args(["steps", name])
         .output()
         .map_err(|error| fail(error.to_string()))?;
-    let told = String::from_utf8_lossy(&output.stderr);
+    let output_text = String::from_utf8_lossy(&output.stderr);
     if !output.status.success() {
-        return Err(fail(told.into_owned()));
+        return Err(fail(output_text.into_owned()));
     }
-    collected(&told).ok_or_else(|| fail(format!("no count in: {told}")))
+    collected(&output_text).ok_or_else(|| fail(format!("no count in: {output_text}")))
 }
 
 /// The number in callgrind's line `Collected : 123`.
-fn collected(told: &str) -> Option<u64> {
-    let line = told.lines().find(|line| line.contains("Collected"))?;
+fn collected(output_text: &str) -> Option<u64> {
+    let line = output_text.lines().find(|line| line.contains("Collected"))?;
     line.rsplit(':').next()?.trim().parse().ok()
 }
 
@@ -168,9 +168,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_count_is_read_from_what_callgrind_tells() {
-        let told = "==12== Callgrind\n==12== Events    : Ir\n==12== Collected : 4711\n==12== \n";
-        assert_eq!(collected(told), Some(4711));
+    fn the_count_is_read_from_what_callgrind_reports() {
+        let output_text = "==12== Callgrind\n==12== Events    : Ir\n==12== Collected : 4711\n==12== \n";
+        assert_eq!(collected(output_text), Some(4711));
         assert_eq!(collected("nothing"), None);
     }
 

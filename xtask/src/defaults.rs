@@ -22,7 +22,7 @@ const TRUSTED: f64 = 1e-4;
 /// Results further from the fine ones than this part of the way are wrong.
 const WRONG: f64 = 0.01;
 /// Models that go less far are compared with what can be seen of them [m, rad, 1].
-const LEAST_WAY: f64 = 1e-4;
+const MIN_DISPLACEMENT: f64 = 1e-4;
 /// Records of a run.
 const RECORDS: f64 = 20.0;
 
@@ -49,8 +49,8 @@ struct Ran {
 struct Tally {
     failed: Vec<String>,
     errors: Vec<(f64, String)>,
-    told: usize,
-    untold: Vec<String>,
+    reported: usize,
+    unreported: Vec<String>,
     /// Logarithms of the processor time over that of the default.
     costs: Vec<f64>,
 }
@@ -109,8 +109,8 @@ impl Tally {
         let error = distance(&ran.record, fine).unwrap_or(f64::INFINITY);
         match (error <= WRONG, ran.is_warned) {
             (true, _) => {}
-            (false, true) => self.told += 1,
-            (false, false) => self.untold.push(name.to_owned()),
+            (false, true) => self.reported += 1,
+            (false, false) => self.unreported.push(name.to_owned()),
         }
         self.errors.push((error, name.to_owned()));
         self.costs.extend(usual.map(|usual| (ran.seconds / usual).ln()));
@@ -131,8 +131,8 @@ impl Tally {
             at(0.9).0,
             at(1.0).0,
             at(1.0).1,
-            self.told,
-            list(&self.untold),
+            self.reported,
+            list(&self.unreported),
         )
     }
 }
@@ -188,7 +188,7 @@ fn distance(one: &Record, other: &Record) -> Option<f64> {
             }
         }
         if way > 0.0 {
-            worst = Some(worst.unwrap_or(0.0_f64).max(gap / way.max(LEAST_WAY)));
+            worst = Some(worst.unwrap_or(0.0_f64).max(gap / way.max(MIN_DISPLACEMENT)));
         }
     }
     worst

@@ -44,14 +44,14 @@ pub(crate) fn differences(folder: &Path, cases: &[Case]) -> Result<Vec<String>, 
 
 /// Why a row of the case does not agree with what was computed for it.
 fn difference(case: &Case, computed: &Computed) -> Option<String> {
-    let told = |words: String| Some(format!("{}, `{}`: {words}", case.name, computed.row));
+    let finding = |words: String| Some(format!("{}, `{}`: {words}", case.name, computed.row));
     let Some((held, scale, uncertainty)) = held(case, &computed.row) else {
-        return told(
+        return finding(
             "the programs in verification/references compute it, and no row is called so".to_owned(),
         );
     };
     if held.len() != computed.values.len() || held.len() != computed.errors.len() {
-        return told(format!("{} values in the case, {} computed", held.len(), computed.values.len()));
+        return finding(format!("{} values in the case, {} computed", held.len(), computed.values.len()));
     }
     let largest = held.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let scale = scale.unwrap_or(largest);
@@ -63,7 +63,7 @@ fn difference(case: &Case, computed: &Computed) -> Option<String> {
         if is_near {
             return None;
         }
-        told(format!("entry {index} is {held:e}, computed {value:e}, allowed {allowed:.1e}"))
+        finding(format!("entry {index} is {held:e}, computed {value:e}, allowed {allowed:.1e}"))
     })
 }
 
@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_digit_is_told() {
+    fn a_changed_digit_is_reported() {
         let (folder, mut cases) = cases();
         let case = cases.iter_mut().find(|case| case.name == "bend-45").unwrap();
         case.quantity[0].entries[4].2 += 1e-11;

@@ -29,7 +29,7 @@ use damaged_expressions::{damaged_expression, expression_words};
 /// Cases that a thread takes at once.
 const BLOCK: u64 = 64;
 /// Texts answered badly that are kept.
-const MOST_KEPT: usize = 20;
+const MAX_KEPT: usize = 20;
 /// What expressions of time and of names have in common with those of the examples.
 const SIGNS: [char; 8] = ['+', '-', '*', '/', '^', '(', '<', '>'];
 
@@ -258,7 +258,7 @@ pub(crate) fn fuzz(arguments: &FuzzArguments) -> std::io::Result<bool> {
                     all.tallies.iter_mut().zip(&found.tallies).for_each(|(all, own)| all.add(own));
                     all.bad.extend(found.bad);
                     all.bad.sort();
-                    all.bad.truncate(MOST_KEPT);
+                    all.bad.truncate(MAX_KEPT);
                 }
             });
         }
@@ -300,7 +300,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_seed_tells_the_text() {
+    fn a_seed_determines_the_text() {
         let originals = Originals::read().expect("the models are there");
         assert!(originals.models.len() > 20, "{}", originals.models.len());
         assert!(originals.expressions.len() > 20, "{}", originals.expressions.len());
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn panics_and_bad_answers_are_told() {
+    fn panics_and_bad_answers_are_reported() {
         let mut tally = Tally::default();
         assert_eq!(tally.note(Ok(Answer::Badly("so".to_owned()))), Some("so".to_owned()));
         assert!(tally.note(Err(Box::new(()))).is_some());
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn an_error_without_a_line_is_told() {
+    fn an_error_without_a_line_is_reported() {
         let registry = registry();
         assert_eq!(answers::of_model("lissom = ", &registry), Answer::Refused);
         assert_eq!(answers::of_model("", &registry), Answer::Refused);

@@ -20,16 +20,16 @@ pub(crate) fn differences(report: &str, cases: &[Case], outcomes: &[Outcome]) ->
     for outcome in outcomes {
         let case = &cases[outcome.index];
         for row in outcome.rows.iter().filter(|row| row.verdict.word() == "pass") {
-            let told = format!("{}, `{}`", case.name, row.quantity);
+            let row_name = format!("{}, `{}`", case.name, row.quantity);
             // The report's cells hold no bars.
             match kept.get(&(case.title.as_str(), row.quantity.trim())) {
-                None => words.push(format!("{told}: the report has no such row")),
+                None => words.push(format!("{row_name}: the report has no such row")),
                 Some(kept) => {
                     if let (Some(now), Some(then)) = (row.digits(), *kept)
                         && (now - then).abs() > APART
                         && now.min(then) < EXACT
                     {
-                        words.push(format!("{told}: {now:.1} digits, {then:.1} in the report"));
+                        words.push(format!("{row_name}: {now:.1} digits, {then:.1} in the report"));
                     }
                 }
             }

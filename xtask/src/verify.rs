@@ -62,7 +62,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     }
     let outcomes = run_all(&root, &cases, arguments);
     for outcome in &outcomes {
-        tell(&cases[outcome.index], outcome, arguments.verbose);
+        print_outcome(&cases[outcome.index], outcome, arguments.verbose);
     }
     let elapsed = began.elapsed();
     // A report without the cases that need data of third parties is not the report.
@@ -200,7 +200,7 @@ fn run(root: &Path, index: usize, case: &Case, references: Option<&Path>) -> Out
     outcome
 }
 
-fn tell(case: &Case, outcome: &Outcome, verbose: bool) {
+fn print_outcome(case: &Case, outcome: &Outcome, verbose: bool) {
     let passed = outcome.rows.iter().filter(|row| row.verdict.word() == "pass").count();
     println!("{:32} {passed}/{} in {:.2} s", case.name, outcome.rows.len(), outcome.wall.as_secs_f64());
     for row in &outcome.rows {

@@ -4,15 +4,15 @@ use crate::case::Case;
 use crate::outcome::{Row, Verdict};
 
 /// A row where a run warns, or where a warning that is expected does not come; none where nothing is to be told.
-pub(crate) fn row(case: &Case, told: &[(String, String)]) -> Option<Row> {
-    let unexpected = told
+pub(crate) fn row(case: &Case, reported: &[(String, String)]) -> Option<Row> {
+    let unexpected = reported
         .iter()
         .filter(|(_, words)| !case.warns.iter().any(|expected| words.contains(&expected.says)))
         .map(|(run, words)| format!("{run} warns: {words}"));
     let missing = case
         .warns
         .iter()
-        .filter(|expected| !told.iter().any(|(_, words)| words.contains(&expected.says)))
+        .filter(|expected| !reported.iter().any(|(_, words)| words.contains(&expected.says)))
         .map(|expected| format!("no run warns of `{}`", expected.says));
     let wrong: Vec<String> = unexpected.chain(missing).collect();
     if wrong.is_empty() && case.warns.is_empty() {
@@ -23,7 +23,7 @@ pub(crate) fn row(case: &Case, told: &[(String, String)]) -> Option<Row> {
         quantity: "warnings".to_owned(),
         against: "the case".to_owned(),
         reference: if expected.is_empty() { "none".to_owned() } else { expected.join("; ") },
-        ours: format!("{} of {} run(s)", told.len(), case.runs.len()),
+        ours: format!("{} of {} run(s)", reported.len(), case.runs.len()),
         difference: None,
         tolerance: String::new(),
         uncertainty: String::new(),
@@ -44,15 +44,15 @@ mod tests {
 
     #[test]
     fn a_warning_fails_unless_the_case_says_why() {
-        let told = [("main".to_owned(), "the equilibrium is unstable".to_owned())];
-        let failed = |case: &Case, told: &[(String, String)]| {
-            row(case, told).is_some_and(|row| matches!(row.verdict, Verdict::Fail(_)))
+        let reported = [("main".to_owned(), "the equilibrium is unstable".to_owned())];
+        let failed = |case: &Case, reported: &[(String, String)]| {
+            row(case, reported).is_some_and(|row| matches!(row.verdict, Verdict::Fail(_)))
         };
-        assert!(failed(&case(""), &told));
+        assert!(failed(&case(""), &reported));
         assert!(row(&case(""), &[]).is_none());
         let expecting =
             case("[[warns]]\nsays = \"is unstable\"\nbecause = \"it is beyond the buckling load\"");
-        assert!(!failed(&expecting, &told));
+        assert!(!failed(&expecting, &reported));
         assert!(failed(&expecting, &[]));
     }
 }

@@ -13,13 +13,13 @@ pub(crate) mod equilibration;
 pub mod interrupt;
 pub mod judge;
 pub mod linear;
-pub mod mechanisms;
 pub mod newton;
 mod node_motion;
-pub mod numbers;
 pub mod scaling;
 pub mod schemes;
+pub mod solver_features;
 pub mod stepping;
+pub mod tuning;
 
 /// The linear solvers, by name.
 pub mod solvers {

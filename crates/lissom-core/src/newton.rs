@@ -6,10 +6,10 @@ use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
 use crate::interrupt;
-use crate::mechanisms::{Mechanism, Without};
-use crate::numbers::{MOST_HALVINGS, Number, Numbers};
+use crate::solver_features::{DisabledFeatures, SolverFeature};
+use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
-/// What Newton's method sees of a problem.
+/// A nonlinear system, as Newton's method solves it.
 pub trait Equations {
     /// Evaluates the residual at the current iterate, solves with the current tangent and corrects.
     fn correct(&mut self) -> Correction;
@@ -54,21 +54,26 @@ pub struct Limits {
     pub tolerance: f64,
     /// Most iterations in one solution.
     pub max_iterations: usize,
-    /// What is left out, for studies.
-    pub without: Without,
-    /// The numbers to go by.
-    pub numbers: Numbers,
+    /// Features that are switched off, for studies.
+    pub disabled: DisabledFeatures,
+    /// Parameters of the solver.
+    pub tuning: Tuning,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { tolerance: 1e-8, max_iterations: 25, without: Without::default(), numbers: Numbers::default() }
+        Self {
+            tolerance: 1e-8,
+            max_iterations: 25,
+            disabled: DisabledFeatures::default(),
+            tuning: Tuning::default(),
+        }
     }
 }
 
-/// What is remembered from one solution to the next.
+/// State of the Jacobian's factorization, kept from one solution to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Memory {
+pub struct JacobianState {
     /// Whether there is a factored tangent that may still serve.
     pub has_tangent: bool,
     /// Worst contraction of the last solution with this tangent in which it was seen.
@@ -78,24 +83,30 @@ pub struct Memory {
     /// Size of correction at which iterations have stalled for round-off [-].
     round_off: f64,
     /// What the tangent has cost.
-    account: Account,
+    cost: JacobianCost,
 }
 
-impl Memory {
+impl JacobianState {
     /// Forgets the tangent, and what was learned with it.
     fn forget_tangent(&mut self) {
         self.has_tangent = false;
         (self.contraction, self.unseen) = (None, 0);
     }
 
-    /// Takes note of a solution, and gives the tangent up if it has become too dear.
-    fn keep_account(&mut self, outcome: &Outcome, limits: &Limits) {
-        if !limits.without.has(Mechanism::Account) {
+    /// Adds the cost of a solution, and discards the tangent if a new one is cheaper.
+    fn update_cost(&mut self, outcome: &Outcome, limits: &Limits) {
+        if !limits.disabled.allows(SolverFeature::JacobianCost) {
             return;
         }
         if outcome.factorizations > 0 {
-            self.account = Account { spent: limits.numbers.of(Number::TangentCost), ..Account::default() };
-        } else if self.account.is_too_dear(outcome.iterations as f64, limits.numbers.of(Number::Novelty)) {
+            self.cost = JacobianCost {
+                spent: limits.tuning.of(TuningParameter::TangentCost),
+                ..JacobianCost::default()
+            };
+        } else if self
+            .cost
+            .should_refactor(outcome.iterations as f64, limits.tuning.of(TuningParameter::Novelty))
+        {
             self.forget_tangent();
         }
     }
@@ -104,15 +115,15 @@ impl Memory {
 /// What a tangent and the solutions found with it have cost, in iterations. An old tangent needs more of them: it is best
 /// renewed when a solution costs more than all since it was made have cost on average, its making included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Account {
+struct JacobianCost {
     spent: f64,
     solutions: f64,
     /// Of a solution, lately.
     recent: f64,
 }
 
-impl Account {
-    fn is_too_dear(&mut self, iterations: f64, novelty: f64) -> bool {
+impl JacobianCost {
+    fn should_refactor(&mut self, iterations: f64, novelty: f64) -> bool {
         self.spent += iterations;
         self.solutions += 1.0;
         let weight = (1.0 / self.solutions).max(novelty);
@@ -160,7 +171,7 @@ const ROUND_OFF: f64 = 1e-13;
 /// Where the solution is wanted exactly, stalled corrections above this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
 /// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
-const MOST_STALLS: usize = 2;
+const MAX_STALLS: usize = 2;
 
 /// Solves `equations`.
 ///
@@ -169,7 +180,7 @@ const MOST_STALLS: usize = 2;
 pub fn solve<E: Equations>(
     equations: &mut E,
     limits: &Limits,
-    memory: &mut Memory,
+    jacobian: &mut JacobianState,
 ) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     let mut previous: Option<f64> = None;
@@ -178,16 +189,16 @@ pub fn solve<E: Equations>(
     // Corrections made with the tangent since it was made, and halvings of the last one.
     let mut age = 0;
     let mut halvings = 0;
-    let mut stalls = if equations.is_wanted_exactly() { MOST_STALLS } else { 0 };
+    let mut stalls = if equations.is_wanted_exactly() { MAX_STALLS } else { 0 };
     while outcome.iterations < limits.max_iterations {
         if interrupt::is_asked() {
-            memory.forget_tangent();
+            jacobian.forget_tangent();
             return Err(Failure::Interrupted);
         }
-        if !memory.has_tangent {
+        if !jacobian.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
-            memory.has_tangent = true;
-            (memory.contraction, memory.unseen) = (None, 0);
+            jacobian.has_tangent = true;
+            (jacobian.contraction, jacobian.unseen) = (None, 0);
             outcome.factorizations += 1;
             fresh = true;
             age = 0;
@@ -197,7 +208,7 @@ pub fn solve<E: Equations>(
         outcome.iterations += 1;
         outcome.correction = correction.size;
         age += 1;
-        let verdict = match judge(&correction, previous, fresh, limits, memory) {
+        let verdict = match test_convergence(&correction, previous, fresh, limits, jacobian) {
             Verdict::Renew | Verdict::BackOff if fresh && correction.size <= equations.round_off() => {
                 Verdict::Converged
             }
@@ -205,57 +216,57 @@ pub fn solve<E: Equations>(
         };
         match verdict {
             Verdict::Converged => {
-                memory.keep_account(&outcome, limits);
+                jacobian.update_cost(&outcome, limits);
                 return Ok(outcome);
             }
             Verdict::Stalled if stalls > 0 && correction.size > ROUND_OFF => {
                 stalls -= 1;
                 halvings = 0;
-                memory.forget_tangent();
+                jacobian.forget_tangent();
                 previous = Some(correction.size);
             }
             Verdict::Stalled if equations.is_wanted_exactly() && correction.size > EXACT_STALLED => {
-                memory.forget_tangent();
+                jacobian.forget_tangent();
                 break;
             }
             Verdict::Stalled => {
                 if equations.is_wanted_exactly() {
-                    memory.round_off = 0.0;
+                    jacobian.round_off = 0.0;
                 }
                 outcome.stagnated = true;
-                memory.keep_account(&outcome, limits);
+                jacobian.update_cost(&outcome, limits);
                 return Ok(outcome);
             }
             // Seen through the same tangent the next correction must be smaller (natural monotonicity
             // [Deuflhard 2011, section 3.3]); where it is not, the last one went too far.
             Verdict::BackOff
-                if age == 2 && halvings < MOST_HALVINGS && limits.without.has(Mechanism::BackOff) =>
+                if age == 2 && halvings < MAX_HALVINGS && limits.disabled.allows(SolverFeature::BackOff) =>
             {
                 halvings += 1;
                 age = 1;
                 equations.back_off();
             }
-            Verdict::Go => {
+            Verdict::Continue => {
                 halvings = 0;
                 previous = Some(correction.size);
             }
             // The tangent belongs to an earlier iterate.
             Verdict::Renew | Verdict::BackOff => {
                 halvings = 0;
-                memory.forget_tangent();
+                jacobian.forget_tangent();
                 previous = Some(correction.size);
             }
             Verdict::Restart if fresh => {
-                memory.forget_tangent();
+                jacobian.forget_tangent();
                 return Err(Failure::NotFinite { iterations: outcome.iterations });
             }
             Verdict::Restart => {
-                memory.forget_tangent();
+                jacobian.forget_tangent();
                 equations.restart();
             }
         }
     }
-    memory.forget_tangent();
+    jacobian.forget_tangent();
     Err(Failure::NotConverged { iterations: outcome.iterations, correction: outcome.correction })
 }
 
@@ -265,7 +276,7 @@ enum Verdict {
     /// Round-off is reached.
     Stalled,
     /// Go on with the same tangent.
-    Go,
+    Continue,
     /// Go on with a new tangent.
     Renew,
     /// The correction before went too far.
@@ -274,48 +285,49 @@ enum Verdict {
     Restart,
 }
 
-fn judge(
+fn test_convergence(
     correction: &Correction,
     previous: Option<f64>,
     fresh: bool,
     limits: &Limits,
-    memory: &mut Memory,
+    jacobian: &mut JacobianState,
 ) -> Verdict {
     let Correction { size, reference } = *correction;
     if !(size.is_finite() && reference.is_finite()) {
         return if fresh && previous.is_some() { Verdict::BackOff } else { Verdict::Restart };
     }
-    let least = limits.numbers.of(Number::Contraction);
-    let goal = (limits.tolerance * reference).max(memory.round_off);
+    let least = limits.tuning.of(TuningParameter::Contraction);
+    let goal = (limits.tolerance * reference).max(jacobian.round_off);
     let Some(previous) = previous else {
         // The first correction is judged by the contraction of earlier solutions: after n solutions in which it was not
         // seen it may be n + 1 times as slow.
         if size == 0.0 {
             return Verdict::Converged;
         }
-        if let Some(contraction) = memory.contraction
-            && limits.without.has(Mechanism::SingleCorrection)
-            && remaining(contraction.max(least) * f64::from(memory.unseen + 1)) * size
-                <= limits.numbers.of(Number::Unseen) * goal
+        if let Some(contraction) = jacobian.contraction
+            && limits.disabled.allows(SolverFeature::SingleCorrection)
+            && remaining(contraction.max(least) * f64::from(jacobian.unseen + 1)) * size
+                <= limits.tuning.of(TuningParameter::Unseen) * goal
         {
-            memory.unseen += 1;
+            jacobian.unseen += 1;
             return Verdict::Converged;
         }
         // It will be seen anew.
-        (memory.contraction, memory.unseen) = (None, 0);
-        return Verdict::Go;
+        (jacobian.contraction, jacobian.unseen) = (None, 0);
+        return Verdict::Continue;
     };
     let contraction = size / previous;
-    memory.contraction = Some(memory.contraction.map_or(contraction, |known| known.max(contraction)));
+    jacobian.contraction = Some(jacobian.contraction.map_or(contraction, |known| known.max(contraction)));
     let credible = if fresh { contraction } else { contraction.max(least) };
     if remaining(credible) * size <= goal {
         return Verdict::Converged;
     }
     // Stiff members and large places have more of it.
-    let near_round_off = size <= 10.0 * ROUND_OFF || size <= limits.numbers.of(Number::Small) * reference;
-    if contraction > limits.numbers.of(Number::Stalled) && near_round_off && fresh {
+    let near_round_off =
+        size <= 10.0 * ROUND_OFF || size <= limits.tuning.of(TuningParameter::Small) * reference;
+    if contraction > limits.tuning.of(TuningParameter::Stalled) && near_round_off && fresh {
         if size <= ROUND_OFF {
-            memory.round_off = memory.round_off.max(size);
+            jacobian.round_off = jacobian.round_off.max(size);
         }
         return Verdict::Stalled;
     }
@@ -324,7 +336,7 @@ fn judge(
         return if fresh { Verdict::BackOff } else { Verdict::Restart };
     }
     let needed = if contraction < 1.0 { (goal / size).ln() / contraction.ln() } else { f64::INFINITY };
-    if needed > limits.numbers.of(Number::TangentCost) { Verdict::Renew } else { Verdict::Go }
+    if needed > limits.tuning.of(TuningParameter::TangentCost) { Verdict::Renew } else { Verdict::Continue }
 }
 
 /// Sum of the corrections still to come, relative to the last one: a geometric series.
@@ -377,13 +389,13 @@ mod tests {
     #[test]
     fn converges_and_keeps_the_tangent_for_the_next_solution() {
         let mut root = Root::new(1.0, 0.0);
-        let mut memory = Memory::default();
+        let mut jacobian = JacobianState::default();
         let limits = Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() };
-        solve(&mut root, &limits, &mut memory).expect("converges");
+        solve(&mut root, &limits, &mut jacobian).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-10);
         let tangents = root.tangents;
         root.x += 1e-3;
-        let outcome = solve(&mut root, &limits, &mut memory).expect("converges");
+        let outcome = solve(&mut root, &limits, &mut jacobian).expect("converges");
         assert_eq!(root.tangents, tangents);
         assert!(outcome.iterations <= 6 && outcome.factorizations == 0);
     }
@@ -416,34 +428,43 @@ mod tests {
     #[test]
     fn a_vanishing_correction_is_no_licence_for_the_next_solutions() {
         let mut root = Root::new(2.0_f64.sqrt(), 2.0 * 2.0_f64.sqrt());
-        let mut memory = Memory { has_tangent: true, contraction: Some(0.5), ..Memory::default() };
+        let mut jacobian =
+            JacobianState { has_tangent: true, contraction: Some(0.5), ..JacobianState::default() };
         let limits = Limits { tolerance: 1e-12, max_iterations: 30, ..Limits::default() };
         // Nearly solved already: the corrections soon vanish.
         for _ in 0..3 {
             root.x += 1e-15;
-            solve(&mut root, &limits, &mut memory).expect("converges");
+            solve(&mut root, &limits, &mut jacobian).expect("converges");
         }
         // The next solution lies somewhere else and must be found.
         root.x = 1.5;
-        solve(&mut root, &limits, &mut memory).expect("converges");
+        solve(&mut root, &limits, &mut jacobian).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-11, "{}", root.x);
     }
 
     #[test]
     fn a_small_slow_part_is_not_hidden_by_a_large_fast_one() {
         let mut pair = Pair { large: 0.0, small: 0.0, rate: 0.9 };
-        let mut memory = Memory { has_tangent: true, ..Memory::default() };
-        solve(&mut pair, &Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() }, &mut memory)
-            .expect("converges");
+        let mut jacobian = JacobianState { has_tangent: true, ..JacobianState::default() };
+        solve(
+            &mut pair,
+            &Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() },
+            &mut jacobian,
+        )
+        .expect("converges");
         assert!((pair.small - 1e-6).abs() < 1e-9, "{}", pair.small);
     }
 
     #[test]
     fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
         let mut root = Root::new(1.0, 0.5);
-        let mut memory = Memory { has_tangent: true, ..Memory::default() };
-        solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() }, &mut memory)
-            .expect("converges");
+        let mut jacobian = JacobianState { has_tangent: true, ..JacobianState::default() };
+        solve(
+            &mut root,
+            &Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() },
+            &mut jacobian,
+        )
+        .expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);
         assert!(root.tangents >= 1);
     }

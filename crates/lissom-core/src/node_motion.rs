@@ -139,7 +139,7 @@ impl Nodes {
     }
 
     /// Where the nodes are at a stage, with the increments of all stages by row, and how their frames have changed.
-    pub(crate) fn reach(
+    pub(crate) fn update_nodes(
         &self,
         stage: usize,
         table: &StageTable,
@@ -150,7 +150,7 @@ impl Nodes {
         for &node in &self.fixed {
             at.nodes[node] = start.nodes[node];
         }
-        self.processor.dispatch(Travel {
+        self.processor.dispatch(StageKinematics {
             blocks: &self.blocks,
             starts: &self.starts[stage],
             stage,
@@ -222,7 +222,7 @@ impl WithSimd for Entry<'_> {
     }
 }
 
-struct Travel<'a> {
+struct StageKinematics<'a> {
     blocks: &'a [NodeBlock],
     starts: &'a [BlockStart],
     stage: usize,
@@ -232,7 +232,7 @@ struct Travel<'a> {
     changes: &'a mut [MotionChange],
 }
 
-impl WithSimd for Travel<'_> {
+impl WithSimd for StageKinematics<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -260,7 +260,7 @@ impl WithSimd for Travel<'_> {
                     straight: part.screw(&start.straight),
                     twist: part.screw(&start.twist),
                 };
-                let reached = travel(self.table, &start, own, [rate, curvature]);
+                let reached = stage_kinematics(self.table, &start, own, [rate, curvature]);
                 let first = index * S::F64_LANES;
                 let nodes = &block.nodes[first..block.count.min(first + S::F64_LANES)];
                 Places::new(&reached).scatter(nodes, self.at, self.changes);
@@ -270,7 +270,7 @@ impl WithSimd for Travel<'_> {
 }
 
 #[inline(always)]
-fn travel<R: Real>(
+fn stage_kinematics<R: Real>(
     table: &StageTable,
     start: &Start<R>,
     own: Screw<R>,
@@ -465,7 +465,7 @@ mod tests {
         moving.enter(1, &table, &start, Known { rate: &rates, curvature: &curvatures });
         let mut at = start.clone();
         let mut changes = vec![MotionChange::none(); start.nodes.len()];
-        moving.reach(1, &table, &start, &increments, (&mut at, &mut changes));
+        moving.update_nodes(1, &table, &start, &increments, (&mut at, &mut changes));
         assert_eq!((at.nodes[0], changes[0]), (start.nodes[0], MotionChange::none()));
         for (node, rows) in layout.node_rows.iter().enumerate().skip(1) {
             let pick =

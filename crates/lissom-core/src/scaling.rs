@@ -262,7 +262,7 @@ impl Scaled {
 
     /// Unit-step rates q' = h v, curvatures q'' = h² v̇ and scheme memory of a state, by row, and what the stages'
     /// motions have from the start of the step.
-    pub fn enter(&self, layout: &Layout, scheme: &Scheme, state: &State, out: &mut UnitStart) {
+    pub fn to_unit_step(&self, layout: &Layout, scheme: &Scheme, state: &State, out: &mut UnitStepState) {
         let square = self.h * self.h;
         for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
             for (k, &row) in rows.iter().enumerate() {
@@ -280,7 +280,7 @@ impl Scaled {
             *value = square * algorithmic;
         }
         for (index, stage) in scheme.stages.iter().enumerate() {
-            let UnitStart { rate, curvature, algorithmic, known_rate, known_curvature, .. } = &mut *out;
+            let UnitStepState { rate, curvature, algorithmic, known_rate, known_curvature, .. } = &mut *out;
             let start = [&rate[..], &curvature[..], &algorithmic[..]];
             known_part(&stage.rate.times(1.0 / self.h), start, known_rate);
             known_part(&stage.curvature.times(1.0 / square), start, known_curvature);
@@ -290,10 +290,10 @@ impl Scaled {
     }
 
     /// The scheme's memory after a step, back in SI, from a linear combination of the increments and the start.
-    pub fn leave(
+    pub fn memory_from_unit_step(
         &self,
         combination: &Combination,
-        start: &UnitStart,
+        start: &UnitStepState,
         increments: &[Vec<f64>],
         memory: &mut [f64],
     ) {
@@ -319,7 +319,7 @@ impl Scaled {
         layout: &Layout,
         scheme: &Scheme,
         start: &State,
-        unit: &UnitStart,
+        unit: &UnitStepState,
         increments: &StageIncrements<'_>,
         reached: &mut StageMotion,
     ) {
@@ -332,7 +332,7 @@ impl Scaled {
         out.held.copy_from_slice(&start.kinematics.held);
         let own = &increments.all[increments.stage];
         let table = self.stage_table(scheme, stage);
-        unit.nodes.reach(increments.stage, &table, &start.kinematics, increments.all, (out, changes));
+        unit.nodes.update_nodes(increments.stage, &table, &start.kinematics, increments.all, (out, changes));
         for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
             let row = row as usize;
             let from = &start.kinematics.coordinates[coordinate];
@@ -454,7 +454,7 @@ pub struct StageIncrements<'a> {
 
 /// The start of a step of unit length, by coordinate row.
 #[derive(Clone, Debug)]
-pub struct UnitStart {
+pub struct UnitStepState {
     /// q'.
     pub rate: Vec<f64>,
     /// q''.
@@ -467,7 +467,7 @@ pub struct UnitStart {
     nodes: Nodes,
 }
 
-impl UnitStart {
+impl UnitStepState {
     /// Room for the coordinates of a system.
     pub fn new(layout: &Layout, scheme: &Scheme) -> Self {
         let zeros = vec![0.0; layout.coordinate_count()];

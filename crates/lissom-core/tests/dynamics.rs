@@ -280,9 +280,9 @@ fn constraints_do_not_drift_and_the_top_keeps_its_energy() {
     let energy = |simulation: &Simulation| simulation.system().energy(&simulation.state().kinematics);
     let start = energy(&simulation);
     run(&mut simulation, 100_000);
-    let mut outright = vec![0.0; 3];
-    simulation.system().violations(&simulation.state().kinematics, &mut outright);
-    let worst = outright.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let mut absolute = vec![0.0; 3];
+    simulation.system().violations(&simulation.state().kinematics, &mut absolute);
+    let worst = absolute.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let end = energy(&simulation);
     let change = (end.total() - start.total()) / start.kinetic;
     println!("violation {worst:e}, energy {change:e}, {:?}", simulation.totals());

@@ -6,7 +6,7 @@ use crate::lettering;
 use crate::png::PngError;
 
 /// Pixels of the largest picture.
-const MOST_PIXELS: f64 = 1e8;
+const MAX_PIXELS: f64 = 1e8;
 
 /// Rows of pixels, red, green and blue.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ impl Image {
     /// A white picture.
     pub(crate) fn new(size: [f64; 2], scale: f64) -> Result<Self, PngError> {
         let [width, height] = size.map(|side| (side * scale).ceil());
-        if width * height > MOST_PIXELS {
+        if width * height > MAX_PIXELS {
             return Err(PngError::TooLarge { width: width as u64, height: height as u64 });
         }
         let [width, height] = [width, height].map(|side| side.max(0.0) as usize);

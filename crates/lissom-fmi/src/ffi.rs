@@ -27,7 +27,7 @@ struct Unit {
     log: Log,
 }
 
-fn tell(log: Log, environment: *mut c_void, status: Status, words: &str) {
+fn log_message(log: Log, environment: *mut c_void, status: Status, words: &str) {
     let Some(log) = log else { return };
     let Ok(message) = CString::new(words.replace('\0', " ")) else { return };
     // SAFETY: the importer's own function and environment; both texts end with zero and live through the call.
@@ -43,7 +43,7 @@ fn with(unit: *mut c_void, act: impl FnOnce(&mut Instance) -> Result<(), String>
         Ok(Err(words)) => (words, ERROR),
         Err(_) => ("a mistake in the library: please report it".to_owned(), FATAL),
     };
-    tell(unit.log, unit.environment, status, &words);
+    log_message(unit.log, unit.environment, status, &words);
     status
 }
 
@@ -116,11 +116,11 @@ extern "C" fn fmi3InstantiateCoSimulation(
     match made {
         Ok(Ok(instance)) => Box::into_raw(Box::new(Unit { instance, environment, log })).cast(),
         Ok(Err(words)) => {
-            tell(log, environment, ERROR, &words);
+            log_message(log, environment, ERROR, &words);
             null_mut()
         }
         Err(_) => {
-            tell(log, environment, FATAL, "a mistake in the library: please report it");
+            log_message(log, environment, FATAL, "a mistake in the library: please report it");
             null_mut()
         }
     }

@@ -49,7 +49,7 @@ struct Given {
     parameters: BTreeMap<usize, f64>,
     inputs: BTreeMap<usize, f64>,
     /// Inputs that the session has not been given.
-    untold: Vec<usize>,
+    pending: Vec<usize>,
 }
 
 impl Given {
@@ -59,7 +59,7 @@ impl Given {
             start: None,
             parameters: BTreeMap::new(),
             inputs: BTreeMap::new(),
-            untold: Vec::new(),
+            pending: Vec::new(),
         }
     }
 }
@@ -162,10 +162,10 @@ impl Instance {
     fn session(&mut self) -> Result<&mut Session, String> {
         if self.session.is_none() {
             self.session = Some(self.model.session(&self.overrides()).map_err(words)?);
-            self.given.untold = self.given.inputs.keys().copied().collect();
+            self.given.pending = self.given.inputs.keys().copied().collect();
         }
         let session = self.session.as_mut().ok_or_else(String::new)?;
-        for index in std::mem::take(&mut self.given.untold) {
+        for index in std::mem::take(&mut self.given.pending) {
             let name = &self.interface.variables[index].name;
             session.set_input(name, self.given.inputs[&index]).map_err(words)?;
         }
@@ -222,7 +222,7 @@ impl Instance {
                 Causality::Input => {
                     self.expect(&[Phase::Instantiated, Phase::Initialization, Phase::Step], "an input")?;
                     self.given.inputs.insert(index, value);
-                    self.given.untold.push(index);
+                    self.given.pending.push(index);
                 }
                 Causality::Parameter => {
                     self.expect(&[Phase::Instantiated, Phase::Initialization], "a parameter")?;

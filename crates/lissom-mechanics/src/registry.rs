@@ -21,13 +21,13 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     /// Second derivative with respect to time at `time` [s].
     fn second_derivative(&self, time: f64) -> f64;
     /// Times at which it is known not to be smooth [s], in ascending order. Default: none.
-    fn kinks(&self) -> Vec<f64> {
+    fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
     /// An argument at which value or slope jump, if one is known; NaN if only that there are some. Default: the first of the
-    /// [`kinks`](Self::kinks).
+    /// [`breakpoints`](Self::breakpoints).
     fn first_kink(&self) -> Option<f64> {
-        self.kinks().first().copied()
+        self.breakpoints().first().copied()
     }
     /// Bounds of the value between two times [s]. Default: none are known.
     fn bounds(&self, _from: f64, _to: f64) -> Option<[f64; 2]> {
@@ -70,7 +70,7 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
         false
     }
     /// Values of the first quantity at which it is known not to be smooth, in ascending order. Default: none.
-    fn kinks(&self) -> Vec<f64> {
+    fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
     /// Number of its switching functions, which change sign where it has a kink or a jump. Steps of chosen size end there.

@@ -3,10 +3,10 @@
 use std::fmt::Debug;
 
 /// Most coordinates that one relation may name.
-pub const MOST_COUPLED: usize = 16;
+pub const MAX_COUPLED: usize = 16;
 
 /// One number per coordinate; those that are not there stay zero.
-pub type Coupled = [f64; MOST_COUPLED];
+pub type Coupled = [f64; MAX_COUPLED];
 
 /// An instant: time [s] and coordinates [rad, m]; or a direction in both.
 pub type RelationPoint<'a> = (f64, &'a [f64]);

@@ -39,7 +39,7 @@ impl Accumulated for Work {
 }
 
 /// Cosine of half the angle by which the axis may at most be turned for the angle about it to have a meaning.
-const LEAST_COSINE: f64 = 1e-3;
+const MIN_COSINE: f64 = 1e-3;
 
 /// Angle of a node about an axis, continued from step to step. With the unit quaternion (q0, q) of the rotation since the
 /// start and the axis n:
@@ -94,7 +94,7 @@ impl Accumulated for AngleAboutAxis {
         let [start, end] = [step.start, step.end].map(|state| self.turned(&state.kinematics));
         // Half the angle between both ends: where the axis is as close to half a turn, it may have passed it in between.
         let between = (start.scalar * end.scalar + start.vector.dot(&end.vector)).abs().min(1.0).acos();
-        if self.cosine(&start).min(self.cosine(&end)) <= between.sin().max(LEAST_COSINE) {
+        if self.cosine(&start).min(self.cosine(&end)) <= between.sin().max(MIN_COSINE) {
             return f64::NAN;
         }
         let angle = 2.0 * self.axis.dot(&end.vector).atan2(end.scalar);

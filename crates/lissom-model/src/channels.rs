@@ -8,7 +8,7 @@ use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::joints::attached::AttachedJoint;
-use lissom_core::joints::{Equations, MOST_COORDINATES};
+use lissom_core::joints::{Equations, MAX_COORDINATES};
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{ElementId, State, System};
@@ -322,9 +322,9 @@ impl Channel {
 
     /// Whether it reports velocities, accelerations or forces of constraints. Forces in beams are those of their strains, and a
     /// signal is what acts.
-    pub fn tells_rates(&self) -> bool {
+    pub fn reports_rates(&self) -> bool {
         match &self.source {
-            Source::Expression(_, arguments) => arguments.iter().any(|(channel, _)| channel.tells_rates()),
+            Source::Expression(_, arguments) => arguments.iter().any(|(channel, _)| channel.reports_rates()),
             Source::Place(..) | Source::Observed { .. } => !matches!(
                 self.kind,
                 OutputKind::Position
@@ -551,7 +551,7 @@ fn place(
 
 /// Second derivative of a coordinate of a joint, by the joint and the place in it.
 fn joint_acceleration(system: &System, (joint, own): (usize, usize), at: &Kinematics) -> f64 {
-    let all: [f64; MOST_COORDINATES] = system.joints()[joint].coordinate_accelerations(at);
+    let all: [f64; MAX_COORDINATES] = system.joints()[joint].coordinate_accelerations(at);
     all[own]
 }
 

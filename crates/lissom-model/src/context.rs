@@ -64,7 +64,7 @@ impl<'a> Context<'a> {
     }
 
     /// Notes a problem.
-    pub(crate) fn tell(&self, problem: Problem) {
+    pub(crate) fn report(&self, problem: Problem) {
         self.problems.borrow_mut().push(problem);
     }
 
@@ -75,7 +75,7 @@ impl<'a> Context<'a> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Option<T> {
-        self.tell(Problem::error(span, message).help(help));
+        self.report(Problem::error(span, message).help(help));
         None
     }
 
@@ -138,7 +138,7 @@ impl<'a> Context<'a> {
                 Problem::error(span, format!("{what} names {single} `{name}`, which does not exist"));
             let help = suggest::help(name, names.iter().map(|(known, _)| *known))
                 .unwrap_or_else(|| format!("add a table [{table}.{name}]"));
-            self.tell(problem.label(format!("no such {single}")).help(help));
+            self.report(problem.label(format!("no such {single}")).help(help));
         }
         known
     }

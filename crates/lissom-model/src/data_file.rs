@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_line() {
+    fn mistakes_are_reported_with_their_line() {
         for (text, names, words) in [
             ("a,b\n1,2\n3,x\n", None, "line 3: `x` in column `b`"),
             ("a,b\n1\n", None, "line 2: `` in column `b`"),
@@ -126,8 +126,8 @@ mod tests {
             ("a\n1\n", None, "two columns are needed"),
             ("\n# nothing\n", None, "no heading"),
         ] {
-            let told = two_columns(text, names).unwrap_err().to_string();
-            assert!(told.contains(words), "{text}: {told}");
+            let problem = two_columns(text, names).unwrap_err().to_string();
+            assert!(problem.contains(words), "{text}: {problem}");
         }
     }
 }

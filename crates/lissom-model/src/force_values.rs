@@ -18,7 +18,7 @@ struct Expressed {
     formula: Formula,
     /// Which argument of the expression each of them is.
     places: [Option<usize>; 2],
-    kinks: Vec<f64>,
+    breakpoints: Vec<f64>,
 }
 
 impl Expressed {
@@ -47,8 +47,8 @@ impl ForceFunction for Expressed {
         self.places[1].is_some()
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.kinks.clone()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.breakpoints.clone()
     }
 
     fn switch_count(&self) -> usize {
@@ -84,7 +84,7 @@ impl Context<'_> {
                     let place = self.sources.within(node.span, text, &name.range);
                     let problem = Problem::error(place, format!("{what} cannot name `{}`", name.text));
                     let help = suggest::help(&name.text, known()).unwrap_or_default();
-                    self.tell(
+                    self.report(
                         problem
                             .label("unknown here")
                             .help(format!("it may name `{}` and `{}`; {help}", names[0], names[1])),
@@ -97,8 +97,8 @@ impl Context<'_> {
                 }
                 let place = |name: &str| formula.arguments().iter().position(|own| own.text == name);
                 let places = names.map(place);
-                let kinks = places[0].map_or_else(Vec::new, |first| formula.kinks_of(first));
-                Some(Arc::new(Expressed { formula, places, kinks }))
+                let breakpoints = places[0].map_or_else(Vec::new, |first| formula.breakpoints_of(first));
+                Some(Arc::new(Expressed { formula, places, breakpoints }))
             }
             Value::List(_) | Value::Flag(_) | Value::Date => self.wrong_type(
                 node,

@@ -31,7 +31,7 @@ impl Context<'_> {
     }
 
     /// The same of a text alone, where mistakes were reported before.
-    pub(crate) fn size_untold(&self, node: &Node) -> Option<Size> {
+    pub(crate) fn size_unreported(&self, node: &Node) -> Option<Size> {
         let Value::Text(text) = &node.value else { return None };
         let formula = Formula::parse(text, &self.parameters_of(node.scope)).ok()?;
         let formula = self.in_whole_model(formula, node.scope);

@@ -17,8 +17,8 @@ impl TimeFunction for Expression {
     fn second_derivative(&self, time: f64) -> f64 {
         self.jet(time).second
     }
-    fn kinks(&self) -> Vec<f64> {
-        Self::kinks(self)
+    fn breakpoints(&self) -> Vec<f64> {
+        Self::breakpoints(self)
     }
     fn first_kink(&self) -> Option<f64> {
         Self::first_kink(self)

@@ -85,10 +85,10 @@ impl Library {
                 let message = format!("`{path}` was not among the files of the model");
                 return Err(Missing { message, help: None });
             };
-            let told = |message: String| Missing { message, help: help.clone() };
+            let missing = |message: String| Missing { message, help: help.clone() };
             let bytes = files::read_input(&folder.join(path))
-                .map_err(|error| told(format!("`{path}` cannot be read: {error}")))?;
-            let arrays = npz::arrays(&bytes).map_err(|error| told(format!("`{path}`: {error}")))?;
+                .map_err(|error| missing(format!("`{path}` cannot be read: {error}")))?;
+            let arrays = npz::arrays(&bytes).map_err(|error| missing(format!("`{path}`: {error}")))?;
             for (name, array) in arrays {
                 let text = array.map(|matrix| {
                     let size = [matrix.nrows(), matrix.ncols()];
@@ -96,7 +96,7 @@ impl Library {
                 });
                 found.insert(
                     format!("{prefix}{name}"),
-                    text.map_err(|error| told(format!("`{path}`: {error}"))),
+                    text.map_err(|error| missing(format!("`{path}`: {error}"))),
                 );
             }
         }
@@ -172,7 +172,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_are_told_by_one_name() {
+    fn paths_have_one_name() {
         assert_eq!(joined("", "leg.toml"), "leg.toml");
         assert_eq!(joined("parts/arm.toml", "./leg.toml"), "parts/leg.toml");
         assert_eq!(joined("parts/arm.toml", "../leg.toml"), "leg.toml");

@@ -53,13 +53,13 @@ pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     if FUNCTION_WORDS.contains(&word)
         || word.strip_suffix('s').is_some_and(|one| FUNCTION_WORDS.contains(&one))
     {
-        let is_told = |words: &&str| {
+        let is_reported = |words: &&str| {
             ["- **Expressions**", "- **Functions of time**", "- **Sizes**"]
                 .iter()
                 .any(|start| words.starts_with(start))
         };
         let items = INTRODUCTION.split("\n- ").skip(1).map(|item| format!("- {}", item.trim_end()));
-        items.filter(|item| is_told(&item.as_str())).for_each(|item| line(&mut text, &item));
+        items.filter(|item| is_reported(&item.as_str())).for_each(|item| line(&mut text, &item));
         functions(&mut text);
         line(&mut text, "\nA table of a function:");
         keys(&mut text, table_keys().iter());

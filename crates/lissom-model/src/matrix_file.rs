@@ -4,7 +4,7 @@
 use nalgebra::DMatrix;
 
 /// Rows or columns that no matrix of a model has.
-const LARGEST: usize = 10_000;
+const MAX_ROWS: usize = 10_000;
 
 /// A text that is no matrix.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -86,7 +86,7 @@ pub(crate) fn matrix(text: &str) -> Result<DMatrix<f64>, MatrixError> {
         ([rows, columns, count], false) => (*rows, *columns, Some(*count)),
         _ => return Err(MatrixError::Sizes { line, wanted }),
     };
-    if rows.max(columns) > LARGEST {
+    if rows.max(columns) > MAX_ROWS {
         return Err(MatrixError::TooLarge(rows.max(columns)));
     }
     if is_symmetric && rows != columns {
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn mistakes_are_told_with_their_line() {
+    fn mistakes_are_reported_with_their_line() {
         let heading = "%%MatrixMarket matrix coordinate real general\n";
         for (text, words) in [
             ("1 2 3".to_owned(), "the first line"),
@@ -178,8 +178,8 @@ mod tests {
             ("%%MatrixMarket matrix array real general\n2 1\n1\n".to_owned(), "1 entries where 2"),
             ("%%MatrixMarket matrix array real general\n100000 1\n".to_owned(), "more than a model"),
         ] {
-            let told = matrix(&text).unwrap_err().to_string();
-            assert!(told.contains(words), "{text}: {told}");
+            let problem = matrix(&text).unwrap_err().to_string();
+            assert!(problem.contains(words), "{text}: {problem}");
         }
     }
 }

@@ -143,16 +143,16 @@ step = 1e-300
             ("title.x", "is a value"),
             ("bodies.b", "no `bodies` here"),
         ] {
-            let told = without(&[path], &[]).unwrap_err().render(false);
-            assert!(told.contains(words) && told.contains("[override:1:"), "{path}: {told}");
+            let problem = without(&[path], &[]).unwrap_err().render(false);
+            assert!(problem.contains(words) && problem.contains("[override:1:"), "{path}: {problem}");
         }
         // What is missing then is reported as if it had never been there.
-        let told = without(&["point_masses.\"my ball\".mass"], &[]).unwrap_err().render(false);
-        assert!(told.contains("mass"), "{told}");
+        let problem = without(&["point_masses.\"my ball\".mass"], &[]).unwrap_err().render(false);
+        assert!(problem.contains("mass"), "{problem}");
     }
 
     #[test]
-    fn overrides_inside_parts_are_told() {
+    fn overrides_inside_parts_are_reported() {
         let text = format!("{TEXT}[parts.leg.point_masses.foot]\nmass = 1\n");
         let read = |value: &str| {
             let changes = set(&[("leg.foot.mass", value), ("analysis.end", "2")]);

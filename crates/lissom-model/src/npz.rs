@@ -7,7 +7,7 @@ use flate2::read::DeflateDecoder;
 use nalgebra::DMatrix;
 
 /// Bytes of the largest array that is unpacked.
-const LARGEST: u64 = 100_000_000;
+const MAX_BYTES: u64 = 100_000_000;
 
 /// An archive that is not read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -79,14 +79,14 @@ pub(crate) fn arrays(archive: &[u8]) -> Result<BTreeMap<String, Result<DMatrix<f
         let begin = local + 30 + short(archive, local + 26)? + short(archive, local + 28)?;
         let content = archive.get(begin..begin.saturating_add(packed)).ok_or(NpzError::NotAnArchive)?;
         let Some(own) = name.strip_suffix(".npy") else { continue };
-        if length as u64 > LARGEST {
+        if length as u64 > MAX_BYTES {
             return Err(NpzError::TooLarge(own.to_owned()));
         }
         let unpacked = match method {
             0 => content.to_vec(),
             8 => {
                 let mut unpacked = Vec::with_capacity(length);
-                let read = DeflateDecoder::new(content).take(LARGEST).read_to_end(&mut unpacked);
+                let read = DeflateDecoder::new(content).take(MAX_BYTES).read_to_end(&mut unpacked);
                 read.map_err(|_| NpzError::NotAnArchive)?;
                 unpacked
             }
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_damaged_is_told() {
+    fn what_is_damaged_is_reported() {
         let whole = archive(&[("M.npy", npy("<f8", "False", "1, 1", &[0; 8]), true)]);
         assert_eq!(arrays(b"no archive"), Err(NpzError::NotAnArchive));
         for length in 0..whole.len() {

@@ -39,7 +39,7 @@ pub(crate) fn tag<'n>(
     };
     let Some(value) = table.get(key).map(|entry| &entry.node) else {
         let problem = Problem::error(name, format!("{what} lacks `{key}`")).label("here");
-        context.tell(problem.help(format!("choose one of {}", suggest::list(known.iter().copied()))));
+        context.report(problem.help(format!("choose one of {}", suggest::list(known.iter().copied()))));
         return None;
     };
     let Value::Text(word) = &value.value else {
@@ -49,7 +49,7 @@ pub(crate) fn tag<'n>(
         return Some(Located::new(word.as_str(), value.span));
     }
     let problem = Problem::error(value.span, format!("{what} has an unknown {key} `{word}`"));
-    context.tell(problem.maybe_help(suggest::help(word, known.iter().copied())));
+    context.report(problem.maybe_help(suggest::help(word, known.iter().copied())));
     None
 }
 
@@ -68,13 +68,13 @@ impl<'c, 'a> Reader<'c, 'a> {
             if !keys.iter().any(|known| known.name == word) {
                 let help = suggest::help(word, keys.iter().map(|known| known.name));
                 let problem = Problem::error(entry.key, format!("{what} has an unknown key `{word}`"));
-                context.tell(problem.label("unknown").maybe_help(help));
+                context.report(problem.label("unknown").maybe_help(help));
             }
         }
         for key in keys.iter().filter(|key| key.required && !table.contains_key(key.name)) {
             let problem = Problem::error(name, format!("{what} lacks `{}`", key.name)).label("here");
             let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
-            context.tell(problem.help(format!("add `{} = …`{unit}: {}", key.name, key.summary)));
+            context.report(problem.help(format!("add `{} = …`{unit}: {}", key.name, key.summary)));
         }
         Some(Self { context, table, what, name, scope: node.scope, keys })
     }
@@ -158,7 +158,7 @@ impl<'c, 'a> Reader<'c, 'a> {
         }
         let message = format!("{} cannot be `{}`", self.words(key), text.value);
         let help = suggest::help(text.value, known.iter().copied());
-        self.context.tell(Problem::error(text.span, message).maybe_help(help));
+        self.context.report(Problem::error(text.span, message).maybe_help(help));
         None
     }
 
@@ -178,7 +178,7 @@ impl<'c, 'a> Reader<'c, 'a> {
             if !known.contains(&word.as_str()) {
                 let help = suggest::help(word, known.iter().copied());
                 let problem = Problem::error(entry.span, format!("{words} cannot hold `{word}`"));
-                context.tell(problem.maybe_help(help));
+                context.report(problem.maybe_help(help));
                 return None;
             }
             if chosen.contains(word) {
@@ -273,7 +273,7 @@ impl<'c, 'a> Reader<'c, 'a> {
         }
         let parameter = table.iter().find(|parameter| parameter.holds == ParameterType::Size)?;
         let node = self.node(parameter.name)?;
-        match self.context.size_untold(node)? {
+        match self.context.size_unreported(node)? {
             Size::Signal(formula) => Some((parameter.name, Located::new(formula, node.span))),
             Size::OfTime(_) => None,
         }

@@ -300,7 +300,7 @@ impl Shown {
 fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec<String>)> {
     let mut known: Vec<(Problem, Vec<String>)> = Vec::new();
     let mut first_of = BTreeMap::new();
-    let mut told = BTreeSet::new();
+    let mut reported = BTreeSet::new();
     for problem in problems {
         let part = sources.piece(problem.span).and_then(|piece| {
             let text = piece.text.as_ptr() as usize;
@@ -313,7 +313,7 @@ fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec
         let key = (text, place.start, place.end, problem.label.clone(), problem.help.clone());
         if let Some(&index) = first_of.get(&key) {
             let (_, others): &mut (Problem, Vec<String>) = &mut known[index];
-            if told.insert((index, part.clone())) {
+            if reported.insert((index, part.clone())) {
                 others.push(part.clone());
             }
         } else {
@@ -374,7 +374,7 @@ fn table_at(text: &str, place: usize) -> Option<String> {
 }
 
 /// Problems that are shown on a terminal: nobody reads thousands, and the first ones are often the cause of the rest.
-const MOST_SHOWN: usize = 50;
+const MAX_SHOWN: usize = 50;
 
 /// All that is wrong with a model.
 #[derive(Clone, Debug)]
@@ -448,11 +448,11 @@ impl Report {
     /// before warnings, and how many more there are.
     pub fn render(&self, colour: bool) -> String {
         let mut text = String::new();
-        for shown in self.shown.iter().take(MOST_SHOWN) {
+        for shown in self.shown.iter().take(MAX_SHOWN) {
             shown.write(&mut Painter { out: &mut text, colour });
             text.push('\n');
         }
-        if let Some(more) = self.shown.len().checked_sub(MOST_SHOWN).filter(|more| *more > 0) {
+        if let Some(more) = self.shown.len().checked_sub(MAX_SHOWN).filter(|more| *more > 0) {
             text.push_str("  … and ");
             text.push_str(&more.to_string());
             text.push_str(" more\n\n");

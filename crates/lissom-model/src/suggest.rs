@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-use crate::other_words;
+use crate::synonyms;
 
 /// The known word nearest to `word`, if one is near enough to be a slip of the pen.
 pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -29,10 +29,10 @@ pub(crate) fn help<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> 
     if let Some(found) = nearest(word, known.iter().copied()) {
         return Some(format!("did you mean `{found}`?"));
     }
-    if let Some(remedy) = other_words::remedy(word, &known) {
+    if let Some(remedy) = synonyms::remedy(word, &known) {
         return Some(remedy);
     }
-    if let Some(found) = other_words::known_for(word, &known) {
+    if let Some(found) = synonyms::known_for(word, &known) {
         return Some(format!("did you mean `{found}`?"));
     }
     let few = !known.is_empty() && known.len() <= 30;

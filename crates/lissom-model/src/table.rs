@@ -166,7 +166,7 @@ impl Table {
     }
 
     /// Inner rows, and the end rows beyond which the slope is another.
-    fn rows_with_kinks(&self) -> Vec<f64> {
+    fn breakpoint_rows(&self) -> Vec<f64> {
         if self.between != Between::Lines {
             return Vec::new();
         }
@@ -190,8 +190,8 @@ impl TimeFunction for Table {
     fn second_derivative(&self, time: f64) -> f64 {
         self.evaluate(time)[2]
     }
-    fn kinks(&self) -> Vec<f64> {
-        self.rows_with_kinks()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.breakpoint_rows()
     }
     fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         Some(self.bounds(from, to))
@@ -205,7 +205,7 @@ impl ForceFunction for Table {
         [value, slope, 0.0]
     }
 
-    fn kinks(&self) -> Vec<f64> {
+    fn breakpoints(&self) -> Vec<f64> {
         // Every row: the integral of a polynomial between two of them is exact.
         self.arguments.clone()
     }

@@ -98,7 +98,7 @@ impl Context<'_> {
             Ok(text) => text,
             Err(error) => {
                 let problem = Problem::error(file.span, format!("{what} {error}"));
-                self.tell(problem.label("named here").maybe_help(error.help));
+                self.report(problem.label("named here").maybe_help(error.help));
                 return None;
             }
         };
@@ -115,20 +115,20 @@ impl Context<'_> {
                     _ => Some("give for example `time,force` in the first line".to_owned()),
                 };
                 let problem = Problem::error(file.span, format!("{what}: `{name}`: {error}"));
-                self.tell(problem.label("named here").maybe_help(help));
+                self.report(problem.label("named here").maybe_help(help));
                 return None;
             }
         };
         Table::new(&rows.values, interpolation, extrapolation).map_or_else(
             |error| {
-                let told = match error {
+                let error = match error {
                     TableError::NotAscending(row) => {
                         format!("line {}: the first column must ascend strictly", rows.lines[row + 1])
                     }
                     TableError::NotFinite(_) | TableError::TooShort => error.to_string(),
                 };
                 let help = "give rows in ascending order of the first column";
-                self.fail(file.span, format!("{what}: `{name}`: {told}"), help)
+                self.fail(file.span, format!("{what}: `{name}`: {error}"), help)
             },
             Some,
         )

@@ -27,7 +27,7 @@ impl Context<'_> {
         let found = type_of(node);
         let problem = Problem::error(node.span, format!("{what} must be {wanted}, not {found}"));
         let example = if wanted == "a list of 3 numbers" { ", as [0, 0, -9.81]" } else { "" };
-        self.tell(problem.label(format!("this is {found}")).help(format!("write {wanted}{example}")));
+        self.report(problem.label(format!("this is {found}")).help(format!("write {wanted}{example}")));
         None
     }
 
@@ -42,7 +42,7 @@ impl Context<'_> {
             return Some(value);
         }
         let problem = Problem::error(node.span, format!("{what} must be a finite number"));
-        self.tell(problem.label("not finite").help("a double-precision number is at most 1.8e308"));
+        self.report(problem.label("not finite").help("a double-precision number is at most 1.8e308"));
         None
     }
 
@@ -54,7 +54,7 @@ impl Context<'_> {
         match Expression::parse(text, variable, &self.parameters_of(node.scope)) {
             Ok(expression) => Some(expression),
             Err(error) => {
-                self.tell(self.expression_problem(node, text, &error, what));
+                self.report(self.expression_problem(node, text, &error, what));
                 None
             }
         }
@@ -74,7 +74,7 @@ impl Context<'_> {
         match parsed {
             Ok(formula) => Some(formula),
             Err(error) => {
-                self.tell(self.expression_problem(node, text, &error, what));
+                self.report(self.expression_problem(node, text, &error, what));
                 None
             }
         }
@@ -98,7 +98,7 @@ impl Context<'_> {
             return Some(array);
         }
         let message = format!("{what} must have {length} entries, not {}", array.len());
-        self.tell(
+        self.report(
             Problem::error(node.span, message)
                 .label(format!("{} entries", array.len()))
                 .help(format!("give exactly {length}")),
@@ -211,7 +211,7 @@ impl Context<'_> {
         if 2.0 * a.max(b).max(c) > (a + b + c) * (1.0 + 1e-6) {
             let message =
                 format!("{what} belongs to no body: one principal moment exceeds the sum of the others");
-            self.tell(
+            self.report(
                 Problem::warning(node.span, message).help("check the order and the units of the moments"),
             );
         }

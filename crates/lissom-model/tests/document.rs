@@ -80,7 +80,7 @@ fn bad_files_are_refused_with_their_message() {
 }
 
 #[test]
-fn all_mistakes_of_a_file_are_told_at_once() {
+fn all_mistakes_of_a_file_are_reported_at_once() {
     let (_, text) = files("bad").into_iter().find(|(path, _)| path.ends_with("many_errors.toml")).unwrap();
     let report = Document::parse(&text, "many.toml", &registry()).unwrap_err();
     assert_eq!(report.len(), 9, "{}", report.render(false));

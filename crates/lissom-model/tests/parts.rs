@@ -61,7 +61,7 @@ fn read(text: &str) -> Document {
 }
 
 /// What is told of a model that is wrong.
-fn told(text: &str, files: &[(&str, &str)], overrides: &[(&str, &str)]) -> String {
+fn reported(text: &str, files: &[(&str, &str)], overrides: &[(&str, &str)]) -> String {
     read_with(text, files, overrides).expect_err("it is wrong").render(false)
 }
 
@@ -183,7 +183,7 @@ fn events_of_a_part_set_its_own_inputs() {
     assert_eq!((event.name.value.as_str(), event.set[0].0.value.as_str()), ("a.floor", "a.gain"));
     let text = "inputs.gain = 5\n[parts.a]\ninclude = \"part.toml\"\n";
     let part = part.replace("inputs.gain = 1\n", "").replace(" + gain", "");
-    let shown = told(text, &[("part.toml", &part)], &[]);
+    let shown = reported(text, &[("part.toml", &part)], &[]);
     assert!(shown.contains("sets `gain`, which is no input"), "the model's input is another: {shown}");
 }
 
@@ -229,8 +229,8 @@ fn places_are_relative_to_the_part_that_in_names() {
     near(axis.unwrap().value, [0.0, -1.0, 0.0]);
     near(position(&document, "gripper.jaw"), [0.0, 1.9, 0.0]);
     let around = "bodies.a = { in = \"b\", mass = 1, inertia = [1, 1, 1] }\nbodies.b = { in = \"a\", mass = 1, inertia = [1, 1, 1] }\n";
-    assert!(told(around, &[], &[]).contains("relative to itself, in a circle"));
-    let text = told("bodies.a = { in = \"c\", mass = 1, inertia = [1, 1, 1] }\n", &[], &[]);
+    assert!(reported(around, &[], &[]).contains("relative to itself, in a circle"));
+    let text = reported("bodies.a = { in = \"c\", mass = 1, inertia = [1, 1, 1] }\n", &[], &[]);
     assert!(text.contains("`in` names `c`, which is no body and no part"), "{text}");
 }
 
@@ -264,14 +264,14 @@ fn overrides_reach_into_parts() {
 fn mistakes_are_shown_in_the_included_file_and_where_it_is_included() {
     let parts = "[parts.leg]\ninclude = \"sub/arm.toml\"\ncount = 3\nnames = { frame = \"ground\" }\n";
     let wrong = ARM.replace("mass = \"2*length\"", "mass = \"2*lenght\"");
-    let text = told(parts, &[("sub/arm.toml", &wrong)], &[]);
+    let text = reported(parts, &[("sub/arm.toml", &wrong)], &[]);
     assert!(text.contains("[models/sub/arm.toml:13:11]"), "the line of the file: {text}");
     assert!(text.contains("this is in the part `leg1`; the same in 2 more parts, `leg3` the last"), "{text}");
     assert!(text.contains("[models/model.toml:2:8]"), "the line of the model: {text}");
     assert_eq!(text.matches("unknown name").count(), 1, "told once: {text}");
     // Two levels.
     let middle = "[parts.inner]\ninclude = \"sub/arm.toml\"\nnames = { frame = \"ground\" }\n";
-    let text = told(
+    let text = reported(
         "[parts.outer]\ninclude = \"middle.toml\"\n",
         &[("middle.toml", middle), ("sub/arm.toml", &wrong)],
         &[],
@@ -286,12 +286,12 @@ fn mistakes_are_shown_in_the_included_file_and_where_it_is_included() {
         assert!(text.contains(wanted), "{wanted}: {text}");
     }
     // A text that is not TOML.
-    let text = told(parts, &[("sub/arm.toml", "a = = 1\n")], &[]);
+    let text = reported(parts, &[("sub/arm.toml", "a = = 1\n")], &[]);
     assert!(text.contains("not TOML") && text.contains("[models/sub/arm.toml:1:5]"), "{text}");
 }
 
 #[test]
-fn mistakes_with_parts_are_told() {
+fn mistakes_with_parts_are_reported() {
     let arm = |more: &str| format!("[parts.leg]\ninclude = \"arm.toml\"\n{more}\n");
     let held = "names = { frame = \"ground\" }\n";
     let turned = "[parts.p]\nrotation = [0.1, 0, 0]\n[parts.p.point_masses.m]\nmass = 1\nplane = \"xy\"\n";
@@ -325,7 +325,7 @@ fn mistakes_with_parts_are_told() {
             ("two.toml", "[parts.again]\ninclude = \"one.toml\"\n"),
             ("heavy.toml", "gravity = [0, 0, -9.81]\n"),
         ];
-        let shown = told(&text, &files, &[]);
+        let shown = reported(&text, &files, &[]);
         // Long lines are broken.
         let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
         assert!(joined.contains(wanted), "{wanted}: {shown}");

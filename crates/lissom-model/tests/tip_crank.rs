@@ -9,7 +9,7 @@ const TIP_CRANK: &str = include_str!("../../../examples/tip-crank.toml");
 const MEASURED: &str = include_str!("../../../docs/measured.md");
 
 /// The figure stands in the book as it was measured.
-fn assert_told(figure: &str) {
+fn assert_reported(figure: &str) {
     assert!(MEASURED.contains(figure), "docs/measured.md does not say: {figure}");
 }
 
@@ -56,7 +56,9 @@ fn lateral_buckling_sets_in_near_a_twentieth_of_a_second_with_both_schemes() {
         assert!((0.04..0.06).contains(&tenth), "0.1 mm passed at {tenth} s");
         assert!(one < 0.08, "1 mm passed at {one} s");
         if overrides.contains(&("analysis.scheme", "radau-iia")) {
-            assert_told(&format!("lateral displacement passes 0.1 mm at {tenth:.3} s, 1 mm at {one:.3} s"));
+            assert_reported(&format!(
+                "lateral displacement passes 0.1 mm at {tenth:.3} s, 1 mm at {one:.3} s"
+            ));
         }
         let totals = run.simulation.totals();
         assert_eq!((totals.steps, totals.rejected_steps), (800, 0));
@@ -74,7 +76,7 @@ fn a_tangent_serves_many_steps() {
     for step in ["1e-3", "1e-4"] {
         let overrides = [("analysis.scheme", "hht"), ("analysis.alpha", "-0.3"), ("analysis.step", step)];
         let totals = *run(TIP_CRANK, &overrides).simulation.totals();
-        assert_told(&format!("{} steps, {} tangents", totals.steps, totals.factorizations));
+        assert_reported(&format!("{} steps, {} tangents", totals.steps, totals.factorizations));
     }
 }
 
@@ -115,11 +117,11 @@ fn lateral_displacement_converges_with_the_step() {
     let [(_, radau, of_radau), (_, decaying, of_decaying), (hht, _, of_hht)] = figures[..] else {
         panic!("three schemes")
     };
-    assert_told(&format!(
+    assert_reported(&format!(
         "Radau order {radau:.2}, HHT order {hht:.1}; {:.0e} and {:.1e} relative at h = 0.5 ms",
         of_radau[2], of_hht[1]
     ));
-    assert_told(&format!("order {decaying:.2}, {:.1e} relative at h = 0.5 ms", of_decaying[2]));
+    assert_reported(&format!("order {decaying:.2}, {:.1e} relative at h = 0.5 ms", of_decaying[2]));
 }
 
 /// Without the sudden start the whole course converges at the order of the scheme, however stiff the bars.
@@ -173,7 +175,7 @@ fn lateral_displacement_converges_with_the_mesh() {
     let changes = [values[1] - values[0], values[2] - values[1]].map(|change| (change / values[2]).abs());
     println!("u2(0.1 s) with half, given and double mesh: {values:?}, changes {changes:?}");
     assert!(changes[1] < 1e-4 && changes[1] < 0.1 * changes[0]);
-    assert_told(&format!("{:.1e} relative from the given to the doubled mesh", changes[1]));
+    assert_reported(&format!("{:.1e} relative from the given to the doubled mesh", changes[1]));
 }
 
 /// Static lateral buckling load of the cantilever alone under a dead tip load [Timoshenko and Gere 1961,
@@ -238,7 +240,7 @@ end = 1.0
     let found = root_of_parabola(&points[points.len() - 3..]).sqrt();
     println!("buckling load {found} N, expected {expected} N");
     assert!((found / expected - 1.0).abs() < 5e-3, "{found} against {expected}");
-    assert_told(&format!("{:.3} % above 4.013", 100.0 * (found / expected - 1.0)));
+    assert_reported(&format!("{:.3} % above 4.013", 100.0 * (found / expected - 1.0)));
 }
 
 /// Root beyond the last of three points of the parabola through them.

@@ -7,7 +7,7 @@ use lissom::buckling::BucklingRunError;
 use lissom::campbell::{CampbellError, CampbellRequest};
 use lissom::gradient::{GradientError, Target};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
-use lissom::modes::{About, ModeReport, ModeRequest, ModesError};
+use lissom::modes::{OperatingPoint, ModeReport, ModeRequest, ModesError};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
 use lissom::response::{FrequencyError, ResponseRequest};
 use lissom::{Document, Record, Session};
@@ -27,8 +27,8 @@ fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[String]) -> 
 }
 
 /// The state to linearise about.
-fn about(words: &str) -> PyResult<About> {
-    About::from_str(words).map_err(|reason| question(format!("`about` is \"{words}\": {reason}")))
+fn about(words: &str) -> PyResult<OperatingPoint> {
+    OperatingPoint::from_str(words).map_err(|reason| question(format!("`about` is \"{words}\": {reason}")))
 }
 
 fn of_modes(error: &ModesError) -> PyErr {

@@ -51,13 +51,13 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
 
 /// Puts what the text says into attributes.
 fn with(error: PyErr, diagnosis: &Diagnosis) -> PyErr {
-    let told = Python::attach(|py| {
+    let result = Python::attach(|py| {
         let value = error.value(py);
         value.setattr("time", diagnosis.time)?;
         value.setattr("part", &diagnosis.part)?;
         value.setattr("remedy", &diagnosis.remedy)
     });
-    told.err().unwrap_or(error)
+    result.err().unwrap_or(error)
 }
 
 /// A question that makes no sense for a model.
@@ -81,14 +81,14 @@ pub(crate) fn refused(is_of_question: bool, error: &(impl Located + Display)) ->
 pub(crate) fn of_report(report: &Report) -> PyErr {
     let error = ModelError::new_err(format!("\n{}{report}", report.render(false)));
     let problems = report.to_value();
-    let told = Python::attach(|py| {
+    let result = Python::attach(|py| {
         let value = error.value(py);
         let read = py.import("json")?.getattr("loads")?.call1((problems.to_string(),))?;
         value.setattr("problems", PyTuple::new(py, read.try_iter()?.collect::<PyResult<Vec<_>>>()?)?)?;
         value.setattr("part", problems[0]["part"].as_str())?;
         value.setattr("remedy", problems[0]["help"].as_str())
     });
-    told.err().unwrap_or(error)
+    result.err().unwrap_or(error)
 }
 
 /// A session that cannot start.

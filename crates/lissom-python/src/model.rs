@@ -130,14 +130,14 @@ impl NativeModel {
         facts.set_item("constraints", freedom.constraints)?;
         facts.set_item("independent_constraints", freedom.rank)?;
         facts.set_item("freedoms", freedom.freedoms)?;
-        let told = |redundant: &Redundant| {
+        let fact = |redundant: &Redundant| {
             let others = match redundant.among.as_slice() {
                 [] => "its own other equations".to_owned(),
                 names => names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
             };
             format!("{} of joint `{}` follows from {others}", redundant.equation, redundant.joint)
         };
-        facts.set_item("redundant", freedom.redundant.iter().map(told).collect::<Vec<_>>())?;
+        facts.set_item("redundant", freedom.redundant.iter().map(fact).collect::<Vec<_>>())?;
         let warnings = document.warnings.problems().map(|problem| problem.message.clone());
         facts.set_item("warnings", warnings.collect::<Vec<_>>())?;
         let columns = lissom::columns(&lowered.channels);

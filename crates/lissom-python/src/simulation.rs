@@ -38,7 +38,7 @@ struct Inner {
     values: Vec<f64>,
     are_current: bool,
     /// How many of the session's warnings Python was given.
-    told: usize,
+    reported: usize,
 }
 
 impl Inner {
@@ -54,12 +54,12 @@ impl Inner {
     /// Reasons to doubt the results that Python has not been given.
     fn news(&mut self) -> Vec<String> {
         let count = self.session.warnings().count();
-        let news = if count > self.told {
-            self.session.warnings().skip(self.told).map(words).collect()
+        let news = if count > self.reported {
+            self.session.warnings().skip(self.reported).map(words).collect()
         } else {
             Vec::new()
         };
-        self.told = count;
+        self.reported = count;
         news
     }
 }
@@ -95,7 +95,7 @@ impl Simulation {
     pub(crate) fn new(session: Session, document: Document, model: Py<NativeModel>) -> Self {
         let names: Vec<String> = session.columns().iter().map(lissom::Column::name).collect();
         let indices = names.iter().enumerate().map(|(index, name)| (name.clone(), index)).collect();
-        let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false, told: 0 });
+        let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false, reported: 0 });
         Self { inner, model, document, names, indices }
     }
 

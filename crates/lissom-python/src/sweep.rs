@@ -128,8 +128,8 @@ impl NativeSweep {
                 Ok::<(), PyErr>(())
             };
             let mut watch = Watch::new(progress.as_ref());
-            let mut told = |done: usize| watch.ask((found + done) as f64, count);
-            let ended = self.sweep.run(&missing, workers_or_all(workers), &mut keep, &mut told)?;
+            let mut report = |done: usize| watch.ask((found + done) as f64, count);
+            let ended = self.sweep.run(&missing, workers_or_all(workers), &mut keep, &mut report)?;
             watch.finish()?;
             outcomes.sort_by_key(|outcome| outcome.member);
             if ended.is_continue() {

@@ -78,12 +78,12 @@ impl<'a> Watch<'a> {
         if self.asked.elapsed() < EVERY {
             return ControlFlow::Continue(());
         }
-        let told = Python::attach(|py| {
+        let result = Python::attach(|py| {
             py.check_signals()?;
             self.progress.map_or(Ok(()), |progress| progress.call1(py, (done, all)).map(|_| ()))
         });
         self.asked = Instant::now();
-        match told {
+        match result {
             Ok(()) => ControlFlow::Continue(()),
             Err(raised) => {
                 self.raised = Some(raised);

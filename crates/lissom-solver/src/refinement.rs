@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_solver_of_another_matrix_is_told() {
+    fn a_solver_of_another_matrix_is_reported() {
         let (structure, values) = matrix(4);
         let mut solver = (kind("dense").unwrap().real)(&structure);
         solver.factor(&values).unwrap();

@@ -407,7 +407,7 @@ impl Builder {
         let joint_starts = starts(joint_rows.iter().map(Vec::len));
         let mut held = feedback.graph.held_at_start();
         for batch in &mut self.batches {
-            let count = batch.hold_sides(held.len());
+            let count = batch.freeze_switches(held.len());
             held.resize(held.len() + count, 0.0);
         }
         let state = self.initial_state(&layout, time, held);

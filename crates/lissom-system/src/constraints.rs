@@ -273,8 +273,8 @@ impl System {
                 let (stiffness, gradients) = scratch.split_at_mut(size * size);
                 let (plain, charted) = gradients.split_at_mut(count * size);
                 constraint.gradient(point.at, plain);
-                // The curvature of the augmented term, w c ∂²c/∂q², is left out, see `AttachedJoint::linearize_for`.
-                constraint.curvature(point.at, &point.multipliers[first..first + count], stiffness);
+                // The Hessian of the augmented term, w c ∂²c/∂q², is left out, see `AttachedJoint::linearize_for`.
+                constraint.constraint_hessian(point.at, &point.multipliers[first..first + count], stiffness);
                 charted.copy_from_slice(plain);
                 if let Chart::Increments(tangents) = chart {
                     for &(column, node) in &arrangement.nodes {
@@ -333,8 +333,8 @@ impl System {
         }
     }
 
-    /// Adds the forces of a constraint for its multipliers, and sets its violations, evaluated outright.
-    pub(crate) fn add_outright(&self, index: usize, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+    /// Adds the forces of a constraint for its multipliers, and sets its violations, evaluated from absolute positions.
+    pub(crate) fn add_absolute(&self, index: usize, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
         let constraint = self.constraints.get(index);
         let (count, first, size) = (constraint.equations(), constraint.first_multiplier(), constraint.size());
         with_scratch(count * size, |gradient| {
@@ -351,7 +351,7 @@ impl System {
         constraint.violation(at, &mut out[self.layout.coordinate_count + first..][..count]);
     }
 
-    /// Violations of all constraints, evaluated outright from absolute positions: by multiplier.
+    /// Violations of all constraints, evaluated from absolute positions: by multiplier.
     pub fn violations(&self, at: &Kinematics, out: &mut [f64]) {
         self.each_equation(out, |constraint, own| constraint.violation(at, own));
     }

@@ -27,7 +27,7 @@ use lissom_mechanics::signals::measurement::Measurement;
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
 /// Most local unknowns of a load or state with all that its signal touches.
-const MOST_LOCAL: usize = 255;
+const MAX_LOCAL: usize = 255;
 
 /// What a signal acts on.
 pub enum Target {
@@ -92,7 +92,7 @@ impl Driven {
                 }
             }
         }
-        (rows.len() <= MOST_LOCAL).then_some(Self { target, signal, own, nodes, coordinates, rows })
+        (rows.len() <= MAX_LOCAL).then_some(Self { target, signal, own, nodes, coordinates, rows })
     }
 
     /// Adds `factor` times a measurement's gradient to row `row` of the local matrices.
@@ -385,11 +385,11 @@ impl AnyBatch for DrivenBatch {
         None
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.graph.kinks_of(self.driven.iter().map(|driven| driven.signal))
+    fn breakpoints(&self) -> Vec<f64> {
+        self.graph.breakpoints_of(self.driven.iter().map(|driven| driven.signal))
     }
 
-    fn hold_sides(&mut self, _: usize) -> usize {
+    fn freeze_switches(&mut self, _: usize) -> usize {
         0
     }
 
@@ -413,7 +413,7 @@ impl AnyBatch for DrivenBatch {
 
     fn masses(&self, _: &Kinematics, _: &mut dyn FnMut(&Mass<'_>)) {}
 
-    fn least_aligned(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+    fn max_relative_rotation(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         None
     }
 

@@ -4,7 +4,7 @@ mod assembly;
 mod builder;
 mod constraints;
 mod feedback;
-mod reach;
+mod parameter_difference;
 mod state;
 mod step_stages;
 
@@ -16,7 +16,7 @@ pub use lissom_mechanics::evaluation::batch::{Mass, Owner};
 pub use lissom_mechanics::evaluation::threads::Threads;
 pub use lissom_mechanics::evaluation::{Blend, Linearization, Scratch, Sum, TangentAssembler, WORTH_WHILE};
 pub use lissom_mechanics::joints::Drive;
-pub use reach::Reach;
+pub use parameter_difference::ParameterDifference;
 pub use state::State;
 pub use step_stages::StepPoint;
 
@@ -215,14 +215,14 @@ impl System {
 
     /// Times at which loads, prescribed motions, states and the numbers whose zeros are events are known not to be smooth
     /// [s], in ascending order.
-    pub fn kinks(&self) -> Vec<f64> {
-        let of_constraints = self.constraints.others().flat_map(Constraint::kinks);
-        let of_events = self.signals().kinks_of(self.signals().events().iter().map(|event| event.root));
-        let of_elements = self.batches.iter().flat_map(|batch| batch.kinks());
-        let mut kinks: Vec<f64> = of_elements.chain(of_constraints).chain(of_events).collect();
-        kinks.sort_by(f64::total_cmp);
-        kinks.dedup();
-        kinks
+    pub fn breakpoints(&self) -> Vec<f64> {
+        let of_constraints = self.constraints.others().flat_map(Constraint::breakpoints);
+        let of_events = self.signals().breakpoints_of(self.signals().events().iter().map(|event| event.root));
+        let of_elements = self.batches.iter().flat_map(|batch| batch.breakpoints());
+        let mut breakpoints: Vec<f64> = of_elements.chain(of_constraints).chain(of_events).collect();
+        breakpoints.sort_by(f64::total_cmp);
+        breakpoints.dedup();
+        breakpoints
     }
 
     /// Appends numbers that change their sign where forces of elements have a kink or a jump: as many at every
@@ -264,8 +264,8 @@ impl System {
 
     /// The two nodes of an element that are turned most against each other, and the cosine of half the angle between
     /// them; none where no element turns with two nodes.
-    pub fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
-        let pairs = self.batches.iter().filter_map(|batch| batch.least_aligned(at));
+    pub fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        let pairs = self.batches.iter().filter_map(|batch| batch.max_relative_rotation(at));
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }
 

@@ -7,7 +7,7 @@ use super::System;
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::derivatives::LOCAL;
 use lissom_mechanics::joints::evaluation_point::{Augmentation, Increments};
-use lissom_mechanics::joints::{Equations, MOST_EQUATIONS};
+use lissom_mechanics::joints::{Equations, MAX_EQUATIONS};
 use lissom_mechanics::kinematics::LOCKED;
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 
@@ -49,7 +49,7 @@ fn joint_residuals(joint: &AttachedJoint, rows: &[u32], point: &StepPoint<'_>, o
     before[..joint.equations()].copy_from_slice(&point.violations[own.clone()]);
     let visits = joint.visits(&point.step, &point.increments, &before);
     for (stage, visit) in visits.iter().enumerate() {
-        let mut mu = SVector::<f64, MOST_EQUATIONS>::zeros();
+        let mut mu = SVector::<f64, MAX_EQUATIONS>::zeros();
         for (k, multiplier) in point.multipliers[stage][own.clone()].iter().enumerate() {
             let relative = point.augmentation.relative(joint.joint().equation_quantity(k));
             mu[k] = multiplier + point.augmentation.weight * relative * visit.violation[k];

@@ -17,7 +17,7 @@ use crate::modes::shapes_table;
 
 /// First step of the load factor on the way to one, and most steps.
 const FIRST: f64 = 0.25;
-const MOST_STEPS: usize = 500;
+const MAX_STEPS: usize = 500;
 /// Rotations under the loads beyond which the stiffness is not taken to change in proportion to them [rad].
 const LARGE_TURN: f64 = 0.05;
 
@@ -89,7 +89,7 @@ pub fn buckling(
     let path_settings = PathSettings {
         first: FIRST,
         end: 1.0,
-        most_steps: MOST_STEPS,
+        most_steps: MAX_STEPS,
         branch: BranchChoice::default(),
         scaling: settings.scaling,
         limits: settings.limits,
@@ -166,16 +166,16 @@ impl BucklingReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-        tell("stopped", json!("end"));
-        tell("asked", json!(self.asked));
-        tell("found", json!(self.buckling.modes.len()));
-        tell("completeness", json!(self.buckling.completeness.name()));
-        tell("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
-        tell("largest_turn", json!(self.turn));
-        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("stopped", json!("end"));
+        insert("asked", json!(self.asked));
+        insert("found", json!(self.buckling.modes.len()));
+        insert("completeness", json!(self.buckling.completeness.name()));
+        insert("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
+        insert("largest_turn", json!(self.turn));
+        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 }

@@ -8,9 +8,9 @@ use lissom_model::output::{CampbellPlot, Summary};
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
-use crate::about::{About, Reached};
 use crate::model::{Model, Override};
 use crate::modes::{AT_REST, ModesError, Reliable, reliable};
+use crate::operating_point::{LinearizationPoint, OperatingPoint};
 
 /// Shapes that are less alike are not of one line.
 const ALIKE: f64 = 0.3;
@@ -203,7 +203,7 @@ impl Search<'_> {
         let failed = |error| CampbellError::Modes { path: path.clone(), value, error: Box::new(error) };
         let count = self.request.count;
         let mut doubts = Vec::new();
-        let find = |reached: Reached<'_, '_>| -> Result<Option<Point>, ModesError> {
+        let find = |reached: LinearizationPoint<'_, '_>| -> Result<Option<Point>, ModesError> {
             let options = ModeOptions { count, shift: None };
             let found = reached.model.modes(&options)?;
             let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
@@ -231,7 +231,7 @@ impl Search<'_> {
             let modes = modes.collect();
             Ok(Some(Point { value, spin: model.spin().norm() / std::f64::consts::TAU, modes }))
         };
-        let about = About::rotation_or_static(&document).map_err(failed)?;
+        let about = OperatingPoint::rotation_or_static(&document).map_err(failed)?;
         let point = about.linearized(&document, find).map_err(|error| match error {
             ModesError::Model(report) => CampbellError::Model(report),
             other => failed(other),
@@ -387,12 +387,12 @@ impl CampbellReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("campbell", name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-        tell("stopped", json!("end"));
-        tell("vary", json!(self.path));
-        tell("values", json!(self.points.len()));
-        tell("lines", json!(self.lines));
+        insert("stopped", json!("end"));
+        insert("vary", json!(self.path));
+        insert("values", json!(self.points.len()));
+        insert("lines", json!(self.lines));
         let crossing = |of: &Crossing| {
             json!({
                 "line": of.line + 1,
@@ -403,9 +403,9 @@ impl CampbellReport {
                 "axes": if of.at_rest { "at rest" } else { "of the nodes" },
             })
         };
-        tell("critical_speeds", self.crossings.iter().map(crossing).collect());
-        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("critical_speeds", self.crossings.iter().map(crossing).collect());
+        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 }

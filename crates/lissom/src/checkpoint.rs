@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_and_steps_are_told_apart() {
+    fn times_and_steps_are_distinguished() {
         let read = |text: &str| text.parse::<CheckpointEvery>();
         assert_eq!(read("10s"), Ok(CheckpointEvery::Time(Duration::from_secs(10))));
         assert_eq!(read("1000steps"), Ok(CheckpointEvery::Steps(1000)));

@@ -1,9 +1,9 @@
 //! Derivatives of an output by numbers of the model file, along the steps of a run.
 
 mod confirmation;
-mod course;
+mod method;
+mod output_history;
 mod runs;
-mod ways;
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -17,10 +17,10 @@ use serde_json::{Value, json};
 use crate::model::{Model, Override};
 use crate::session::{Session, SessionError};
 pub use confirmation::Confirmation;
-use confirmation::{Carried, confirm};
-use course::Course;
+use confirmation::{DirectDerivative, confirm};
+use method::{ParameterSensitivities, Question};
+use output_history::OutputHistory;
 use runs::by_runs;
-use ways::{Question, Ways};
 
 /// Newton's tolerance, at least: what it leaves is divided by the distance of the neighbours.
 const TOLERANCE: f64 = 1e-12;
@@ -197,7 +197,7 @@ pub struct Derivative {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The state's derivatives were carried along the steps.
-    Carried,
+    Direct,
     /// Neighbouring models took the same steps.
     Neighbours,
     /// Whole runs were compared, because forces switch on the way.
@@ -208,7 +208,7 @@ impl Method {
     /// Its word in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Carried => "carried",
+            Self::Direct => "carried",
             Self::Neighbours => "neighbours",
             Self::Runs => "runs",
         }
@@ -258,9 +258,9 @@ pub fn gradient(
         return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });
     };
     let question = Question { model, overrides, target, document: &document, session: &session };
-    let mut ways = Ways::new(&question, paths)?;
-    let mut course = Course::new(target.measure);
-    course.note(&session, column, &mut |column| ways.derivatives(&session, column));
+    let mut sensitivities = ParameterSensitivities::new(&question, paths)?;
+    let mut history = OutputHistory::new(target.measure);
+    history.note(&session, column, &mut |column| sensitivities.derivatives(&session, column));
     let mut switches = Switches::default();
     let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
     switches.have_changed(&session);
@@ -268,25 +268,26 @@ pub fn gradient(
         session.advance()?;
         // Equilibria do not depend on the way to them.
         if is_dynamic && switches.have_changed(&session) {
-            let numbers = ways.into_numbers().0.into_iter().map(|(path, number, _)| (path, number)).collect();
+            let numbers =
+                sensitivities.into_numbers().0.into_iter().map(|(path, number, _)| (path, number)).collect();
             return across_switches((model, overrides, target), column, numbers, began);
         }
-        ways.advance(&mut session)?;
-        course.note(&session, column, &mut |column| ways.derivatives(&session, column));
+        sensitivities.advance(&mut session)?;
+        history.note(&session, column, &mut |column| sensitivities.derivatives(&session, column));
     }
-    let (value, time, derivatives) = course.measured();
-    let steps = course.steps();
-    let (numbers, corrections) = ways.into_numbers();
+    let (value, time, derivatives) = history.measured();
+    let steps = history.steps();
+    let (numbers, corrections) = sensitivities.into_numbers();
     let derivatives: Vec<Derivative> = numbers
         .into_iter()
         .zip(derivatives)
         .map(|((path, number, is_carried), value)| {
-            let method = if is_carried { Method::Carried } else { Method::Neighbours };
+            let method = if is_carried { Method::Direct } else { Method::Neighbours };
             Derivative { path, number, value, method }
         })
         .collect();
     let confirmation = if confirms {
-        confirmed((model, overrides, target), column, (value, course.largest()), &derivatives)?
+        confirmed((model, overrides, target), column, (value, history.largest()), &derivatives)?
     } else {
         None
     };
@@ -329,7 +330,7 @@ fn run(
     values: impl Iterator<Item = (String, f64)>,
     column: usize,
     tolerance: Option<f64>,
-) -> Result<Course, GradientError> {
+) -> Result<OutputHistory, GradientError> {
     let mut changed = overrides.to_vec();
     changed.extend(values.map(|(path, value)| (path, format!("{value:?}"))));
     let mut document = prepared(model, &changed, target)?;
@@ -339,14 +340,14 @@ fn run(
         control.relative_tolerance = control.relative_tolerance.min(tolerance);
     }
     let mut session = Session::new(&document)?;
-    let mut course = Course::new(target.measure);
+    let mut history = OutputHistory::new(target.measure);
     let mut nothing = |_| Vec::new();
-    course.note(&session, column, &mut nothing);
+    history.note(&session, column, &mut nothing);
     while !session.is_finished() {
         session.advance()?;
-        course.note(&session, column, &mut nothing);
+        history.note(&session, column, &mut nothing);
     }
-    Ok(course)
+    Ok(history)
 }
 
 /// Derivatives of a measure by numbers where forces switch during the run.
@@ -388,8 +389,8 @@ fn confirmed(
     values: (f64, f64),
     derivatives: &[Derivative],
 ) -> Result<Option<Confirmation>, GradientError> {
-    let carried: Vec<Carried> =
-        derivatives.iter().map(|of| Carried { number: of.number, derivative: of.value }).collect();
+    let carried: Vec<DirectDerivative> =
+        derivatives.iter().map(|of| DirectDerivative { number: of.number, derivative: of.value }).collect();
     let mut measure = |changes: &[f64]| {
         let changed =
             derivatives.iter().zip(changes).map(|(of, change)| (of.path.clone(), of.number + change));
@@ -455,27 +456,27 @@ impl GradientReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document, of: &str) -> Summary {
         let mut summary = crate::summary::of_request("gradient", name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
-        tell("stopped", json!("end"));
-        tell("of", json!(of));
-        tell("value", json!(self.value));
-        tell("time", json!(self.time));
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
+        insert("stopped", json!("end"));
+        insert("of", json!(of));
+        insert("value", json!(self.value));
+        insert("time", json!(self.time));
         let derivative = |of: &Derivative| json!({ "path": of.path, "number": of.number, "derivative": of.value, "way": of.method.name() });
-        tell("derivatives", self.derivatives.iter().map(derivative).collect());
-        tell("steps", json!(self.steps));
-        tell("corrections", json!(self.corrections));
+        insert("derivatives", self.derivatives.iter().map(derivative).collect());
+        insert("steps", json!(self.steps));
+        insert("corrections", json!(self.corrections));
         let confirmed = |of: &Confirmation| match of {
             Confirmation::Confirmed { missed, runs } => json!({ "missed": missed, "runs": runs }),
             Confirmation::Untold { runs } => json!({ "missed": null, "runs": runs }),
         };
-        tell("confirmed", self.confirmation.as_ref().map_or(Value::Null, confirmed));
+        insert("confirmed", self.confirmation.as_ref().map_or(Value::Null, confirmed));
         if let Some(words) = self.doubt() {
             let mut warnings: Vec<Value> =
                 document.warnings.problems().map(|problem| json!(problem.message)).collect();
             warnings.push(json!(words));
-            tell("warnings", Value::Array(warnings));
+            insert("warnings", Value::Array(warnings));
         }
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 }

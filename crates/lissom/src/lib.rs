@@ -110,10 +110,10 @@
 //! and [`gradient`] are analyses without steps in time, [`sweep`] and [`study`] run a model many times. The crate's `examples`
 //! folder has programs that check themselves: a pendulum, an arm that is driven from outside, a thousand copies on all cores.
 
-mod about;
 mod archive;
 pub mod buckling;
 pub mod builder;
+mod operating_point;
 
 pub mod campbell;
 mod checkpoint;

@@ -11,9 +11,9 @@ use lissom_model::Document;
 use lissom_model::output::{Summary, full_matrix, quoted, sparse_matrix};
 use serde_json::{Value, json};
 
-use crate::about::{self, About, Reached};
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
+use crate::operating_point::{self, LinearizationPoint, OperatingPoint};
 use crate::ports::{self, Input, Observed};
 use crate::response::FrequencyError;
 use crate::session::Session;
@@ -22,7 +22,7 @@ use crate::session::Session;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearizeRequest {
     /// The state about which the model is linearised.
-    pub about: About,
+    pub about: OperatingPoint,
     /// Names of inputs, loads and prescribed motions.
     pub inputs: Vec<String>,
     /// Names of outputs or of their columns.
@@ -64,7 +64,7 @@ pub fn linearize(
     let mut report = request.about.linearized(&document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(&document, &reached, &request.inputs)?;
         let outputs = ports::outputs(&reached, &request.outputs)?;
-        told(reached, &inputs, &outputs)
+        report_of(reached, &inputs, &outputs)
     })?;
     report.about = request.about.name();
     report.wall = began.elapsed();
@@ -83,12 +83,12 @@ pub fn linearize_session(
     outputs: &[String],
 ) -> Result<LinearizeReport, FrequencyError> {
     let began = Instant::now();
-    let mut report = about::now(session, document, |reached| -> Result<_, FrequencyError> {
+    let mut report = operating_point::now(session, document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(document, &reached, inputs)?;
         let outputs = ports::outputs(&reached, outputs)?;
-        told(reached, &inputs, &outputs)
+        report_of(reached, &inputs, &outputs)
     })?;
-    report.about = About::Time(session.progress().time).name();
+    report.about = OperatingPoint::Time(session.progress().time).name();
     report.wall = began.elapsed();
     Ok(report)
 }
@@ -96,12 +96,12 @@ pub fn linearize_session(
 /// Derivatives by unknowns of one sort.
 type Part = fn(&OutputDerivatives) -> &BTreeMap<usize, f64>;
 
-fn told(
-    reached: Reached<'_, '_>,
+fn report_of(
+    reached: LinearizationPoint<'_, '_>,
     inputs: &[Input],
     outputs: &[Observed],
 ) -> Result<LinearizeReport, FrequencyError> {
-    let Reached { model, warnings, .. } = reached;
+    let LinearizationPoint { model, warnings, .. } = reached;
     model.check_positions_alone().map_err(ModesError::from)?;
     let layout = model.system().layout();
     let (count, multipliers) = (layout.coordinate_count(), layout.multiplier_rows().len());
@@ -216,21 +216,21 @@ impl LinearizeReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("linearize", name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-        tell("stopped", json!("end"));
-        tell("about", json!(self.about));
-        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
-        tell("multipliers", json!(self.unknowns[1]));
-        tell("inputs", json!(self.inputs));
-        tell("outputs", json!(self.outputs));
+        insert("stopped", json!("end"));
+        insert("about", json!(self.about));
+        insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        insert("multipliers", json!(self.unknowns[1]));
+        insert("inputs", json!(self.inputs));
+        insert("outputs", json!(self.outputs));
         match &self.state_space {
-            Ok(found) => tell("states", json!(found.states.len())),
-            Err(reason) => tell("without_state_space", json!(reason.to_string())),
+            Ok(found) => insert("states", json!(found.states.len())),
+            Err(reason) => insert("without_state_space", json!(reason.to_string())),
         }
-        tell("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
+        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 }

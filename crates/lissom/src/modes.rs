@@ -18,7 +18,7 @@ use serde_json::{Value, json};
 use crate::model::{Model, Override};
 use crate::session::SessionError;
 
-pub use crate::about::About;
+pub use crate::operating_point::OperatingPoint;
 
 /// Shapes that are drawn.
 const DRAWN: usize = 20;
@@ -30,7 +30,7 @@ const CONSTANT: f64 = 3e-4;
 /// Departures up to so many times what round-off makes of them cannot be distinguished from it …
 const BEYOND_ROUND_OFF: f64 = 30.0;
 /// … unless round-off leaves nothing of the comparison.
-const MOST_ROUND_OFF: f64 = 1e-2;
+const MAX_ROUND_OFF: f64 = 1e-2;
 
 /// What is asked for beyond the model; what is left out is as the model's table `[analysis]` says if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,7 +38,7 @@ pub struct ModeRequest {
     /// How many modes; 20 where nothing says otherwise.
     pub count: Option<usize>,
     /// The state; static equilibrium where nothing says otherwise.
-    pub about: Option<About>,
+    pub about: Option<OperatingPoint>,
     /// Frequency near which modes are sought [Hz]; the lowest ones where nothing says otherwise.
     pub shift: Option<f64>,
 }
@@ -182,10 +182,11 @@ pub struct ModeReport {
 pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Result<ModeReport, ModesError> {
     let began = Instant::now();
     let document = model.document(overrides)?;
-    let (mut count, mut about, mut shift) = (lissom_model::document::DEFAULT_MODE_COUNT, About::Static, None);
+    let (mut count, mut about, mut shift) =
+        (lissom_model::document::DEFAULT_MODE_COUNT, OperatingPoint::Static, None);
     if let AnalysisKind::Modes { count: own, undeformed, shift: near } = document.analysis.kind {
         (count, shift) = (own, near);
-        about = if undeformed { About::Undeformed } else { About::Static };
+        about = if undeformed { OperatingPoint::Undeformed } else { OperatingPoint::Static };
     }
     let is_asked = request.count.is_some() || count != lissom_model::document::DEFAULT_MODE_COUNT;
     count = request.count.unwrap_or(count);
@@ -197,13 +198,13 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
         let options = ModeOptions { count, shift };
         let found = reached.model.modes(&options)?;
-        let mut report = if about == About::Rotation || reached.model.rolls_on() {
+        let mut report = if about == OperatingPoint::Rotation || reached.model.rolls_on() {
             let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
-            let mut report = tell(at_rest.as_ref().unwrap_or(reached.model), found, count);
+            let mut report = report_of(at_rest.as_ref().unwrap_or(reached.model), found, count);
             report.warnings.extend(warnings);
             report
         } else {
-            tell(reached.model, found, count)
+            report_of(reached.model, found, count)
         };
         report.warnings.extend(reached.warnings);
         Ok(report)
@@ -308,7 +309,7 @@ fn divide(
     let (mut constant, mut inconstant) = (Vec::new(), Vec::new());
     for (index, mode) in modes.into_iter().enumerate() {
         let Departure { size, round_off } = own.departure_of(&mode, later)?;
-        if size <= CONSTANT || (size <= BEYOND_ROUND_OFF * round_off && round_off <= MOST_ROUND_OFF) {
+        if size <= CONSTANT || (size <= BEYOND_ROUND_OFF * round_off && round_off <= MAX_ROUND_OFF) {
             constant.push(mode);
         } else {
             let frequency = mode.frequency;
@@ -318,7 +319,7 @@ fn divide(
     Ok((Modes { modes: constant, completeness }, inconstant))
 }
 
-fn tell(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport {
+fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport {
     let mut warnings = Vec::new();
     let unstable = found.modes.iter().filter(|mode| mode.kind.is_unstable()).count();
     if unstable > 0 {
@@ -407,18 +408,18 @@ impl ModeReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-        tell("stopped", json!("end"));
-        tell("about", json!(self.about));
-        tell("time", json!(self.time));
-        tell("asked", json!(self.asked));
-        tell("found", json!(self.modes.len()));
-        tell("completeness", json!(self.completeness.name()));
-        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
-        tell("multipliers", json!(self.unknowns[1]));
-        tell("rigid_modes", json!(self.count(ModeKind::Rigid)));
-        tell("masses", json!(self.masses));
+        insert("stopped", json!("end"));
+        insert("about", json!(self.about));
+        insert("time", json!(self.time));
+        insert("asked", json!(self.asked));
+        insert("found", json!(self.modes.len()));
+        insert("completeness", json!(self.completeness.name()));
+        insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        insert("multipliers", json!(self.unknowns[1]));
+        insert("rigid_modes", json!(self.count(ModeKind::Rigid)));
+        insert("masses", json!(self.masses));
         let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
             json!({
                 "mode": index + 1,
@@ -432,9 +433,9 @@ impl ModeReport {
                 "effective_masses": self.effective_masses[index],
             })
         };
-        tell("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
-        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
+        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 

@@ -33,7 +33,7 @@ use pictures::PathPictures;
 /// First step of a path as part of its way, where it is not given.
 const FIRST_OF_PATH: f64 = 0.02;
 /// Most steps to the loads of a model whose number is varied.
-const MOST_STEPS_TO_LOADS: usize = 1000;
+const MAX_STEPS_TO_LOADS: usize = 1000;
 
 /// Where the path to the loads ends or has a critical point below this part of them, nothing resists them at first.
 const UNRESISTED: f64 = 1e-3;
@@ -330,23 +330,23 @@ impl PathSession {
     pub fn summary(&self, mut summary: Summary, report: &PathReport) -> Summary {
         let mut warnings = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
         warnings.extend(self.doubts.iter().map(|doubt| json!(format!("{}: {doubt}", doubt.code()))));
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
-        tell("stopped", json!(report.end.name()));
-        tell("warnings", Value::Array(warnings));
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
+        insert("stopped", json!(report.end.name()));
+        insert("warnings", Value::Array(warnings));
         if let PathEnd::Failed(error) = &report.end {
-            tell("error", json!(error.to_string()));
-            tell("failure", Diagnosis::of(error).to_value());
+            insert("error", json!(error.to_string()));
+            insert("failure", Diagnosis::of(error).to_value());
         }
         let value = if self.varied.is_some() { "value" } else { "load_factor" };
-        tell("varied", json!(report.name));
-        tell(value, json!(report.load_factor));
-        tell("arc", json!(report.arc));
-        tell("records", json!(report.records));
-        tell("steps", json!(report.steps[0]));
-        tell("rejected_steps", json!(report.steps[1]));
-        tell("newton_iterations", json!(report.iterations));
-        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
-        tell("multipliers", json!(self.unknowns[1]));
+        insert("varied", json!(report.name));
+        insert(value, json!(report.load_factor));
+        insert("arc", json!(report.arc));
+        insert("records", json!(report.records));
+        insert("steps", json!(report.steps[0]));
+        insert("rejected_steps", json!(report.steps[1]));
+        insert("newton_iterations", json!(report.iterations));
+        insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        insert("multipliers", json!(self.unknowns[1]));
         let point = |point: &CriticalPoint| {
             json!({
                 "kind": point.kind.name(),
@@ -357,10 +357,10 @@ impl PathSession {
                 "located": point.is_located,
             })
         };
-        tell("critical_points", report.critical.iter().map(point).collect());
+        insert("critical_points", report.critical.iter().map(point).collect());
         let column = |column: &Column| json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
-        tell("columns", self.columns.iter().map(column).collect());
-        tell("wall_seconds", json!(report.wall.as_secs_f64()));
+        insert("columns", self.columns.iter().map(column).collect());
+        insert("wall_seconds", json!(report.wall.as_secs_f64()));
         summary
     }
 }
@@ -376,7 +376,7 @@ fn under_loads(
     let settings = PathSettings {
         first: 0.25,
         end: 1.0,
-        most_steps: MOST_STEPS_TO_LOADS,
+        most_steps: MAX_STEPS_TO_LOADS,
         branch: BranchChoice::default(),
         ..*settings
     };

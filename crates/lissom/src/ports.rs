@@ -5,8 +5,8 @@ use lissom_core::signals::{Argument, HeldId};
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower};
 
-use crate::about::Reached;
 use crate::modes::ModesError;
+use crate::operating_point::LinearizationPoint;
 use crate::session::columns;
 use lissom_model::output::Column;
 
@@ -75,13 +75,13 @@ impl Observed {
 /// The inputs of these names, all columns of whose outputs are asked for.
 pub(crate) fn inputs(
     document: &Document,
-    reached: &Reached<'_, '_>,
+    reached: &LinearizationPoint<'_, '_>,
     names: &[String],
 ) -> Result<Vec<Input>, PortError> {
     names.iter().map(|name| input(document, reached, name)).collect()
 }
 
-fn input(document: &Document, reached: &Reached<'_, '_>, name: &str) -> Result<Input, PortError> {
+fn input(document: &Document, reached: &LinearizationPoint<'_, '_>, name: &str) -> Result<Input, PortError> {
     let known = known_inputs(document, reached);
     let meant: Vec<&String> = known
         .iter()
@@ -123,7 +123,7 @@ fn listed<'n>(names: impl Iterator<Item = &'n String>) -> String {
 }
 
 /// All inputs there are, with the table they stand in.
-fn known_inputs(document: &Document, reached: &Reached<'_, '_>) -> Vec<String> {
+fn known_inputs(document: &Document, reached: &LinearizationPoint<'_, '_>) -> Vec<String> {
     let inputs = document.inputs.iter().map(|(input, _)| format!("inputs.{}", input.value));
     let loads = document.loads.iter().map(|load| format!("loads.{}", load.name.value));
     let drives =
@@ -138,7 +138,11 @@ fn drive_as_input(name: &str) -> String {
 }
 
 /// What a load of size one adds to the left-hand sides: its size as an input of another system with the same unknowns.
-fn load(document: &Document, reached: &Reached<'_, '_>, name: &str) -> Result<Vec<f64>, PortError> {
+fn load(
+    document: &Document,
+    reached: &LinearizationPoint<'_, '_>,
+    name: &str,
+) -> Result<Vec<f64>, PortError> {
     let unknown = || PortError::Input { name: name.to_owned(), known: "no such load with a size".to_owned() };
     let document = document.with_load_as_input(name).ok_or_else(unknown)?;
     let Lowered { system, state, names, .. } = lower(&document).map_err(ModesError::from)?;
@@ -161,7 +165,10 @@ fn load(document: &Document, reached: &Reached<'_, '_>, name: &str) -> Result<Ve
 }
 
 /// The output columns of these names: a column, or an output with all of its columns.
-pub(crate) fn outputs(reached: &Reached<'_, '_>, names: &[String]) -> Result<Vec<Observed>, PortError> {
+pub(crate) fn outputs(
+    reached: &LinearizationPoint<'_, '_>,
+    names: &[String],
+) -> Result<Vec<Observed>, PortError> {
     let mut all: Vec<(usize, usize, Column)> = Vec::new();
     for (index, channel) in reached.channels.iter().enumerate() {
         let own = columns(std::slice::from_ref(channel));

@@ -13,7 +13,7 @@ use crate::builder::{ForeignId, IdNames, InputId, Part};
 use crate::session::{Session, SessionError};
 
 /// Largest violation of a constraint in a given state: of an angle [rad], and of a length over the size of the model.
-const LARGEST_VIOLATION: f64 = 1e-6;
+const MAX_VIOLATION: f64 = 1e-6;
 
 /// A model ready to run. Sessions that are started from it, or from its copies, share one [`System`], also in several threads.
 #[derive(Clone)]
@@ -201,7 +201,7 @@ impl Prepared {
         {
             let unit = if *quantity == lissom_core::kinematics::Quantity::Angle { 1.0 } else { size };
             // What the model starts with is reported when it is read.
-            if violation.abs() > known.abs() + LARGEST_VIOLATION * unit {
+            if violation.abs() > known.abs() + MAX_VIOLATION * unit {
                 let (joint, equation) = system.layout().constraint_name(index);
                 return Err(StartError::Violated {
                     joint: joint.to_owned(),

@@ -17,10 +17,10 @@ use lissom_model::toml_text::quoted;
 use lissom_motion::Vector3;
 use serde_json::{Value, json};
 
-use crate::about::About;
 use crate::export::npy;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
+use crate::operating_point::OperatingPoint;
 
 /// Modes that corrections are made of: as many times those asked for, and so many more. What the modes beyond would add falls with the
 /// square of their number.
@@ -38,7 +38,7 @@ pub struct ReduceRequest {
     /// Whether shapes are added that make up for the modes left out where loads and rotation change the stiffness.
     pub corrections: bool,
     /// The state, whose stresses the stiffness holds.
-    pub about: About,
+    pub about: OperatingPoint,
     /// Name of the superelement.
     pub name: String,
 }
@@ -573,19 +573,19 @@ impl ReduceReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("reduce", name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-        tell("stopped", json!("end"));
-        tell("interfaces", json!(self.interfaces));
-        tell("unknowns", json!(self.unknowns[0]));
-        tell("reduced_unknowns", json!(self.unknowns[1]));
-        tell("frequencies", json!(self.frequencies));
-        tell("corrections", json!(self.corrections));
-        tell("mass", json!(self.mass));
-        tell("preloaded", json!(self.is_preloaded));
-        tell("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("stopped", json!("end"));
+        insert("interfaces", json!(self.interfaces));
+        insert("unknowns", json!(self.unknowns[0]));
+        insert("reduced_unknowns", json!(self.unknowns[1]));
+        insert("frequencies", json!(self.frequencies));
+        insert("corrections", json!(self.corrections));
+        insert("mass", json!(self.mass));
+        insert("preloaded", json!(self.is_preloaded));
+        insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
+        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 }

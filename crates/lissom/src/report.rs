@@ -72,7 +72,7 @@ pub struct RunReport {
     pub solving: Duration,
     /// Where the time went.
     pub seconds: Seconds,
-    /// Largest violation of a constraint, evaluated outright, over all records [m, rad].
+    /// Largest violation of a constraint, evaluated from absolute positions, over all records [m, rad].
     pub violation: f64,
     /// Energy over all records.
     pub energy: EnergyChange,

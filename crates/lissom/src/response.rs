@@ -10,9 +10,9 @@ use lissom_model::{Document, Report};
 use num_complex::Complex64;
 use serde_json::{Value, json};
 
-use crate::about::{About, Reached};
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
+use crate::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::ports::{self, Input, Observed, PortError};
 
 /// Frequencies where nothing says otherwise.
@@ -28,7 +28,7 @@ const ROUND_OFF: f64 = 1e-9;
 /// … so many times over, at most, …
 const DEPTH: usize = 10;
 /// … and until there are so many frequencies.
-const MOST: usize = 20_000;
+const MAX_FREQUENCIES: usize = 20_000;
 /// Distance from a natural frequency without damping, relative to it.
 const BESIDE: f64 = 1e-4;
 /// Damping ratios below this are none.
@@ -38,7 +38,7 @@ const UNDAMPED: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResponseRequest {
     /// The state about which the model is linearised.
-    pub about: About,
+    pub about: OperatingPoint,
     /// Names of inputs, loads and prescribed motions.
     pub inputs: Vec<String>,
     /// Names of outputs or of their columns.
@@ -164,13 +164,13 @@ pub fn response(
 
 fn of_state(
     document: &Document,
-    reached: Reached<'_, '_>,
+    reached: LinearizationPoint<'_, '_>,
     request: &ResponseRequest,
 ) -> Result<ResponseReport, FrequencyError> {
     let inputs = ports::inputs(document, &reached, &request.inputs)?;
     let outputs = ports::outputs(&reached, &request.outputs)?;
     ports::check_effect(&inputs, &outputs)?;
-    let Reached { model, mut warnings, .. } = reached;
+    let LinearizationPoint { model, mut warnings, .. } = reached;
     if model.rolls_on() {
         return Err(FrequencyError::RollsOn);
     }
@@ -185,8 +185,9 @@ fn of_state(
     first.sort_by(f64::total_cmp);
     first.dedup();
     table.fill(&first)?;
-    if table.rows.len() >= MOST {
-        warnings.push(format!("more than {MOST} frequencies would be needed to resolve every change"));
+    if table.rows.len() >= MAX_FREQUENCIES {
+        warnings
+            .push(format!("more than {MAX_FREQUENCIES} frequencies would be needed to resolve every change"));
     }
     let layout = model.system().layout();
     let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
@@ -335,7 +336,7 @@ impl<'p, 'm, 'a> Table<'p, 'm, 'a> {
             .zip(&high.amplitudes)
             .zip(&self.small)
             .any(|((a, b), &small)| (a - b).norm() > CHANGE * a.norm().max(b.norm()).max(small));
-        if !changes || depth == 0 || self.rows.len() >= MOST {
+        if !changes || depth == 0 || self.rows.len() >= MAX_FREQUENCIES {
             return Ok(());
         }
         let middle = self.at((low.frequency * high.frequency).sqrt())?;
@@ -387,16 +388,16 @@ impl ResponseReport {
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("response", name, overrides, document);
-        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-        tell("stopped", json!("end"));
-        tell("about", json!(self.about));
-        tell("frequencies", json!(self.frequencies.len()));
-        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
-        tell("multipliers", json!(self.unknowns[1]));
+        insert("stopped", json!("end"));
+        insert("about", json!(self.about));
+        insert("frequencies", json!(self.frequencies.len()));
+        insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        insert("multipliers", json!(self.unknowns[1]));
         let natural =
             |&(frequency, damping): &(f64, f64)| json!({ "frequency": frequency, "damping": damping });
-        tell("natural_frequencies", self.natural.iter().map(natural).collect());
+        insert("natural_frequencies", self.natural.iter().map(natural).collect());
         let peak = |transfer: &Transfer| {
             let (frequency, most) = self.peak(transfer);
             json!({
@@ -408,9 +409,9 @@ impl ResponseReport {
                 "peak_magnitude": most,
             })
         };
-        tell("transfers", self.transfers.iter().map(peak).collect());
-        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
-        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        insert("transfers", self.transfers.iter().map(peak).collect());
+        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }
 

@@ -16,25 +16,25 @@ use crate::model::{Model, Override};
 use crate::report::RunReport;
 use crate::session::{Session, columns};
 
-pub(crate) fn tell(summary: &mut Summary, name: &str, fact: Value) {
+pub(crate) fn insert(summary: &mut Summary, name: &str, fact: Value) {
     summary.insert(name, fact).expect("a JSON value can be said in JSON");
 }
 
 /// What is known of an analysis without time steps before it has a result: it is reported as failed until then.
 pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: &Document) -> Summary {
     let mut summary = Summary::new();
-    let mut tell = |name: &str, fact: Value| tell(&mut summary, name, fact);
-    tell("model", json!(name));
-    tell("title", json!(document.title));
-    tell("version", json!(crate::VERSION));
-    tell("analysis", json!(analysis));
-    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
-    tell("stopped", json!("failed"));
-    tell("warnings", document.warnings.problems().map(|problem| json!(problem.message)).collect());
+    let mut insert = |name: &str, fact: Value| insert(&mut summary, name, fact);
+    insert("model", json!(name));
+    insert("title", json!(document.title));
+    insert("version", json!(crate::VERSION));
+    insert("analysis", json!(analysis));
+    insert("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    insert("stopped", json!("failed"));
+    insert("warnings", document.warnings.problems().map(|problem| json!(problem.message)).collect());
     if document.assembly.is_some()
         && let Ok(Lowered { assembly: Some(assembly), .. }) = lower(document)
     {
-        tell("assembly", of_assembly(&assembly));
+        insert("assembly", of_assembly(&assembly));
     }
     summary
 }
@@ -42,7 +42,7 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
 /// What was left out of the model's text, if anything was.
 pub fn of_left_out(summary: &mut Summary, model: &Model) {
     if !model.left_out().is_empty() {
-        tell(summary, "unset", json!(model.left_out()));
+        insert(summary, "unset", json!(model.left_out()));
     }
 }
 
@@ -53,22 +53,22 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     let layout = system.layout();
     let multipliers = layout.multiplier_rows().len();
     let mut summary = Summary::new();
-    let mut tell = |name: &str, fact: Value| tell(&mut summary, name, fact);
-    tell("model", json!(name));
-    tell("title", json!(document.title));
-    tell("version", json!(crate::VERSION));
-    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
-    tell("stopped", json!("failed"));
-    tell("time", json!(plan.start));
-    tell("start", json!(plan.start));
-    tell("end", json!(plan.end));
-    tell("scheme", json!(settings.scheme.name));
-    tell("step_size", json!(settings.step_size));
-    tell("planned_steps", if plan.is_controlled { Value::Null } else { json!(plan.steps) });
-    tell("relative_tolerance", json!(settings.control.map(|control| control.relative_tolerance)));
-    tell("steps", json!(0));
+    let mut insert = |name: &str, fact: Value| insert(&mut summary, name, fact);
+    insert("model", json!(name));
+    insert("title", json!(document.title));
+    insert("version", json!(crate::VERSION));
+    insert("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    insert("stopped", json!("failed"));
+    insert("time", json!(plan.start));
+    insert("start", json!(plan.start));
+    insert("end", json!(plan.end));
+    insert("scheme", json!(settings.scheme.name));
+    insert("step_size", json!(settings.step_size));
+    insert("planned_steps", if plan.is_controlled { Value::Null } else { json!(plan.steps) });
+    insert("relative_tolerance", json!(settings.control.map(|control| control.relative_tolerance)));
+    insert("steps", json!(0));
     let scaling = &settings.scaling;
-    tell(
+    insert(
         "scaling",
         json!({
             "by": scaling.by.name(),
@@ -77,27 +77,27 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
             "penalty": scaling.penalty,
         }),
     );
-    tell("solver", json!(settings.solver.name));
-    tell("threads", json!(settings.threads));
-    tell("tolerance", json!(settings.limits.tolerance));
-    tell("bodies", json!(document.bodies.len() + document.point_masses.len()));
-    tell("beams", json!(document.beams.len()));
-    tell("superelements", json!(document.superelements.len()));
-    tell("elements", json!(document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()));
-    tell("nodes", json!(layout.node_count() - 1));
-    tell("joints", json!(document.joints.len()));
-    tell("unknowns", json!(layout.size()));
-    tell("multipliers", json!(multipliers));
+    insert("solver", json!(settings.solver.name));
+    insert("threads", json!(settings.threads));
+    insert("tolerance", json!(settings.limits.tolerance));
+    insert("bodies", json!(document.bodies.len() + document.point_masses.len()));
+    insert("beams", json!(document.beams.len()));
+    insert("superelements", json!(document.superelements.len()));
+    insert("elements", json!(document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()));
+    insert("nodes", json!(layout.node_count() - 1));
+    insert("joints", json!(document.joints.len()));
+    insert("unknowns", json!(layout.size()));
+    insert("multipliers", json!(multipliers));
     let columns = columns(channels);
     let column = |column: &crate::Column| {
         let is_unique = !lowered.not_unique.contains(&column.name());
         json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "unique": is_unique })
     };
-    tell("columns", columns.iter().map(column).collect());
+    insert("columns", columns.iter().map(column).collect());
     let warnings = document.warnings.problems().map(|problem| json!(problem.message));
-    tell("warnings", warnings.collect());
+    insert("warnings", warnings.collect());
     if let Some(assembly) = &lowered.assembly {
-        tell("assembly", of_assembly(assembly));
+        insert("assembly", of_assembly(assembly));
     }
     summary
 }
@@ -120,7 +120,7 @@ pub(crate) fn of_assembly(assembly: &Assembly) -> Value {
 
 /// Says that a run has begun: what is read of one that was killed.
 pub fn of_beginning(summary: &mut Summary) {
-    tell(summary, "stopped", json!("running"));
+    insert(summary, "stopped", json!("running"));
 }
 
 /// Adds what a run came to.
@@ -129,36 +129,36 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let totals = &report.totals;
     let known = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
     let warnings = session.warnings().map(|warning| json!(format!("{}: {warning}", warning.code())));
-    tell(summary, "warnings", known.into_iter().chain(warnings).collect());
-    let mut tell = |name: &str, fact: Value| tell(summary, name, fact);
-    tell("stopped", json!(report.stopped.name()));
-    tell("stopped_by", json!(session.stopped_by()));
+    insert(summary, "warnings", known.into_iter().chain(warnings).collect());
+    let mut insert = |name: &str, fact: Value| insert(summary, name, fact);
+    insert("stopped", json!(report.stopped.name()));
+    insert("stopped_by", json!(session.stopped_by()));
     if session.plan().is_static {
         let fact = |(time, directions): &(f64, Option<usize>)| json!({ "time": time, "unstable_directions": directions });
-        tell("stability", simulation.stability().iter().map(fact).collect());
+        insert("stability", simulation.stability().iter().map(fact).collect());
     }
-    tell("events", of_events(session));
+    insert("events", of_events(session));
     if let Some(error) = report.error() {
-        tell("error", json!(error.to_string()));
-        tell("failure", Diagnosis::of(error).to_value());
+        insert("error", json!(error.to_string()));
+        insert("failure", Diagnosis::of(error).to_value());
     }
-    tell("time", json!(report.time));
-    tell("records", json!(report.records));
-    tell("steps", json!(totals.steps));
-    tell("rejected_steps", json!(totals.rejected_steps));
-    tell("stagnated_steps", json!(totals.stagnated_steps));
-    tell("newton_iterations", json!(totals.newton_iterations));
-    tell("factorizations", json!(totals.factorizations));
+    insert("time", json!(report.time));
+    insert("records", json!(report.records));
+    insert("steps", json!(totals.steps));
+    insert("rejected_steps", json!(totals.rejected_steps));
+    insert("stagnated_steps", json!(totals.stagnated_steps));
+    insert("newton_iterations", json!(totals.newton_iterations));
+    insert("factorizations", json!(totals.factorizations));
     let fell_back = totals.fell_back_at.map(|row| simulation.system().layout().name_of(row));
-    tell("fell_back_at", json!(fell_back));
-    let yielded = totals.yielded_at.map(|row| simulation.system().layout().name_of(row));
-    tell("yielded_at", json!(yielded));
-    tell("factor_entries", json!(simulation.factor_entries()));
-    tell("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
-    tell("wall_seconds", json!(report.wall.as_secs_f64()));
-    tell("solve_seconds", json!(report.solving.as_secs_f64()));
+    insert("fell_back_at", json!(fell_back));
+    let regularized = totals.regularized_at.map(|row| simulation.system().layout().name_of(row));
+    insert("yielded_at", json!(regularized));
+    insert("factor_entries", json!(simulation.factor_entries()));
+    insert("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
+    insert("wall_seconds", json!(report.wall.as_secs_f64()));
+    insert("solve_seconds", json!(report.solving.as_secs_f64()));
     let seconds = &report.seconds;
-    tell(
+    insert(
         "seconds",
         json!({
             "start": seconds.start,
@@ -170,27 +170,27 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "output": seconds.output,
         }),
     );
-    tell("max_constraint_violation", json!(report.violation));
-    tell("max_carried_violation", json!(totals.max_constraint_violation));
-    tell("velocity_correction", json!(simulation.velocity_correction()));
-    let (energy, ledger) = (&report.energy, simulation.ledger());
-    tell(
+    insert("max_constraint_violation", json!(report.violation));
+    insert("max_carried_violation", json!(totals.max_constraint_violation));
+    insert("velocity_correction", json!(simulation.velocity_correction()));
+    let (energy, energy_balance) = (&report.energy, simulation.energy_balance());
+    insert(
         "energy",
         json!({
             "start": of_energy(&energy.start),
             "end": of_energy(&energy.end),
             "largest_change": energy.largest,
-            "work_of_loads": ledger.loads,
-            "work_of_drives": ledger.drives,
-            "lost_in_latches": ledger.latches,
-            "surplus": ledger.surplus,
-            "lost": ledger.lost,
-            "turned_over": ledger.turned_over,
+            "work_of_loads": energy_balance.loads,
+            "work_of_drives": energy_balance.drives,
+            "lost_in_latches": energy_balance.latches,
+            "surplus": energy_balance.surplus,
+            "lost": energy_balance.lost,
+            "turned_over": energy_balance.turned_over,
         }),
     );
-    tell("statistics", statistics(session));
+    insert("statistics", statistics(session));
     let scaling = &simulation.settings().scaling;
-    tell(
+    insert(
         "scaling",
         json!({
             "by": scaling.by.name(),
@@ -202,7 +202,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     );
     let [start, end] = report.conditions;
     let range = session.telemetry().condition_range();
-    tell(
+    insert(
         "tangent",
         json!({
             "condition_estimate": {
@@ -217,7 +217,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
         }),
     );
     let Representative { mass, damping, stiffness, length } = *simulation.representative();
-    tell(
+    insert(
         "representative",
         json!({ "mass": mass, "damping": damping, "stiffness": stiffness, "length": length }),
     );
@@ -225,11 +225,11 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
 
 /// Adds why a run could not start.
 pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
-    tell(summary, "stopped", json!("failed"));
-    tell(summary, "error", json!(error.to_string()));
-    tell(summary, "failure", Diagnosis::of(error).to_value());
+    insert(summary, "stopped", json!("failed"));
+    insert(summary, "error", json!(error.to_string()));
+    insert(summary, "failure", Diagnosis::of(error).to_value());
     for name in ["records", "rejected_steps", "stagnated_steps", "newton_iterations", "factorizations"] {
-        tell(summary, name, json!(0));
+        insert(summary, name, json!(0));
     }
     // The names are there, so that scripts need not ask.
     for name in [
@@ -247,20 +247,20 @@ pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
         "statistics",
         "representative",
     ] {
-        tell(summary, name, Value::Null);
+        insert(summary, name, Value::Null);
     }
 }
 
 /// How often each event has happened, and when first and last.
 fn of_events(session: &Session) -> Value {
-    let mut told = serde_json::Map::new();
+    let mut facts = serde_json::Map::new();
     for event in session.simulation().system().signals().events() {
         let times: Vec<f64> =
             session.events().filter(|(name, _)| *name == event.name).map(|(_, time)| time).collect();
         let fact = json!({ "count": times.len(), "first": times.first(), "last": times.last() });
-        told.insert(event.name.clone(), fact);
+        facts.insert(event.name.clone(), fact);
     }
-    Value::Object(told)
+    Value::Object(facts)
 }
 
 /// Of each column what a sweep could collect of it; `null` where a record is not finite.

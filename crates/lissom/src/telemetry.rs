@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 /// Most samples kept.
-const MOST_SAMPLES: usize = 512;
+const MAX_SAMPLES: usize = 512;
 
 /// One step, or several in a row where the run is long.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,7 +93,7 @@ impl Telemetry {
             iterations,
             factorizations,
         });
-        if self.samples.len() >= MOST_SAMPLES {
+        if self.samples.len() >= MAX_SAMPLES {
             self.thin_out();
         }
     }
@@ -111,7 +111,7 @@ impl Telemetry {
     /// Joins pairs of samples.
     fn thin_out(&mut self) {
         self.every *= 2;
-        let mut kept: Vec<Sample> = Vec::with_capacity(MOST_SAMPLES);
+        let mut kept: Vec<Sample> = Vec::with_capacity(MAX_SAMPLES);
         let (mut iterations, mut factorizations) = (0, 0);
         for sample in &self.samples {
             iterations += sample.iterations;

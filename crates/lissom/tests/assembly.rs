@@ -441,7 +441,7 @@ axis = [0, 0, 1]
 
 /// A body that turns about its own reference point has moved as well.
 #[test]
-fn a_part_that_only_turns_is_told() {
+fn a_part_that_only_turns_is_reported() {
     let text = PAIR
         .replace("\"spherical\"", "\"revolute\"")
         .replace("position = [1, 0, 0]", "")

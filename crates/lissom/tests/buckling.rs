@@ -59,7 +59,7 @@ fn an_euler_column_buckles_about_both_axes() {
 }
 
 #[test]
-fn what_does_not_buckle_is_told() {
+fn what_does_not_buckle_is_reported() {
     let report = find(&column("vector = [2, 0, 0]"), 2).unwrap();
     assert!(
         report.buckling.modes.is_empty() && report.warnings[0].contains("stiffen"),
@@ -108,17 +108,17 @@ fn factors_that_come_several_times_are_counted_whole_wherever_the_count_cuts_the
 
 /// More than there are: all that there are, and a warning; what nobody asked for is no matter.
 #[test]
-fn fewer_factors_than_asked_for_are_told() {
+fn fewer_factors_than_asked_for_are_reported() {
     let text = column("vector = [-2, 0, 0]").replace("elements = 8", "elements = 1\norder = 1");
-    let told = |count: Option<usize>| {
+    let reported = |count: Option<usize>| {
         let report = buckling(&Model::from_text("column.toml", &text), &[], count).unwrap();
         assert_eq!(report.buckling.completeness, Completeness::Counted);
         (report.buckling.modes.len(), report.warnings)
     };
-    let (number, warnings) = told(Some(200));
+    let (number, warnings) = reported(Some(200));
     assert!(number < 200);
     assert_eq!(warnings, [format!("200 load factors are asked for, and there are only {number}")]);
-    assert!(told(Some(number)).1.is_empty());
-    let (few, warnings) = told(None);
+    assert!(reported(Some(number)).1.is_empty());
+    let (few, warnings) = reported(None);
     assert!(few <= number && warnings.is_empty(), "{few} {warnings:?}");
 }

@@ -172,7 +172,7 @@ fn ids_of_another_model_are_refused() {
 }
 
 #[test]
-fn what_is_wrong_is_told_as_for_files() {
+fn what_is_wrong_is_reported_as_for_files() {
     let wrong = |build: &dyn Fn(&mut ModelBuilder)| {
         let (mut builder, _) = cantilever();
         build(&mut builder);

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use lissom::modes::{About, ModeReport, ModeRequest, modes};
+use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session};
 use lissom_core::judge::Warning;
@@ -205,7 +205,7 @@ fn irvine(lambda_squared: f64, below: f64) -> Vec<f64> {
 
 fn found(cable: &Cable, elements: usize, count: usize) -> (Vec<f64>, ModeReport) {
     let model = Model::from_text("cable.toml", &cable.model(elements, "modes"));
-    let request = ModeRequest { count: Some(count), about: Some(About::Static), shift: None };
+    let request = ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), shift: None };
     let report = modes(&model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.completeness, Completeness::Counted);
     (report.modes.iter().map(|mode| mode.frequency / cable.unit()).collect(), report)
@@ -265,8 +265,8 @@ fn a_path_along_a_number_begins_where_relaxation_ends() {
         assert!((found.abs() / exact - 1.0).abs() < 1e-6, "{found} for {exact} under {gravity}");
     }
     let summary = session.summary(Summary::new(), &report);
-    let told = summary.get("warnings").unwrap().to_string();
-    assert!(told.contains("relaxed-equilibrium"), "{told}");
+    let reported = summary.get("warnings").unwrap().to_string();
+    assert!(reported.contains("relaxed-equilibrium"), "{reported}");
     // Along the load factor there is nothing to begin with, and the message says what to do.
     let mut session =
         PathSession::new(&Model::from_text("cable.toml", &format!("{text}end = 1\n")), &[]).unwrap();

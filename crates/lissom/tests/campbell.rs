@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use lissom::Model;
 use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell};
-use lissom::modes::{About, ModeRequest, ModesError, modes};
+use lissom::modes::{ModeRequest, ModesError, OperatingPoint, modes};
 
 fn request(path: &str, from: f64, to: f64, values: usize, count: usize, rays: &[u32]) -> CampbellRequest {
     CampbellRequest { path: path.to_owned(), from, to, values, count, rays: rays.to_vec() }
@@ -356,7 +356,7 @@ fn peak(signal: &[f64], step: f64, rate: f64) -> (f64, [f64; 2]) {
 #[test]
 fn a_three_bladed_rotor_decays_with_the_frequencies_of_its_diagram() {
     let text = turbine();
-    let ask = ModeRequest { count: Some(9), about: Some(About::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(9), about: Some(OperatingPoint::Rotation), shift: None };
     let model = Model::from_text("model.toml", &text);
     let found = modes(&model, &[], &ask).unwrap_or_else(|error| panic!("{error}"));
     let mut session = model.session(&[]).unwrap();
@@ -433,7 +433,7 @@ kind = "dynamics"
 end = 1
 step = 1e-3
 "#;
-    let ask = ModeRequest { count: Some(4), about: Some(About::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(4), about: Some(OperatingPoint::Rotation), shift: None };
     let found = modes(&Model::from_text("model.toml", text), &[], &ask).expect("some modes are constant");
     let words = found.warnings.join("\n");
     for part in ["left out", "coefficients change as the model turns", "Floquet"] {
@@ -471,7 +471,7 @@ stiffness = 1e5
         other => panic!("{other:?}"),
     }
     // Nothing turns.
-    let ask = ModeRequest { count: Some(2), about: Some(About::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(2), about: Some(OperatingPoint::Rotation), shift: None };
     let still = OVERHUNG.replace("speed = 10.0", "speed = 0.0");
     let error = modes(&Model::from_text("model.toml", &still), &[], &ask).expect_err("it is at rest");
     assert!(error.to_string().contains("nothing turns"), "{error}");
@@ -491,8 +491,8 @@ fn a_rotor_that_turns_freely_needs_no_gravity_across_its_axis() {
     let refused = campbell(&turbine, &[], &of_speed).unwrap_err();
     let CampbellError::Modes { error, value: 0.1, .. } = &refused else { panic!("{refused}") };
     assert!(matches!(**error, ModesError::SteadyHereAlone(_)), "{refused}");
-    let told = refused.to_string();
-    assert!(told.contains("--unset gravity") && !told.contains("  "), "{told}");
+    let reported = refused.to_string();
+    assert!(reported.contains("--unset gravity") && !reported.contains("  "), "{reported}");
 
     let weightless = [("gravity".to_owned(), "[0, 0, 0]".to_owned())];
     let found = campbell(&turbine, &weightless, &of_speed).unwrap();

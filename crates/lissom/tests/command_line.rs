@@ -237,7 +237,7 @@ fn a_pendulum_swings_with_every_scheme_solver_and_scaling() {
 }
 
 #[test]
-fn a_vanishing_pivot_is_told_and_a_pivoting_solver_goes_on() {
+fn a_vanishing_pivot_is_reported_and_a_pivoting_solver_goes_on() {
     let folder = Folder::new("pivot");
     let model = example("tip-crank");
     let run = lissom(
@@ -331,7 +331,7 @@ fn check_counts_freedoms_and_names_redundant_constraints() {
 }
 
 #[test]
-fn schema_kinds_and_version_are_told() {
+fn schema_kinds_and_version_are_reported() {
     let folder = Folder::new("told");
     let run = lissom(&["schema"], folder.path());
     let schema: serde_json::Value = serde_json::from_str(&run.output).unwrap();

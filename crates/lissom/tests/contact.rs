@@ -82,28 +82,28 @@ fn an_impact_has_the_restitution_asked_for() {
 
 /// With steps of given size a stiff contact may be over before anybody looks: Radau IIA then keeps a fraction of the velocity.
 #[test]
-fn a_contact_that_steps_do_not_resolve_is_told() {
-    let is_told = |run: &Session| {
+fn a_contact_that_steps_do_not_resolve_is_reported() {
+    let is_reported = |run: &Session| {
         run.simulation().warnings().iter().any(|warning| warning.code() == "contact-too-short")
     };
-    let (mut told, mut lost) = (0, 0);
+    let (mut reported, mut lost) = (0, 0);
     for scheme in SCHEMES {
         for stiffness in ["1e5", "1e6", "1e7", "1e8", "1e9"] {
             for step in ["1.1e-3", "3e-4", "1e-4", "3.3e-5", "1e-5"] {
                 let analysis = format!("scheme = \"{scheme}\"\nstep = {step}\nenergy_check = false");
                 let run = finished(&bounce(&format!("stiffness = {stiffness}"), &analysis));
                 let error = (run.value("slide.velocity").unwrap() - 1.0).abs();
-                told += usize::from(is_told(&run));
+                reported += usize::from(is_reported(&run));
                 lost += usize::from(error > 0.1);
-                assert!(error < 0.05 || is_told(&run), "{scheme}, {stiffness} N/m, {step} s: {error:.3}");
+                assert!(error < 0.05 || is_reported(&run), "{scheme}, {stiffness} N/m, {step} s: {error:.3}");
                 // A contact of 31 steps: nothing to tell.
                 let is_resolved =
                     stiffness.parse::<f64>().unwrap() * step.parse::<f64>().unwrap().powi(2) < 0.02;
-                assert!(!(is_resolved && is_told(&run)), "{scheme}, {stiffness} N/m, {step} s");
+                assert!(!(is_resolved && is_reported(&run)), "{scheme}, {stiffness} N/m, {step} s");
             }
         }
     }
-    assert!(told >= 30 && lost >= 15, "{told} told, {lost} of them lose a tenth of the velocity");
+    assert!(reported >= 30 && lost >= 15, "{reported} told, {lost} of them lose a tenth of the velocity");
     let run = finished(&bounce("stiffness = 1e8", "scheme = \"radau-iia\"\nstep = 1e-3"));
     let text = run.simulation().warnings()[0].to_string();
     assert!(
@@ -410,7 +410,7 @@ fn solids_have_their_mass_and_inertia() {
 }
 
 #[test]
-fn mistakes_of_stops_and_friction_are_told() {
+fn mistakes_of_stops_and_friction_are_reported() {
     for (law, words) in [
         ("stiffness = 1e6\nrestitution = 0.5", "needs `impact_velocity`"),
         ("stiffness = 1e6\nrestitution = 1.5\nimpact_velocity = 1", "must be from 0.01 to 1"),
@@ -418,13 +418,13 @@ fn mistakes_of_stops_and_friction_are_told() {
         ("stiffness = 1e6\nimpact_velocity = 1", "no meaning without `restitution`"),
         ("stiffness = 1e6\nexponent = 0.5", "must be 1 or greater"),
     ] {
-        let told = refused(&bounce(law, "step = 1e-4"));
-        assert!(told.contains(words), "{told}");
+        let reported = refused(&bounce(law, "step = 1e-4"));
+        assert!(reported.contains(words), "{reported}");
     }
-    let told = refused(&PENDULUM.replace("FRICTION", "friction = { coulomb = 2, static = 1 }"));
-    assert!(told.contains("is below `coulomb`"), "{told}");
+    let reported = refused(&PENDULUM.replace("FRICTION", "friction = { coulomb = 2, static = 1 }"));
+    assert!(reported.contains("is below `coulomb`"), "{reported}");
     let spherical =
         PENDULUM.replace("FRICTION", "friction = { coulomb = 2 }").replace("revolute", "spherical");
-    let told = refused(&spherical.replace("axis = [0, 0, 1]\n", ""));
-    assert!(told.contains("no relative coordinate for friction"), "{told}");
+    let reported = refused(&spherical.replace("axis = [0, 0, 1]\n", ""));
+    assert!(reported.contains("no relative coordinate for friction"), "{reported}");
 }

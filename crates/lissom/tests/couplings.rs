@@ -3,7 +3,7 @@
 use crate::support::runs;
 
 use lissom::Record;
-use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
+use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
 
 /// Sun (20 teeth), three planets' one (15) on a carrier, and a ring (50), all about z; each with an inertia of its own.
 const PLANETARY: &str = r#"
@@ -297,7 +297,7 @@ fn a_cam_is_as_the_drive_that_gives_its_motion() {
     assert!(difference.abs() < 1e-8, "{difference}");
     // Straight lines have corners: the follower's speed would jump.
     let linear = table.replace(", interpolation = \"spline\"", "");
-    assert!(told(&linear).contains("kink"), "{}", told(&linear));
+    assert!(reported(&linear).contains("kink"), "{}", reported(&linear));
 }
 
 /// Pendulums whose angles are tied by a curve, released: energy is kept by the energy-decaying scheme, chosen steps agree
@@ -379,7 +379,7 @@ fn relations_go_on_from_a_snapshot_to_the_last_bit() {
     }
 }
 
-/// A relation may depend on the time: then it does work, which the ledger knows.
+/// A relation may depend on the time: then it does work, which the energy balance contains.
 #[test]
 fn a_relation_that_moves_is_a_drive() {
     let moving = TIED.replace("+ 0.1*one.angle*two.angle", "+ 0.1*one.angle*two.angle - 0.3*t^2*(3 - 2*t/2)");
@@ -390,7 +390,7 @@ fn a_relation_that_moves_is_a_drive() {
 }
 
 #[test]
-fn wrong_relations_are_told() {
+fn wrong_relations_are_reported() {
     let equation = "two.angle - 0.8*sin(one.angle) - 0.2*one.angle^2 + 0.1*one.angle*two.angle";
     for (instead, words) in [
         ("two.angle - one.angle - 0.3", "does not hold at the start: it misses by -3"),
@@ -401,7 +401,7 @@ fn wrong_relations_are_told() {
         ("t - t", "at least one"),
         ("one.angle^2 + two.angle^2", "does not change with its coordinates"),
     ] {
-        let found = told(&TIED.replace(equation, instead));
+        let found = reported(&TIED.replace(equation, instead));
         assert!(found.contains(words), "{instead}: {found}");
     }
     for (old, instead, words) in [
@@ -421,7 +421,7 @@ fn wrong_relations_are_told() {
             "joint `guide` has no coordinate 1.5",
         ),
     ] {
-        let found = told(&CAM.replace(old, instead));
+        let found = reported(&CAM.replace(old, instead));
         assert!(found.contains(words), "{instead}: {found}");
     }
 }

@@ -1,7 +1,7 @@
 //! Forces per length of beams, against closed forms.
 
 use lissom::buckling::buckling;
-use lissom::modes::{About, ModeRequest, modes};
+use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session, SessionError};
 
@@ -99,8 +99,8 @@ fn a_force_per_length_may_change_in_time() {
     ] {
         match Model::from_text("beam.toml", &beam(2, force, analysis)).session(&[]) {
             Err(SessionError::Model(report)) => {
-                let told = report.render(false).split_whitespace().collect::<Vec<_>>().join(" ");
-                assert!(told.contains(words), "{told}");
+                let reported = report.render(false).split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(reported.contains(words), "{reported}");
             }
             Ok(_) => panic!("{force} is no good force"),
             Err(error) => panic!("{error}"),
@@ -148,7 +148,7 @@ fn a_path_begins_without_forces_per_length() {
 #[test]
 fn the_undeformed_state_is_without_forces_per_length() {
     let find = |text: &str| {
-        let request = ModeRequest { count: Some(2), about: Some(About::Undeformed), shift: None };
+        let request = ModeRequest { count: Some(2), about: Some(OperatingPoint::Undeformed), shift: None };
         modes(&Model::from_text("beam.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
     };
     let [alone, loaded] =

@@ -165,7 +165,7 @@ fn a_relation_that_names_the_time_drives() {
 
 /// What a program reads between two steps is what a run records there.
 #[test]
-fn a_session_tells_what_a_run_records() {
+fn a_session_reports_what_a_run_records() {
     let settings = [("analysis.scheme", "radau-iia"), ("analysis.step", "5e-3")];
     let record = record(PISTON, &settings);
     let mut session = session(PISTON, &settings);

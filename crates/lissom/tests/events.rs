@@ -264,7 +264,7 @@ fn a_restored_session_goes_on_to_the_last_bit() {
 
 /// Dry friction as a jump of sign cannot hold a mass: the force switches to and fro.
 #[test]
-fn what_slides_along_its_switch_is_told() {
+fn what_slides_along_its_switch_is_reported() {
     let message = failure(&rail(&force("-2*sign(rail.velocity)"), "relative_tolerance = 1e-5"));
     assert!(message.contains("again and again") || message.contains("relative_tolerance"), "{message}");
 }

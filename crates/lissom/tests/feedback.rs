@@ -289,7 +289,7 @@ fn inputs_act_from_when_they_are_set() {
 }
 
 #[test]
-fn mistakes_are_told_with_their_place() {
+fn mistakes_are_reported_with_their_place() {
     let load = |torque: &str| {
         format!("[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"{torque}\"\n")
     };
@@ -326,9 +326,9 @@ fn mistakes_are_told_with_their_place() {
             &["unknown name `tip.x`"],
         ),
     ] {
-        let told = refused(&arm(&tables, analysis));
+        let reported = refused(&arm(&tables, analysis));
         for words in words {
-            assert!(told.contains(words), "{tables}\n{told}");
+            assert!(reported.contains(words), "{tables}\n{reported}");
         }
     }
     let statics = arm("[states]\na = { derivative = \"1\" }\n", "").replace("\"dynamics\"", "\"statics\"");
@@ -343,8 +343,11 @@ fn a_signal_that_is_not_finite_ends_the_run_with_its_name() {
         let mut session = session(&arm(tables, "end = 1\nstep = 1e-2"));
         let (_, report) = session.record();
         let lissom::Stopped::Failed(error) = &report.stopped else { panic!("{report:?}") };
-        let told = error.to_string();
-        assert!(told.contains(name) && told.contains("sqrt") && told.contains("t = "), "{told}");
+        let reported = error.to_string();
+        assert!(
+            reported.contains(name) && reported.contains("sqrt") && reported.contains("t = "),
+            "{reported}"
+        );
         assert!(!report.is_complete());
     }
     let at_start = refused(&arm("[signals]\nlost = \"ln(t)\"\n", "end = 1\nstep = 1e-2"));

@@ -234,7 +234,7 @@ fn chosen_steps_and_restored_sessions_agree() {
 }
 
 #[test]
-fn mistakes_are_told() {
+fn mistakes_are_reported() {
     for (law, words) in [
         ("force = \"200*elongaton\"", &["cannot name `elongaton`", "did you mean `elongation`"][..]),
         ("force = \"sin(t)\"", &["cannot name the time"]),
@@ -248,10 +248,10 @@ fn mistakes_are_told() {
         ("side = \"left\"", &["cannot be `left`"]),
         ("force = true", &["must be a number, an expression of elongation and rate"]),
     ] {
-        let told = refused(&slider(&format!("{AXIAL}{law}\n"), "end = 1\nstep = 1e-2"));
-        let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+        let reported = refused(&slider(&format!("{AXIAL}{law}\n"), "end = 1\nstep = 1e-2"));
+        let reported = reported.split_whitespace().collect::<Vec<_>>().join(" ");
         for words in words {
-            assert!(told.contains(words), "{law}\n{told}");
+            assert!(reported.contains(words), "{law}\n{reported}");
         }
     }
     // Outside of what its functions allow, a law ends the run.

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::modes::{About, ModeReport, ModeRequest, modes};
+use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 
-fn find(text: &str, about: About, count: usize) -> ModeReport {
+fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
     let request = ModeRequest { count: Some(count), about: Some(about), shift: None };
     modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
 }
@@ -141,7 +141,7 @@ kind = "modes"
             vec![moment - square * inertia * angle, shear - square * mass * w]
         })
     });
-    let found = find(&text, About::Undeformed, 12);
+    let found = find(&text, OperatingPoint::Undeformed, 12);
     all_are_found(&exact, &found, 1e-7);
     // The section bends alike both ways.
     let twice = found.modes.iter().filter(|mode| (mode.frequency / exact[0] - 1.0).abs() < 1e-7).count();
@@ -197,5 +197,5 @@ kind = "modes"
             vec![moment, end[0], end[1], end[4]]
         })
     });
-    all_are_found(&exact, &find(&text, About::Undeformed, 16), 1e-6);
+    all_are_found(&exact, &find(&text, OperatingPoint::Undeformed, 16), 1e-6);
 }

@@ -208,8 +208,8 @@ fn negative_damping_is_a_drive() {
     assert!(report.is_complete());
     let energy = column(&record, "energy", "total");
     assert!(energy[energy.len() - 1] > 2.0 * energy[0]);
-    let ledger = session.simulation().ledger();
-    assert!(ledger.surplus < 1e-3 * ledger.turned_over, "{ledger:?}");
+    let energy_balance = session.simulation().energy_balance();
+    assert!(energy_balance.surplus < 1e-3 * energy_balance.turned_over, "{energy_balance:?}");
 }
 
 #[test]

@@ -178,7 +178,7 @@ fn agrees_closely(
     let target: Target = of.parse().unwrap();
     let paths: Vec<String> = numbers.iter().map(|(path, ..)| (*path).to_owned()).collect();
     let found = gradient(model, set, &target, &paths, true).unwrap_or_else(|error| panic!("{of}: {error}"));
-    assert!(found.derivatives.iter().all(|derivative| derivative.method == Method::Carried), "{of}");
+    assert!(found.derivatives.iter().all(|derivative| derivative.method == Method::Direct), "{of}");
     assert!(matches!(found.confirmation, Some(Confirmation::Confirmed { .. })), "{of}: {found:?}");
     let over = of.split_once('@').map_or("end", |(_, measure)| measure);
     for (derivative, &(path, number, distance)) in found.derivatives.iter().zip(numbers) {

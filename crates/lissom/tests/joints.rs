@@ -5,7 +5,7 @@ use crate::support::runs;
 mod rates;
 
 use lissom::{Model, Record};
-use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
+use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
 
 const EVERY_KIND: &str = include_str!("../../lissom-model/tests/every_kind.toml");
 const OUTPUTS: &str = "
@@ -152,7 +152,7 @@ step = 0.01
     assert!(angles.iter().zip(&turned).all(|(a, b)| (a - b).abs() < 1e-11));
     assert!(turned.last().copied().unwrap_or(0.0) > 5.0);
     let square = text.replace("tip_axis = [\"-cos(0.6)\", \"-sin(0.6)\", 0]", "tip_axis = [0, 0, 1]");
-    assert!(told(&square).contains("perpendicular"));
+    assert!(reported(&square).contains("perpendicular"));
 }
 
 fn sliding(joint: &str, outputs: &str) -> Record {
@@ -323,13 +323,13 @@ step = 0.002
 }
 
 #[test]
-fn wrong_locks_are_told() {
+fn wrong_locks_are_reported() {
     let told_of = |lines: &str| {
         let text = format!(
             "lissom = 1\n[bodies.a]\nmass = 1\ninertia = [1, 1, 1]\n[joints.j]\nkind = \"generic\"\n\
              base = \"ground\"\ntip = \"a\"\n{lines}\n[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n"
         );
-        told(&text)
+        reported(&text)
     };
     for (lines, words) in [
         ("locked = []", "is empty"),

@@ -122,7 +122,7 @@ fn discs_go_on_together_with_their_momentum_and_part_again() {
             }
         }
         // ½ J₁ J₂/(J₁ + J₂) Δω²
-        let lost = session.simulation().ledger().latches;
+        let lost = session.simulation().energy_balance().latches;
         assert!((lost - 0.6).abs() < 1e-9, "{set:?}: {lost}");
         assert_eq!(session.events().count(), 2);
     }
@@ -239,7 +239,7 @@ fn a_latch_engaged_before_the_first_step_holds() {
         let rates = ["axle.rate", "hinge.rate"].map(|name| session.value(name).unwrap());
         assert!((rates[0] - 0.4).abs() < 1e-9 && rates[1].abs() < 1e-9, "{scheme}: {rates:?}");
         assert!(session.value("hinge.angle").unwrap().abs() < 1e-9, "{scheme}");
-        assert!((session.simulation().ledger().latches - 0.6).abs() < 1e-9, "{scheme}");
+        assert!((session.simulation().energy_balance().latches - 0.6).abs() < 1e-9, "{scheme}");
     }
 }
 
@@ -301,7 +301,7 @@ step = 2e-3
     let hinge = column(&record, "hinge", "angle").last().unwrap();
     assert!((hinge - 0.5 * std::f64::consts::PI).abs() < 1e-8, "{hinge}");
     // All of the energy of the fall is lost: m g r.
-    assert!((session.simulation().ledger().latches - 5.0).abs() < 1e-6);
+    assert!((session.simulation().energy_balance().latches - 5.0).abs() < 1e-6);
     assert!(session.warnings().next().is_none());
 }
 
@@ -332,7 +332,7 @@ fn latches_go_on_from_a_snapshot_and_are_refused_where_they_cannot_be() {
     }
     // First-order equations know no constraints between velocities.
     let request = lissom::linearize::LinearizeRequest {
-        about: lissom::modes::About::Time(0.0),
+        about: lissom::modes::OperatingPoint::Time(0.0),
         inputs: vec!["motor".to_owned()],
         outputs: vec!["axle".to_owned()],
     };

@@ -4,14 +4,14 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 
 use lissom::Model;
-use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes};
+use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes};
 use lissom_core::linear::{Completeness, ModeKind};
 
-fn find(text: &str, about: About, count: usize) -> ModeReport {
+fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
     try_find(text, about, count).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn try_find(text: &str, about: About, count: usize) -> Result<ModeReport, ModesError> {
+fn try_find(text: &str, about: OperatingPoint, count: usize) -> Result<ModeReport, ModesError> {
     let request = ModeRequest { count: Some(count), about: Some(about), shift: None };
     modes(&Model::from_text("model.toml", text), &[], &request)
 }
@@ -104,7 +104,7 @@ fn cantilever_frequencies(section: (f64, f64, f64), count: usize) -> Vec<f64> {
 
 #[test]
 fn a_timoshenko_cantilever_has_its_frequencies() {
-    let report = find(&beam(32, 3, CLAMP), About::Undeformed, 8);
+    let report = find(&beam(32, 3, CLAMP), OperatingPoint::Undeformed, 8);
     assert_eq!(report.completeness, Completeness::Counted);
     let mut exact = cantilever_frequencies((4e4, 100.0, 1e-3), 5);
     exact.extend(cantilever_frequencies((4e4, 150.0, 1e-3), 5));
@@ -124,7 +124,8 @@ fn frequencies_converge_in_the_order_of_the_elements() {
     let exact = cantilever_frequencies((4e4, 100.0, 1e-3), 1)[0];
     for (order, expected) in [(1, 2.0), (2, 4.0), (3, 6.0)] {
         let errors = [4, 8].map(|elements| {
-            (find(&beam(elements, order, CLAMP), About::Static, 1).modes[0].frequency / exact - 1.0).abs()
+            (find(&beam(elements, order, CLAMP), OperatingPoint::Static, 1).modes[0].frequency / exact - 1.0)
+                .abs()
         });
         let seen = (errors[0] / errors[1]).log2();
         assert!(seen > expected - 0.3, "order {order}: errors {errors:?}, order {seen}");
@@ -136,7 +137,7 @@ fn a_slender_cantilever_is_that_of_euler_and_bernoulli() {
     let text = beam(12, 3, CLAMP)
         .replace("[1e6, 4e4, 4e4, 300, 100, 150]", "[1e9, 1e9, 1e9, 300, 100, 100]")
         .replace("[2e-3, 1e-3, 1e-3]", "[2e-9, 1e-9, 1e-9]");
-    let report = find(&text, About::Undeformed, 4);
+    let report = find(&text, OperatingPoint::Undeformed, 4);
     for (pair, root) in report.modes.chunks(2).zip([1.875_104_068_711_961_f64, 4.694_091_132_974_175]) {
         for mode in pair {
             near(mode.frequency, root.powi(2) * 10.0 / TAU, 2e-6);
@@ -146,7 +147,7 @@ fn a_slender_cantilever_is_that_of_euler_and_bernoulli() {
 
 #[test]
 fn a_free_beam_has_six_rigid_modes() {
-    let report = find(&beam(10, 3, ""), About::Static, 12);
+    let report = find(&beam(10, 3, ""), OperatingPoint::Static, 12);
     assert_eq!(report.completeness, Completeness::Counted);
     for mode in &report.modes[..6] {
         assert_eq!((mode.kind, mode.frequency, mode.damping), (ModeKind::Rigid, 0.0, 0.0));
@@ -184,25 +185,29 @@ const MODES: &str = "[analysis]\nkind = \"modes\"";
 #[test]
 fn a_pendulum_swings_by_the_preload_of_its_pivot() {
     let exact = (2.0_f64 * 9.81 * 0.7 / (0.1 + 2.0 * 0.49)).sqrt() / TAU;
-    let report = find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", MODES), About::Static, 1);
+    let report = find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", MODES), OperatingPoint::Static, 1);
     near(report.modes[0].frequency, exact, 1e-10);
     assert_eq!(report.completeness, Completeness::Counted);
     // Two swings, and a turn about its own axis.
-    let report = find(&pendulum("kind = \"spherical\"", "position = [0, 0, -0.7]", MODES), About::Static, 5);
+    let report =
+        find(&pendulum("kind = \"spherical\"", "position = [0, 0, -0.7]", MODES), OperatingPoint::Static, 5);
     assert_eq!(report.modes.len(), 3);
     assert_eq!(report.modes[0].kind, ModeKind::Rigid);
     near(report.modes[1].frequency, exact, 1e-10);
     near(report.modes[2].frequency, exact, 1e-10);
     // Without gravity nothing brings it back.
-    let report = find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", MODES), About::Undeformed, 1);
+    let report = find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", MODES), OperatingPoint::Undeformed, 1);
     assert_eq!(report.modes[0].kind, ModeKind::Rigid);
 }
 
 #[test]
 fn equilibrium_is_found_before_modes_are() {
     let spring = "[springs.s]\nkind = \"torsional\"\njoint = \"pivot\"\nstiffness = 100.0\n";
-    let report =
-        find(&pendulum(REVOLUTE, "position = [0.7, 0, 0]", &format!("{spring}{MODES}")), About::Static, 1);
+    let report = find(
+        &pendulum(REVOLUTE, "position = [0.7, 0, 0]", &format!("{spring}{MODES}")),
+        OperatingPoint::Static,
+        1,
+    );
     // k φ = m g ℓ cos φ below the horizontal, then k + m g ℓ sin φ.
     let weight = 2.0 * 9.81 * 0.7;
     let mut angle = 0.1_f64;
@@ -213,8 +218,8 @@ fn equilibrium_is_found_before_modes_are() {
 }
 
 #[test]
-fn an_unstable_equilibrium_is_told() {
-    let report = find(&pendulum(REVOLUTE, "position = [0, 0, 0.7]", MODES), About::Static, 1);
+fn an_unstable_equilibrium_is_reported() {
+    let report = find(&pendulum(REVOLUTE, "position = [0, 0, 0.7]", MODES), OperatingPoint::Static, 1);
     assert_eq!((report.modes[0].kind, report.modes[0].damping), (ModeKind::Divergence, -1.0));
     near(report.modes[0].frequency, (2.0_f64 * 9.81 * 0.7 / 1.08).sqrt() / TAU, 1e-10);
     assert!(report.warnings[0].contains("not stable"), "{:?}", report.warnings);
@@ -260,7 +265,7 @@ damping = {}
 
 #[test]
 fn two_masses_swing_as_they_must() {
-    let report = find(&two_masses([0.0, 0.0]), About::Static, 20);
+    let report = find(&two_masses([0.0, 0.0]), OperatingPoint::Static, 20);
     assert_eq!((report.modes.len(), report.asked, report.completeness), (2, 20, Completeness::Counted));
     // 6 λ² - (2·800 + 3·1300) λ + 500·800 = 0
     let root = (5500.0_f64.powi(2) - 4.0 * 6.0 * 4e5).sqrt();
@@ -280,7 +285,7 @@ fn two_masses_swing_as_they_must() {
 fn damping_in_proportion_has_its_ratios() {
     // C = β K: ζ = β ω/2.
     let beta = 0.002;
-    let report = find(&two_masses([500.0 * beta, 800.0 * beta]), About::Static, 20);
+    let report = find(&two_masses([500.0 * beta, 800.0 * beta]), OperatingPoint::Static, 20);
     assert_eq!((report.modes.len(), report.completeness), (2, Completeness::NotCounted));
     let root = (5500.0_f64.powi(2) - 4.0 * 6.0 * 4e5).sqrt();
     for (mode, square) in report.modes.iter().zip([(5500.0 - root) / 12.0, (5500.0 + root) / 12.0]) {
@@ -294,7 +299,7 @@ fn damping_in_proportion_has_its_ratios() {
 fn overdamped_motion_decays() {
     let spring = "[springs.s]\nkind = \"torsional\"\njoint = \"pivot\"\nstiffness = 10.0\ndamping = 20.0\n";
     let text = pendulum(REVOLUTE, "position = [0, 0, -0.7]", &format!("{spring}{MODES}"));
-    let report = find(&text, About::Undeformed, 4);
+    let report = find(&text, OperatingPoint::Undeformed, 4);
     // 1.08 s² + 20 s + 10 = 0
     let root = (400.0_f64 - 43.2).sqrt();
     assert_eq!(report.modes.len(), 2);
@@ -336,7 +341,7 @@ scale = "t"
         .replace("[1e6, 4e4, 4e4, 300, 100, 150]", "[1e9, 1e9, 1e9, 1e6, 1e6, 10]")
         .replace("[2e-3, 1e-3, 1e-3]", "[2e-8, 1e-8, 1e-8]")
         .replace("kind = \"modes\"", "kind = \"statics\"\nend = 1\nsteps = 2");
-    for (about, tension) in [(About::Static, 2000.0), (About::Time(0.5), 1000.0)] {
+    for (about, tension) in [(OperatingPoint::Static, 2000.0), (OperatingPoint::Time(0.5), 1000.0)] {
         let report = find(&text, about, 3);
         for (n, mode) in (1..).map(f64::from).zip(&report.modes) {
             let number = n * PI;
@@ -345,7 +350,11 @@ scale = "t"
         }
     }
     // Without the tension only bending is left.
-    near(find(&text, About::Undeformed, 1).modes[0].frequency, PI.powi(2) * 10.0_f64.sqrt() / TAU, 1e-5);
+    near(
+        find(&text, OperatingPoint::Undeformed, 1).modes[0].frequency,
+        PI.powi(2) * 10.0_f64.sqrt() / TAU,
+        1e-5,
+    );
 }
 
 #[test]
@@ -365,7 +374,7 @@ kind = "dynamics"
 end = 1
 step = 1e-3
 "#;
-    let report = find(text, About::Time(0.0), 3);
+    let report = find(text, OperatingPoint::Time(0.0), 3);
     assert_eq!(report.warnings, Vec::<String>::new(), "the spin is steady");
     assert_eq!(report.modes[0].kind, ModeKind::Rigid);
     // In its own axes: nutation at (I₃/I₁ - 1) Ω, and a tilt that stays where it is turns by at Ω.
@@ -376,9 +385,9 @@ step = 1e-3
 #[test]
 fn modes_near_a_frequency_are_those_of_the_whole_list() {
     let text = beam(12, 3, CLAMP);
-    let all = frequencies(&find(&text, About::Undeformed, 30));
+    let all = frequencies(&find(&text, OperatingPoint::Undeformed, 30));
     let request =
-        ModeRequest { count: Some(4), about: Some(About::Undeformed), shift: Some(all[14] * 1.001) };
+        ModeRequest { count: Some(4), about: Some(OperatingPoint::Undeformed), shift: Some(all[14] * 1.001) };
     let some = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
     assert_eq!(some.completeness, Completeness::Counted);
     let mut nearest = all.clone();
@@ -398,11 +407,17 @@ fn what_means_nothing_is_refused() {
     let text =
         pendulum(REVOLUTE, "position = [0.7, 0, 0]", "[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.01");
     // Released level: about to fall.
-    assert!(matches!(try_find(&text, About::Time(0.0), 1), Err(ModesError::NotInEquilibrium { .. })));
-    assert!(matches!(try_find(&text, About::Time(2.0), 1), Err(ModesError::Time { .. })));
-    assert!(matches!(try_find(&two_masses([0.0; 2]), About::Time(0.5), 1), Err(ModesError::Time { .. })));
+    assert!(matches!(
+        try_find(&text, OperatingPoint::Time(0.0), 1),
+        Err(ModesError::NotInEquilibrium { .. })
+    ));
+    assert!(matches!(try_find(&text, OperatingPoint::Time(2.0), 1), Err(ModesError::Time { .. })));
+    assert!(matches!(
+        try_find(&two_masses([0.0; 2]), OperatingPoint::Time(0.5), 1),
+        Err(ModesError::Time { .. })
+    ));
     // Swinging: told that coefficients are frozen.
-    let report = find(&text, About::Time(0.3), 1);
+    let report = find(&text, OperatingPoint::Time(0.3), 1);
     assert!(report.warnings[0].contains("not steady"), "{:?}", report.warnings);
 }
 
@@ -436,7 +451,7 @@ fn redundant_constraints_leave_the_modes_there_are() {
     // A parallelogram: crank and rocker turn by φ, the coupler moves with the crank's end.
     let inertia = 2.0 * (0.02 + 1.5 * 0.25) + 1.5;
     let exact = (50.0_f64 / inertia).sqrt();
-    let report = find(&four_bar(), About::Static, 10);
+    let report = find(&four_bar(), OperatingPoint::Static, 10);
     assert_eq!(
         (report.modes.len(), report.completeness),
         (1, Completeness::Counted),
@@ -445,8 +460,11 @@ fn redundant_constraints_leave_the_modes_there_are() {
     );
     near(report.modes[0].frequency, exact / TAU, 1e-9);
     // With a damper: I φ̈ + 2 φ̇ + 50 φ = 0.
-    let damped =
-        find(&four_bar().replace("stiffness = 50.0", "stiffness = 50.0\ndamping = 2.0"), About::Static, 10);
+    let damped = find(
+        &four_bar().replace("stiffness = 50.0", "stiffness = 50.0\ndamping = 2.0"),
+        OperatingPoint::Static,
+        10,
+    );
     assert_eq!(damped.modes.len(), 1, "{:?}", frequencies(&damped));
     near(damped.modes[0].frequency, exact / TAU, 1e-9);
     near(damped.modes[0].damping, 1.0 / (50.0 * inertia).sqrt(), 1e-8);
@@ -455,8 +473,11 @@ fn redundant_constraints_leave_the_modes_there_are() {
 #[test]
 fn a_mechanism_that_is_driven_has_no_modes() {
     let drive = "[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"pivot\"\nrotation = 0.0\n";
-    let report =
-        find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", &format!("{drive}{MODES}")), About::Static, 3);
+    let report = find(
+        &pendulum(REVOLUTE, "position = [0, 0, -0.7]", &format!("{drive}{MODES}")),
+        OperatingPoint::Static,
+        3,
+    );
     assert_eq!(report.modes.len(), 0);
 }
 
@@ -505,7 +526,7 @@ fn frequencies_that_come_several_times_are_counted_whole_wherever_the_count_cuts
             );
         }
         for count in counts {
-            let report = find(&text, About::Static, count);
+            let report = find(&text, OperatingPoint::Static, count);
             assert_eq!(report.completeness, Completeness::Counted, "{count} of {beams}");
             assert!(report.warnings.is_empty(), "{:?}", report.warnings);
             let found = frequencies(&report);
@@ -520,14 +541,14 @@ fn frequencies_that_come_several_times_are_counted_whole_wherever_the_count_cuts
 
 /// More than there are: all that there are, and a warning; what nobody asked for is no matter.
 #[test]
-fn fewer_modes_than_asked_for_are_told() {
+fn fewer_modes_than_asked_for_are_reported() {
     let text = beam(1, 1, CLAMP);
-    let told = |count: Option<usize>| {
-        let request = ModeRequest { count, about: Some(About::Undeformed), shift: None };
+    let reported = |count: Option<usize>| {
+        let request = ModeRequest { count, about: Some(OperatingPoint::Undeformed), shift: None };
         let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
         (report.modes.len(), report.warnings)
     };
-    assert_eq!(told(Some(50)), (6, vec!["50 modes are asked for, and there are only 6".to_owned()]));
-    assert_eq!(told(Some(6)), (6, Vec::new()));
-    assert_eq!(told(None), (6, Vec::new()));
+    assert_eq!(reported(Some(50)), (6, vec!["50 modes are asked for, and there are only 6".to_owned()]));
+    assert_eq!(reported(Some(6)), (6, Vec::new()));
+    assert_eq!(reported(None), (6, Vec::new()));
 }

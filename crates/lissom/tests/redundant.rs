@@ -77,7 +77,7 @@ fn run(far: &str, foot: &str) -> (Record, Option<usize>) {
     let mut session = Session::new(&document).unwrap();
     let (record, report) = session.record();
     assert!(report.error().is_none(), "{:?}", report.error());
-    (record, report.totals.yielded_at)
+    (record, report.totals.regularized_at)
 }
 
 const HINGE: &str = "kind = \"revolute\"\naxis = [0, 0, 1]";

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use lissom::Model;
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize};
-use lissom::modes::{About, ModeRequest, modes};
+use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::response::{FrequencyError, ResponseReport, ResponseRequest, response};
 use nalgebra::{Complex, DMatrix, Matrix4};
 
@@ -14,7 +14,7 @@ const I: Complex64 = Complex64::new(0.0, 1.0);
 
 fn request(inputs: &[&str], outputs: &[&str], from: f64, to: f64) -> ResponseRequest {
     ResponseRequest {
-        about: About::Static,
+        about: OperatingPoint::Static,
         inputs: inputs.iter().map(|name| (*name).to_owned()).collect(),
         outputs: outputs.iter().map(|name| (*name).to_owned()).collect(),
         from,
@@ -415,7 +415,7 @@ fn feedback_and_states_respond_as_in_steps_over_time() {
         assert!((amplitude - wanted).norm() < 2e-3 * wanted.norm(), "{output}: {amplitude} for {wanted}");
     }
     // Its modes: the characteristic polynomial of the loop.
-    let request = ModeRequest { count: Some(5), about: Some(About::Static), shift: None };
+    let request = ModeRequest { count: Some(5), about: Some(OperatingPoint::Static), shift: None };
     let report = modes(&model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
     let inertia = 0.2 + 2.0 * 0.25;
     let gravity = gravity_stiffness();
@@ -469,7 +469,8 @@ fn matrices_in_the_files_have_the_response() {
     ] {
         let ask = ResponseRequest { points: 5, ..request(&inputs, &outputs, 0.31, 11.0) };
         let found = find(&text, &ask);
-        let asked = LinearizeRequest { about: About::Static, inputs: ask.inputs, outputs: ask.outputs };
+        let asked =
+            LinearizeRequest { about: OperatingPoint::Static, inputs: ask.inputs, outputs: ask.outputs };
         let linear = linearize(&Model::from_text("model.toml", &text), &[], &asked)
             .unwrap_or_else(|error| panic!("{error}"));
         let [m, d, k, g] = ["M.mtx", "D.mtx", "K.mtx", "G.mtx"].map(|name| complex(&matrix(&linear, name)));

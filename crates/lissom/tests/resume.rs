@@ -164,7 +164,7 @@ fn the_motion_of_a_run_that_was_killed_is_that_of_an_undisturbed_one() {
 }
 
 #[test]
-fn what_cannot_go_on_is_told() {
+fn what_cannot_go_on_is_reported() {
     let folder = Folder::new("missing");
     let output = lissom().arg("--resume").arg(&folder.0).output().unwrap();
     assert_eq!(output.status.code(), Some(2));

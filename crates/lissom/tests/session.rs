@@ -99,7 +99,7 @@ fn an_interrupted_session_can_go_on() {
 }
 
 #[test]
-fn wrong_models_are_told_apart_from_failing_ones() {
+fn wrong_models_are_distinguished_from_failing_ones() {
     let model = Model::from_text("spring.toml", SPRING);
     let error = model.session(&[set("analysis.step", 0)]).err().unwrap();
     assert!(matches!(error, lissom::SessionError::Model(_)), "{error}");
@@ -276,8 +276,8 @@ fn a_model_that_names_no_step_chooses_its_own() {
     assert_eq!(even.times, [0.0, 0.25, 0.5, 0.75, 1.0]);
     assert!((end(&even) - end(&fixed)).abs() < 1e-5, "{} {}", end(&even), end(&fixed));
     let wrong = [at("analysis.step", "1e-3"), at("analysis.output_step", "0.25")];
-    let told = model.document(&wrong).unwrap_err().render(false);
-    assert!(told.contains("relative_tolerance"), "{told}");
+    let reported = model.document(&wrong).unwrap_err().render(false);
+    assert!(reported.contains("relative_tolerance"), "{reported}");
 }
 
 #[test]

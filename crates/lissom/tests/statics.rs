@@ -267,7 +267,7 @@ step = 1e-3
 
 /// A shaft that nothing holds against its torque has no equilibrium: no wheel is to blame where there is none.
 #[test]
-fn a_free_shaft_is_told_without_a_word_of_wheels() {
+fn a_free_shaft_is_reported_without_a_word_of_wheels() {
     let text = r#"
 lissom = 1
 [bodies.shaft]

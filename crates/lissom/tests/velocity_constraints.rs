@@ -4,14 +4,14 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::modes::{About, ModeReport, ModeRequest, modes};
+use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::response::{ResponseRequest, response};
 use lissom_core::linear::{Completeness, ModeKind};
 
 const GRAVITY: f64 = 9.81;
 
 fn find(text: &str, count: usize) -> ModeReport {
-    let request = ModeRequest { count: Some(count), about: Some(About::Time(0.0)), shift: None };
+    let request = ModeRequest { count: Some(count), about: Some(OperatingPoint::Time(0.0)), shift: None };
     modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -82,7 +82,7 @@ fn a_ball_on_springs_rolls_to_and_fro() {
 fn a_ball_on_springs_responds_as_a_heavier_mass() {
     let push = "\n[loads.push]\nkind = \"force\"\non = \"ball\"\nvector = [3, 0, 0]\nscale = \"0*t\"";
     let request = ResponseRequest {
-        about: About::Time(0.0),
+        about: OperatingPoint::Time(0.0),
         inputs: vec!["push".to_owned()],
         outputs: vec!["ball.x".to_owned(), "floor.f1".to_owned()],
         from: 0.1,
@@ -194,7 +194,7 @@ fn a_coin_in_a_circle_has_the_frequency_of_eulers_equations() {
 #[test]
 fn modes_of_an_uneven_wheel_are_refused() {
     let text = disc(8.0).replace("\"1.7*0.2^2/4\", \"1.7*0.2^2/2\", \"1.7*0.2^2/4\"", "0.012, 0.03, 0.025");
-    let request = ModeRequest { count: Some(6), about: Some(About::Time(0.0)), shift: None };
+    let request = ModeRequest { count: Some(6), about: Some(OperatingPoint::Time(0.0)), shift: None };
     match modes(&Model::from_text("model.toml", &text), &[], &request) {
         Err(error) => assert!(error.to_string().contains("change"), "{error}"),
         Ok(report) => {

@@ -1,7 +1,7 @@
 //! Wheels on rails: the wheelset of Simeon, Fuehrer and Rentrop 1991 with its published digits, all schemes, stability, and what
 //! is told where the model of one contact ends.
 
-use lissom::modes::{About, ModeReport, ModeRequest, modes};
+use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, SessionError};
 use lissom_core::linear::ModeKind;
 
@@ -185,7 +185,7 @@ fn a_snapshot_in_the_middle_changes_nothing() {
 
 /// Warnings where one contact is no model of a wheel, and refusals of what says nothing.
 #[test]
-fn what_the_model_does_not_know_is_told() {
+fn what_the_model_does_not_know_is_reported() {
     let short = [("analysis.end", "0.02"), ("analysis.step", "1e-3")];
     let narrow = MODEL.replace("head_radius = 0.06", "head_radius = 0.06\ntread = [-1e-3, 1e-3]");
     let (_, warnings) = run(&narrow, &short);
@@ -243,7 +243,7 @@ fn steady(set: &[(&str, &str)]) -> ModeReport {
     let middle = ["x0", "y0", "z0", "yaw", "roll"].map(|name| format!("parameters.{name}"));
     let middle = middle.iter().map(|path| (path.as_str(), "0"));
     let all: Vec<_> = middle.chain(set.iter().copied()).collect();
-    let request = ModeRequest { count: None, about: Some(About::Time(0.0)), shift: None };
+    let request = ModeRequest { count: None, about: Some(OperatingPoint::Time(0.0)), shift: None };
     modes(&Model::from_text("wheelset.toml", MODEL), &given(&all), &request)
         .unwrap_or_else(|error| panic!("{error}"))
 }

@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_links_are_told() {
+    fn wrong_links_are_reported() {
         let docs = root().join("docs");
         let chapter = docs.join("theory/energy-decaying.md");
         let wrong = |target| wrong_link(&docs, &chapter, target).is_some();

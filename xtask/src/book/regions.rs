@@ -102,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_markers_are_told() {
+    fn broken_markers_are_reported() {
         for wrong in [
             "<!-- figures: x -->\n",
             "<!-- end -->\n",

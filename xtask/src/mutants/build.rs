@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn programs_with_tests_and_those_they_start_are_told_apart() {
+    fn programs_with_tests_and_those_they_start_are_distinguished() {
         let artifact = |name: &str, kind: &str, is_test: bool| {
             serde_json::json!({
                 "reason": "compiler-artifact", "executable": format!("/build/{name}"),

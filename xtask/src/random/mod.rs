@@ -87,7 +87,7 @@ pub(crate) fn random(arguments: &RandomArguments) -> std::io::Result<bool> {
     let _ = std::panic::take_hook();
     let mut found = found.into_inner().unwrap_or_default();
     found.sort_by_key(|(index, _)| *index);
-    tell(arguments, &found)?;
+    print_findings(arguments, &found)?;
     let defects = found.iter().filter(|(_, findings)| findings.iter().any(Finding::is_defect)).count();
     println!(
         "{} mechanisms of seed {} in {:.0} s: {defects} with a wrong answer or a panic",
@@ -99,7 +99,7 @@ pub(crate) fn random(arguments: &RandomArguments) -> std::io::Result<bool> {
 }
 
 /// Prints what was found, keeps the models, and counts.
-fn tell(arguments: &RandomArguments, found: &[(u64, Vec<Finding>)]) -> std::io::Result<()> {
+fn print_findings(arguments: &RandomArguments, found: &[(u64, Vec<Finding>)]) -> std::io::Result<()> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut reasons: BTreeMap<String, (usize, u64)> = BTreeMap::new();
     for (index, findings) in found {
@@ -120,8 +120,8 @@ fn tell(arguments: &RandomArguments, found: &[(u64, Vec<Finding>)]) -> std::io::
                 }
                 std::fs::create_dir_all(&arguments.keep)?;
                 let path = arguments.keep.join(format!("{}-{index}.toml", arguments.seed));
-                let told = finding.words().replace('\n', " ");
-                std::fs::write(&path, format!("# {}: {told}\n{}", finding.word(), model.text()))?;
+                let words = finding.words().replace('\n', " ");
+                std::fs::write(&path, format!("# {}: {words}\n{}", finding.word(), model.text()))?;
                 println!("    kept as {}", path.display());
             }
         }
@@ -174,7 +174,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_seed_tells_the_mechanism() {
+    fn a_seed_determines_the_mechanism() {
         assert_eq!(mechanism(3, 5).text(), mechanism(3, 5).text());
         assert_ne!(mechanism(3, 5).text(), mechanism(3, 6).text());
         assert_ne!(mechanism(3, 5).text(), mechanism(4, 5).text());

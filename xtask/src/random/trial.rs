@@ -274,9 +274,9 @@ pub(super) fn trial(mechanism: &Mechanism) -> Vec<Finding> {
     match difference(&quarter.record, &chosen.record) {
         Some((gap, _)) if gap <= TRUSTED * scale => {}
         Some((gap, place)) => {
-            let told = [quarter, chosen].iter().any(|ran| !ran.warnings.is_empty());
+            let reported = [quarter, chosen].iter().any(|ran| !ran.warnings.is_empty());
             let words =
-                format!("{:.1e} of the way between the references, {place}, warned: {told}", gap / scale);
+                format!("{:.1e} of the way between the references, {place}, warned: {reported}", gap / scale);
             findings.push(Finding::Sensitive(words));
             return findings;
         }

@@ -14,10 +14,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::corrections::{Processor, processor, product};
-use crate::numbers::{Number, Numbers};
+use crate::tuning::{Tuning, TuningParameter};
 
 /// Most secants in use.
-const MOST: usize = 5;
+const MAX_SECANTS: usize = 5;
 
 /// The last corrections, of all stages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,11 +25,11 @@ pub(crate) struct Anderson {
     /// Weights of the coordinates.
     sizes: Vec<f64>,
     /// Δ, weighted, by stage and coordinate.
-    changes: [Vec<f64>; MOST],
+    changes: [Vec<f64>; MAX_SECANTS],
     /// P, by stage and row.
-    departures: [Vec<f64>; MOST],
+    departures: [Vec<f64>; MAX_SECANTS],
     /// Products of the changes.
-    products: [[f64; MOST]; MOST],
+    products: [[f64; MAX_SECANTS]; MAX_SECANTS],
     /// Most secants in use: fewer than there are directions.
     most: usize,
     /// Secants known, and where the next one goes.
@@ -54,8 +54,8 @@ impl Anderson {
             sizes: sizes.to_vec(),
             changes: std::array::from_fn(|_| vec![0.0; coordinates]),
             departures: std::array::from_fn(|_| vec![0.0; rows]),
-            products: [[0.0; MOST]; MOST],
-            most: MOST.min(2 + sizes.len() / 4),
+            products: [[0.0; MAX_SECANTS]; MAX_SECANTS],
+            most: MAX_SECANTS.min(2 + sizes.len() / 4),
             known: 0,
             next: 0,
             goes_on: false,
@@ -86,20 +86,20 @@ impl Anderson {
     }
 
     /// Improves the corrections of all stages.
-    pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>], numbers: &Numbers) {
-        self.processor.0.dispatch(Improve { secants: self, corrections, numbers });
+    pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>], tuning: &Tuning) {
+        self.processor.0.dispatch(Improve { secants: self, corrections, tuning });
     }
 
     #[inline(always)]
-    fn run(&mut self, corrections: &mut [Vec<f64>], numbers: &Numbers) {
+    fn run(&mut self, corrections: &mut [Vec<f64>], tuning: &Tuning) {
         let rows = corrections[0].len();
         self.weigh(corrections);
         if self.goes_on {
-            self.note(corrections, numbers.of(Number::SecantCredible));
+            self.note(corrections, tuning.of(TuningParameter::SecantCredible));
         }
         self.goes_on = true;
         std::mem::swap(&mut self.last_weighted, &mut self.weighted);
-        self.take(&self.shares(numbers));
+        self.take(&self.shares(tuning));
         for (corrections, taken) in corrections.iter_mut().zip(self.taken.chunks(rows)) {
             for (value, taken) in corrections.iter_mut().zip(taken) {
                 *value -= taken;
@@ -109,7 +109,7 @@ impl Anderson {
 
     /// Σ γ P.
     #[inline(always)]
-    fn take(&mut self, shares: &[f64; MOST]) {
+    fn take(&mut self, shares: &[f64; MAX_SECANTS]) {
         let mut is_first = true;
         for (departures, &share) in self.departures.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
             if std::mem::take(&mut is_first) {
@@ -177,15 +177,16 @@ impl Anderson {
 
     /// γ by slot: least squares through a factorisation L D Lᵀ of the products, newest first.
     #[inline(always)]
-    fn shares(&self, numbers: &Numbers) -> [f64; MOST] {
-        let mut shares = [0.0; MOST];
+    fn shares(&self, tuning: &Tuning) -> [f64; MAX_SECANTS] {
+        let mut shares = [0.0; MAX_SECANTS];
         // L D, 1/D, and L⁻¹ of the right-hand side.
-        let mut lower = [[0.0; MOST]; MOST];
-        let mut inverse = [0.0; MOST];
-        let mut forward = [0.0; MOST];
-        let mut slots = [0; MOST];
+        let mut lower = [[0.0; MAX_SECANTS]; MAX_SECANTS];
+        let mut inverse = [0.0; MAX_SECANTS];
+        let mut forward = [0.0; MAX_SECANTS];
+        let mut slots = [0; MAX_SECANTS];
         let mut used = 0;
-        let (reach, independent) = (numbers.of(Number::SecantReach), numbers.of(Number::SecantIndependence));
+        let (reach, independent) =
+            (tuning.of(TuningParameter::SecantReach), tuning.of(TuningParameter::SecantIndependence));
         let smallest = product(&self.last_weighted, &self.last_weighted) / (reach * reach);
         for back in 1..=self.known {
             let slot = (self.next + self.most - back) % self.most;
@@ -193,7 +194,7 @@ impl Anderson {
             if own < smallest {
                 continue;
             }
-            let mut row = [0.0; MOST];
+            let mut row = [0.0; MAX_SECANTS];
             let (mut pivot, mut value) = (own, product(&self.changes[slot], &self.last_weighted));
             for k in 0..used {
                 let mut sum = self.products[slot][slots[k]];
@@ -216,14 +217,14 @@ impl Anderson {
             let sum: f64 = (k + 1..used).map(|j| lower[j][k] * shares[slots[j]]).sum();
             shares[slots[k]] = (forward[k] - sum) * inverse[k];
         }
-        if shares.iter().all(|share| share.is_finite()) { shares } else { [0.0; MOST] }
+        if shares.iter().all(|share| share.is_finite()) { shares } else { [0.0; MAX_SECANTS] }
     }
 }
 
 struct Improve<'a> {
     secants: &'a mut Anderson,
     corrections: &'a mut [Vec<f64>],
-    numbers: &'a Numbers,
+    tuning: &'a Tuning,
 }
 
 impl pulp::WithSimd for Improve<'_> {
@@ -231,7 +232,7 @@ impl pulp::WithSimd for Improve<'_> {
 
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
-        self.secants.run(self.corrections, self.numbers);
+        self.secants.run(self.corrections, self.tuning);
     }
 }
 
@@ -264,7 +265,7 @@ mod tests {
                     correction.push(1.0);
                     let mut stages = [correction];
                     if improves {
-                        secants.improve(&mut stages, &Numbers::default());
+                        secants.improve(&mut stages, &Tuning::default());
                     }
                     for (x, correction) in x.iter_mut().zip(&stages[0]) {
                         *x -= correction;
@@ -291,7 +292,7 @@ mod tests {
         let mut secants = Anderson::new(1, 2, &[1.0, 1.0]);
         for (first, second) in [(1.0, 2.0), (0.0, 0.0), (3.0, 1.0)] {
             let mut stages = [vec![first, second]];
-            secants.improve(&mut stages, &Numbers::default());
+            secants.improve(&mut stages, &Tuning::default());
             assert_eq!(stages[0], [first, second]);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::simulation::Simulation;
 use super::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE, StepError};
-use crate::judge::{LARGEST_TURN, held};
+use crate::judge::{MAX_TURN, degenerate_joint};
 
 impl Simulation {
     /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
@@ -18,8 +18,10 @@ impl Simulation {
         if let Some((node, angle)) = self.turns_in_a_part() {
             return StepError::TurnsTooFar { time, node, angle };
         }
-        if let Some(found) = held::lost(&self.system, &self.origin, at, self.representative.length) {
-            let held::LostHold { joint, kind, equation, angle } = found;
+        if let Some(found) =
+            degenerate_joint::rank_loss(&self.system, &self.origin, at, self.representative.length)
+        {
+            let degenerate_joint::RankLoss { joint, kind, equation, angle } = found;
             return StepError::JointLosesHold { time, joint, kind, equation, angle: angle.to_degrees() };
         }
         if let Some((joints, beside)) = self.singular.closest(&self.system, at) {
@@ -68,17 +70,17 @@ impl Simulation {
         let fastest = nodes.max_by(|&a, &b| turning(a).total_cmp(&turning(b)))?;
         let angle = turning(fastest) * self.scaled.step_size();
         let name = || self.system.layout().name_of_node(fastest).to_owned();
-        (angle > LARGEST_TURN).then(|| (name(), angle))
+        (angle > MAX_TURN).then(|| (name(), angle))
     }
 }
 
 /// Of the failures of a step and of its parts the more specific one: the first, unless it states only that numbers did not
 /// converge and a later one states why.
-pub(crate) fn telling(first: Option<StepError>, later: StepError) -> StepError {
-    let tells_little =
+pub(crate) fn more_specific(first: Option<StepError>, later: StepError) -> StepError {
+    let is_generic =
         |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });
     match first {
-        Some(first) if !tells_little(&first) || tells_little(&later) => first,
+        Some(first) if !is_generic(&first) || is_generic(&later) => first,
         _ => later,
     }
 }

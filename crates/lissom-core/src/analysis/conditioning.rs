@@ -13,7 +13,7 @@ use crate::schemes::StageSystem;
 use crate::system::{Sum, TangentAssembler};
 
 /// Tangents with at most so many real unknowns are measured truly; a complex unknown counts twice.
-pub const MOST_MEASURED: usize = 120;
+pub const MAX_MEASURED: usize = 120;
 
 /// How a condition number was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +78,7 @@ impl TangentValues {
             Self::Real(_) => structure.pattern.size(),
             Self::Complex(_) => 2 * structure.pattern.size(),
         };
-        if real_size > MOST_MEASURED {
+        if real_size > MAX_MEASURED {
             return self.condition_estimate(structure);
         }
         let value = match self {

@@ -13,13 +13,13 @@
 //! a light node would make a force in the damper beside it.
 
 use super::dynamics::pivoting_unless;
-use super::initial::Initial;
+use super::initial_conditions::ConsistentInitialConditions;
 use super::simulation::Simulation;
 use crate::system::{State, System};
 
 /// Makes states of driven motions consistent, for what is recorded. The motion itself does not change.
 pub struct ConsistentRates {
-    initial: Initial,
+    initial: ConsistentInitialConditions,
 }
 
 impl ConsistentRates {
@@ -28,14 +28,19 @@ impl ConsistentRates {
     pub fn of(simulation: &Simulation) -> Option<Self> {
         let (system, settings) = (simulation.system(), simulation.settings());
         // Accelerations M⁻¹ f of light nodes of stiff beams would multiply what Newton's method leaves; their vibrations make steps short.
-        let is_rigid = system.least_aligned(&simulation.state().kinematics).is_none();
+        let is_rigid = system.max_relative_rotation(&simulation.state().kinematics).is_none();
         let may_be_driven = system.may_have_driven_constraint();
         // With steps of a size that was given, all schemes but Radau IIA have forces of constraints of second order.
         let is_radau = settings.scheme.tableau.is_none() && settings.scheme.stages.len() > 1;
         let is_coarse = settings.control.is_some() || is_radau;
         let new = || {
             let solver = pivoting_unless(settings);
-            Initial::repeated(system, simulation.state(), simulation.representative(), solver)
+            ConsistentInitialConditions::repeated(
+                system,
+                simulation.state(),
+                simulation.representative(),
+                solver,
+            )
         };
         (settings.scheme.dynamic && may_be_driven && is_rigid && is_coarse).then(|| Self { initial: new() })
     }
@@ -46,9 +51,9 @@ impl ConsistentRates {
         if !is_driven(system, state, step) {
             return None;
         }
-        let mut told = state.clone();
-        self.initial.rates(system, &mut told, step).ok()?;
-        Some(told)
+        let mut consistent = state.clone();
+        self.initial.rates(system, &mut consistent, step).ok()?;
+        Some(consistent)
     }
 }
 

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use lissom_solver::{FactorError, SolverKind};
 
 use super::accumulated::Accumulation;
-use super::compliance::Compliance;
 use super::equations::StepEquations;
 use super::equilibrium;
 use super::held_values::settle;
-use super::initial::{Initial, InitialError};
+use super::initial_conditions::{ConsistentInitialConditions, InitialError};
 use super::phase::{Stopwatch, Unwatched};
 use super::projection::Projection;
+use super::regularization::Regularization;
 use super::settings::Settings;
 use super::simulation::{Simulation, warn};
 use super::step_error::{StepError, describe};
@@ -20,19 +20,20 @@ use super::totals::{StepReport, Totals};
 use super::workspace::Workspace;
 use crate::judge::rates::ConstraintRates;
 use crate::judge::singular::SingularPositions;
-use crate::judge::{self, Judge, Ledger, Warning};
+use crate::judge::{self, EnergyBalance, Judge, Warning};
 use crate::kinematics::{Kinematics, MotionChange};
-use crate::newton::{self, Equations, Failure, Memory, Outcome};
+use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::StageSystem;
-use crate::stepping::kinks;
+use crate::stepping::breakpoints;
 use crate::stepping::{
-    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, TimeFunctions, Watch,
+    Controller, EventDetector, Impacts, IntegratorHistory, LoadControl, Resolution, StepBisection,
+    TimeFunctions,
 };
 use crate::system::{State, System, Threads};
 
 /// Where round-off keeps such a scheme from that, a last correction below this is a solution all the same: what it does
-/// to the energy is seen by the ledger.
+/// to the energy is seen by the energy balance.
 const SUFFICIENT: f64 = 1e-9;
 
 /// Part of the work of a load step that must be missing for it to be reported as a jump: a path of equilibria that the
@@ -90,11 +91,11 @@ impl Simulation {
         let equilibrated = settings.scaling.equilibrates();
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
-        (work.without, work.numbers) = (settings.limits.without, settings.limits.numbers);
+        (work.disabled, work.tuning) = (settings.limits.disabled, settings.limits.tuning);
         work.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.factorization.set_threads(settings.threads);
         let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
-        work.yielding = yielding(&system, &singular);
+        work.regularization = regularization(&system, &singular);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         let projection = settings
             .scheme
@@ -102,22 +103,22 @@ impl Simulation {
             .filter(|tableau| !tableau.is_stiffly_accurate() && layout_has_constraints(&system))
             .map(|tableau| Projection::new(&system, &state, &representative, settings.solver, tableau));
         let remembers = settings.scheme.dynamic && settings.scheme.stages.len() == 1;
-        let method_memory = remembers.then(|| {
+        let integrator_history = remembers.then(|| {
             let solver = pivoting_unless(&settings);
-            MethodMemory::new(&system, &state, &representative, solver, settings.step_size)
+            IntegratorHistory::new(&system, &state, &representative, solver, settings.step_size)
         });
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
-        let ledger = Ledger::new(&system, &state.kinematics, &representative, interval);
+        let energy_balance = EnergyBalance::new(&system, &state.kinematics, &representative, interval);
         let is_chosen = settings.control.is_some();
         let controller = (is_chosen && settings.scheme.dynamic).then(|| Controller::new(settings.step_size));
         let load_control =
             (is_chosen && !settings.scheme.dynamic).then(|| LoadControl::new(settings.step_size));
         let is_bound = is_chosen || settings.scheme.dynamic;
-        let kinks = if is_bound { kinks::of(&system, settings.step_size) } else { Vec::new() };
-        let watch = watch(&system, &state, &settings);
-        watch.hold_sides(&system, &mut state.kinematics);
+        let breakpoints = if is_bound { breakpoints::of(&system, settings.step_size) } else { Vec::new() };
+        let event_detector = event_detector(&system, &state, &settings);
+        event_detector.freeze_switches(&system, &mut state.kinematics);
         let is_planned = settings.scheme.dynamic && controller.is_none();
         Ok(Self {
             released,
@@ -136,23 +137,23 @@ impl Simulation {
             work: Box::new(work),
             projection,
             held_values,
-            memory: Memory::default(),
-            method_memory,
-            parts: Parts::whole(),
-            kinks,
+            jacobian_state: JacobianState::default(),
+            integrator_history,
+            step_bisection: StepBisection::whole(),
+            breakpoints,
             controller,
             load_control,
             farthest: 0.0,
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             velocity_correction,
-            ledger,
-            next_ledger: ledger,
+            energy_balance,
+            next_energy_balance: energy_balance,
             next_violation: 0.0,
             warnings,
             singular,
             stable_at: None,
             stability: Vec::new(),
-            watch,
+            event_detector,
             accumulation: Accumulation::default(),
             is_last_step_known: false,
             may_relax: true,
@@ -182,14 +183,15 @@ impl Simulation {
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
     pub(super) fn factored_condition(&mut self) -> Option<f64> {
         let pattern = &self.system.structure().pattern;
-        let value = self.memory.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
+        let value =
+            self.jacobian_state.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
     }
 
     /// Solves the equations of a step of the present size from the state, and leaves what it comes to in `next`.
     pub(crate) fn solve_step(&mut self, watch: &mut dyn Stopwatch) -> Result<Outcome, StepError> {
         let work = &mut *self.work;
-        self.scaled.enter(self.system.layout(), &self.settings.scheme, &self.state, &mut work.unit);
+        self.scaled.to_unit_step(self.system.layout(), &self.settings.scheme, &self.state, &mut work.unit);
         self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
         work.extrapolates = self.settings.scheme.dynamic;
         let mut equations = StepEquations {
@@ -209,10 +211,11 @@ impl Simulation {
             }
             other => other,
         };
-        let result = sufficient(newton::solve(&mut equations, &self.settings.limits, &mut self.memory));
+        let result =
+            sufficient(newton::solve(&mut equations, &self.settings.limits, &mut self.jacobian_state));
         self.scaled = equations.scaled;
         let outcome = result.map_err(|failure| {
-            self.memory = Memory::default();
+            self.jacobian_state = JacobianState::default();
             if matches!(failure, Failure::NotFinite { .. } | Failure::Factor(FactorError::NotFinite { .. }))
                 && let Some(error) = equations.signal_error()
             {
@@ -254,7 +257,12 @@ impl Simulation {
         self.next.multipliers.copy_from_slice(&work.multipliers[last]);
         self.next.kinematics.show_multipliers(&self.next.multipliers);
         let memory = &mut self.next.algorithmic;
-        self.scaled.leave(&self.settings.scheme.algorithmic, &work.unit, &work.increments, memory);
+        self.scaled.memory_from_unit_step(
+            &self.settings.scheme.algorithmic,
+            &work.unit,
+            &work.increments,
+            memory,
+        );
         compensate(&self.state, &end.changes, &mut self.next);
         if let Some(projection) = &mut self.projection {
             projection
@@ -281,19 +289,19 @@ impl Simulation {
 
     /// Judges what the last attempt came to.
     pub(crate) fn judge_step(&mut self) -> Result<(), StepError> {
-        (self.next_ledger, self.next_violation) =
-            self.judge().examine(&self.state, &self.next, &self.ledger)?;
+        (self.next_energy_balance, self.next_violation) =
+            self.judge().examine(&self.state, &self.next, &self.energy_balance)?;
         Ok(())
     }
 
     /// Takes note of reasons to doubt the step that is being accepted.
-    fn note_doubts(&mut self) {
-        judge::contact::tell(&self.system, &self.next, &mut self.warnings);
-        judge::linear_range::tell(&self.system, &self.next, &mut self.warnings);
-        if let Some(warning) = self.judge().yielding(&self.next, self.next_violation) {
+    fn collect_warnings(&mut self) {
+        judge::contact::check(&self.system, &self.next, &mut self.warnings);
+        judge::linear_range::check(&self.system, &self.next, &mut self.warnings);
+        if let Some(warning) = self.judge().regularized(&self.next, self.next_violation) {
             warn(&mut self.warnings, warning);
         }
-        let (before, after) = (&self.ledger, &self.next_ledger);
+        let (before, after) = (&self.energy_balance, &self.next_energy_balance);
         let time = self.next.kinematics.time;
         if self.settings.scheme.dynamic {
             let step = (&self.state.kinematics, &self.next.kinematics);
@@ -337,16 +345,16 @@ impl Simulation {
 
     /// Makes what the last attempt came to the state.
     pub(crate) fn accept_step(&mut self) {
-        self.note_doubts();
+        self.collect_warnings();
         self.accumulate_step();
-        self.ledger = self.next_ledger;
+        self.energy_balance = self.next_energy_balance;
         let work = &mut *self.work;
         if self.settings.scheme.dynamic {
             work.learn(&self.settings.scheme, &self.state.multipliers);
         }
         std::mem::swap(&mut self.previous, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.next);
-        if let Some(memory) = &mut self.method_memory {
+        if let Some(memory) = &mut self.integrator_history {
             memory.renew(self.scaled.step_size());
         }
         self.note_singular_positions();
@@ -358,7 +366,7 @@ impl Simulation {
         totals.steps += report.parts;
         totals.stagnated_steps += usize::from(report.stagnated);
         totals.fell_back_at = self.work.fell_back.map(|(unknown, _)| unknown);
-        totals.yielded_at = self.work.yielding.as_ref().map(|(_, unknown)| *unknown);
+        totals.regularized_at = self.work.regularization.as_ref().map(|(_, unknown)| *unknown);
         if let Some(factor) = self.work.report.as_ref() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }
@@ -369,11 +377,11 @@ impl Simulation {
 }
 
 /// Motions watch events; where steps are chosen, also switches of forces.
-fn watch(system: &System, state: &State, settings: &Settings) -> Watch {
+fn event_detector(system: &System, state: &State, settings: &Settings) -> EventDetector {
     if settings.scheme.dynamic {
-        Watch::new(system, state, settings.control.is_some())
+        EventDetector::new(system, state, settings.control.is_some())
     } else {
-        Watch::of_nothing(state)
+        EventDetector::of_nothing(state)
     }
 }
 
@@ -416,10 +424,10 @@ fn compensate(start: &State, changes: &[MotionChange], next: &mut State) {
 }
 
 /// What lets constraints yield that repeat each other from the start, with the first unknown that does.
-fn yielding(system: &System, singular: &SingularPositions) -> Option<(Compliance, usize)> {
+fn regularization(system: &System, singular: &SingularPositions) -> Option<(Regularization, usize)> {
     let multiplier = singular.first_repeating()?;
     let count = system.layout().coordinate_count();
-    Some((Compliance::new(&system.structure().pattern, count), count + multiplier))
+    Some((Regularization::new(&system.structure().pattern, count), count + multiplier))
 }
 
 /// Makes velocities, accelerations and multipliers of a motion's start consistent. Gives the largest change of a velocity, and what finds
@@ -430,15 +438,16 @@ fn begin_motion(
     representative: &Representative,
     settings: &Settings,
     warnings: &mut Vec<Warning>,
-) -> Result<(f64, Option<Initial>), InitialError> {
-    let mut initial = Initial::new(system, state, representative, pivoting_unless(settings));
+) -> Result<(f64, Option<ConsistentInitialConditions>), InitialError> {
+    let mut initial =
+        ConsistentInitialConditions::new(system, state, representative, pivoting_unless(settings));
     let given = state.kinematics.clone();
     let velocity_correction = initial.given_velocities(system, state)?;
     let rates = initial.constraint_rates(system, state);
     // Beside given velocities of which nothing remains, what remains is round-off of theirs.
-    let [told, used] = [&given, &state.kinematics].map(|at| representative.largest_speed(system, at));
+    let [specified, used] = [&given, &state.kinematics].map(|at| representative.largest_speed(system, at));
     let negligible = judge::start::negligible(representative, settings.step_size);
-    judge::start::rates(system, representative, (&rates, told.max(used), negligible))?;
+    judge::start::rates(system, representative, (&rates, specified.max(used), negligible))?;
     warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
     settle(system, state, &mut initial, settings)?;
     let held_values = may_jump(system, state).then_some(initial);
@@ -448,7 +457,7 @@ fn begin_motion(
 /// Whether accelerations may jump: with values that are held, and where functions of time do.
 fn may_jump(system: &System, state: &State) -> bool {
     let changes = system.functions.iter().any(|(_, function)| !function.is_constant());
-    changes || !state.kinematics.held.is_empty() || !system.kinks().is_empty()
+    changes || !state.kinematics.held.is_empty() || !system.breakpoints().is_empty()
 }
 
 fn layout_has_constraints(system: &System) -> bool {

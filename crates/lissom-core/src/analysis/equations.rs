@@ -3,21 +3,21 @@
 use lissom_motion::Vector6;
 use lissom_solver::FactorError;
 
-use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
+use super::regularization::Regularization;
 use super::workspace::Workspace;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::StepStages;
 use crate::kinematics::{Kinematics, LOCKED, Quantity};
-use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
-use crate::numbers::Number;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Stage, Tableau};
+use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
+use crate::tuning::TuningParameter;
 
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
@@ -44,7 +44,7 @@ impl StepEquations<'_> {
             work.unit.predict(&stage.prediction, &mut work.increments[i]);
             work.multipliers[i].copy_from_slice(&self.start.multipliers);
         }
-        if extrapolates && work.without.has(Mechanism::Prediction) {
+        if extrapolates && work.disabled.allows(SolverFeature::Prediction) {
             let [of_increments, of_multipliers] = &work.predictors;
             of_increments.improve(&mut work.increments);
             of_multipliers.improve(&mut work.multipliers);
@@ -202,8 +202,8 @@ impl StepEquations<'_> {
 
     /// Whether the iterate is far from equilibrium.
     pub(super) fn is_far(&self) -> bool {
-        self.work.correction > self.work.numbers.of(Number::Far)
-            && self.work.without.has(Mechanism::StartStresses)
+        self.work.correction > self.work.tuning.of(TuningParameter::Far)
+            && self.work.disabled.allows(SolverFeature::StartStresses)
     }
 
     /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
@@ -229,7 +229,7 @@ impl StepEquations<'_> {
         if !places.size.is_finite() {
             return places;
         }
-        let largest = self.work.numbers.of(Number::LargestCorrection);
+        let largest = self.work.tuning.of(TuningParameter::MaxCorrection);
         if places.size > largest {
             self.work.anderson.interrupt();
             let cut = largest / places.size;
@@ -310,7 +310,7 @@ impl StepEquations<'_> {
         if layout.state_count() == 0 {
             return places;
         }
-        let least = self.work.numbers.of(Number::LeastDeparture);
+        let least = self.work.tuning.of(TuningParameter::MinDeparture);
         let reference = places.reference.max(least);
         let mut size = places.size;
         for (row, coordinate, magnitude) in layout.states() {
@@ -387,7 +387,7 @@ impl StepEquations<'_> {
         });
         let mut worst = (0, -1.0);
         // States are measured apart, as in `with_states`.
-        let least = self.work.numbers.of(Number::LeastDeparture);
+        let least = self.work.tuning.of(TuningParameter::MinDeparture);
         let states: Vec<(usize, f64)> = layout
             .states()
             .map(|(row, coordinate, magnitude)| {
@@ -423,10 +423,10 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Rest);
         let layout = self.system.layout();
         let work = &mut *self.work;
-        if let Some((compliance, _)) = &work.yielding {
+        if let Some((regularization, _)) = &work.regularization {
             let factor = self.scaled.multiplier_factor() * self.scaled.scale();
             for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
-                compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
+                regularization.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
             }
         }
         for values in &mut work.residuals {
@@ -441,8 +441,8 @@ impl Equations for StepEquations<'_> {
                 work.processor.dispatch(Multiply { values, factors });
             }
         }
-        if work.without.has(Mechanism::Secants) {
-            work.anderson.improve(&mut work.residuals, &work.numbers);
+        if work.disabled.allows(SolverFeature::Secants) {
+            work.anderson.improve(&mut work.residuals, &work.tuning);
         }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
@@ -465,17 +465,17 @@ impl Equations for StepEquations<'_> {
         if let Some(equilibration) = &mut work.equilibration {
             work.factorization.equilibrate(pattern, equilibration);
         }
-        if let Some((compliance, _)) = &mut work.yielding {
-            work.factorization.relax(compliance, scale, work.equilibration.as_ref());
+        if let Some((regularization, _)) = &mut work.regularization {
+            work.factorization.relax(regularization, scale, work.equilibration.as_ref());
         }
         let mut result = work.factorization.factor();
         if let Err(FactorError::ZeroPivot { unknown, .. }) = result
             && unknown >= layout.coordinate_count()
-            && work.yielding.is_none()
+            && work.regularization.is_none()
         {
-            let mut compliance = Compliance::new(pattern, layout.coordinate_count());
-            work.factorization.relax(&mut compliance, scale, work.equilibration.as_ref());
-            work.yielding = Some((compliance, unknown));
+            let mut regularization = Regularization::new(pattern, layout.coordinate_count());
+            work.factorization.relax(&mut regularization, scale, work.equilibration.as_ref());
+            work.regularization = Some((regularization, unknown));
             result = work.factorization.factor();
         }
         if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result

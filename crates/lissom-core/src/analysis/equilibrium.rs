@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lissom_solver::SolverKind;
 
-use super::initial::InitialError;
+use super::initial_conditions::InitialError;
 use super::relaxation::{may_help, relax};
 use super::settings::Settings;
 use super::simulation::Simulation;

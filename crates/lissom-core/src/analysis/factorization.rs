@@ -8,7 +8,7 @@ use lissom_solver::{
 };
 use num_complex::Complex64;
 
-use super::compliance::Compliance;
+use super::regularization::Regularization;
 use super::tangent_numbers::TangentNumbers;
 use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
@@ -209,14 +209,14 @@ impl Factorization {
     /// Adds the compliance of redundant constraints, after equilibration.
     pub(crate) fn relax(
         &mut self,
-        compliance: &mut Compliance,
+        regularization: &mut Regularization,
         scale: f64,
         equilibration: Option<&Equilibration>,
     ) {
         for system in &mut self.systems {
             match system {
-                FactoredSystem::Real(own) => compliance.enter(scale, equilibration, &mut own.values),
-                FactoredSystem::Complex(own) => compliance.enter(scale, equilibration, &mut own.values),
+                FactoredSystem::Real(own) => regularization.enter(scale, equilibration, &mut own.values),
+                FactoredSystem::Complex(own) => regularization.enter(scale, equilibration, &mut own.values),
             }
         }
     }

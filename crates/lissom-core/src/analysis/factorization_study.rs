@@ -107,7 +107,7 @@ fn examine(
     let equilibrated = choice.equilibrates();
     let mut work = Workspace::new(system, state, &settings.scheme, representative, kind, equilibrated);
     let scaled = Scaled::new(choice, representative, settings.step_size);
-    scaled.enter(layout, &settings.scheme, state, &mut work.unit);
+    scaled.to_unit_step(layout, &settings.scheme, state, &mut work.unit);
     system.begin_step(&state.kinematics, &mut work.joint_starts);
     let mut equations = StepEquations {
         system,

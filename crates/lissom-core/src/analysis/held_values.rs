@@ -3,7 +3,7 @@
 //! Forces jump with them, and accelerations by M⁻¹ ΔF. What a scheme remembers of accelerations jumps as well, or it
 //! would see the change late by a part of a step: an error of first order in every velocity.
 
-use super::initial::{Initial, InitialError};
+use super::initial_conditions::{ConsistentInitialConditions, InitialError};
 use super::settings::Settings;
 use super::simulation::Simulation;
 use crate::elements::latch::holds;
@@ -47,7 +47,7 @@ fn list(names: &[String]) -> String {
 pub(super) fn settle(
     system: &System,
     state: &mut State,
-    initial: &mut Initial,
+    initial: &mut ConsistentInitialConditions,
     settings: &Settings,
 ) -> Result<(), InitialError> {
     system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
@@ -89,7 +89,7 @@ impl Simulation {
         if let Some(initial) = &mut self.held_values {
             if engages {
                 initial.velocities(&self.system, &mut state)?;
-                self.ledger.strike(&self.system, &self.state.kinematics, &state.kinematics);
+                self.energy_balance.record_impact(&self.system, &self.state.kinematics, &state.kinematics);
             }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }
@@ -120,7 +120,7 @@ impl Simulation {
         if self.switches_latch(&at) {
             // The tangent of the equation that the latch had would solve the one it has to the tolerance alone, and leave that
             // much of a force where there is none.
-            self.memory.has_tangent = false;
+            self.jacobian_state.has_tangent = false;
         }
         let Some(initial) = &mut self.held_values else {
             self.state.kinematics = at;
@@ -134,7 +134,7 @@ impl Simulation {
                 self.state = kept;
                 return Err(error);
             }
-            self.ledger.strike(&self.system, &kept.kinematics, &self.state.kinematics);
+            self.energy_balance.record_impact(&self.system, &kept.kinematics, &self.state.kinematics);
         }
         let mut jump = match initial.acceleration_at(&self.system, &self.state) {
             Ok(after) => after,

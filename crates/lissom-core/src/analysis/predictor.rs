@@ -14,10 +14,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::corrections::{Processor, SIDE_BY_SIDE, sum};
-use crate::numbers::{Number, Numbers};
+use crate::tuning::{Tuning, TuningParameter};
 
 /// Steps that are looked back at most, K.
-const MOST: usize = 8;
+const MAX_STEPS: usize = 8;
 /// What depends on later steps but for this part is round-off.
 const DEPENDENT: f64 = 1e-13;
 
@@ -29,17 +29,17 @@ pub(crate) struct Predictor {
     /// Squared weight of each number's error, zero beyond the last number of a stage.
     weights: Vec<Block>,
     /// What was missed at the last steps, each at its place in turn.
-    missed: Vec<[Block; MOST]>,
+    missed: Vec<[Block; MAX_STEPS]>,
     /// Where the oldest stands, and the next one goes.
     oldest: usize,
     /// Products of what was missed so many steps ago and so many.
-    products: [[f64; MOST]; MOST],
+    products: [[f64; MAX_STEPS]; MAX_STEPS],
     /// Left-hand and right-hand sides of the normal equations.
-    matrix: [[f64; MOST]; MOST],
-    vector: [f64; MOST],
+    matrix: [[f64; MAX_STEPS]; MAX_STEPS],
+    vector: [f64; MAX_STEPS],
     /// c, by steps ago, and by place.
-    coefficients: [f64; MOST],
-    shares: [f64; MOST],
+    coefficients: [f64; MAX_STEPS],
+    shares: [f64; MAX_STEPS],
     /// Lengths of the last two steps, in lengths of the next.
     lengths: [f64; 2],
     /// Whether these coefficients have served a step: they serve two.
@@ -58,25 +58,26 @@ impl Predictor {
         let of_stage: Vec<Block> = (0..blocks).map(|block| numbers(&squares, block)).collect();
         Self {
             weights: of_stage.repeat(stages),
-            missed: vec![[[0.0; SIDE_BY_SIDE]; MOST]; stages * blocks],
+            missed: vec![[[0.0; SIDE_BY_SIDE]; MAX_STEPS]; stages * blocks],
             oldest: 0,
-            products: [[0.0; MOST]; MOST],
-            matrix: [[0.0; MOST]; MOST],
-            vector: [0.0; MOST],
-            coefficients: [0.0; MOST],
-            shares: [0.0; MOST],
+            products: [[0.0; MAX_STEPS]; MAX_STEPS],
+            matrix: [[0.0; MAX_STEPS]; MAX_STEPS],
+            vector: [0.0; MAX_STEPS],
+            coefficients: [0.0; MAX_STEPS],
+            shares: [0.0; MAX_STEPS],
             lengths: [1.0; 2],
             is_used: true,
-            most: MOST.min(2 + 2 * stages * weights.len()),
+            most: MAX_STEPS.min(2 + 2 * stages * weights.len()),
             processor: Processor::default(),
         }
     }
 
     /// Forgets everything: the step size changes, or the motion is interrupted.
     pub(crate) fn forget(&mut self) {
-        self.missed.fill([[0.0; SIDE_BY_SIDE]; MOST]);
-        (self.products, self.matrix) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
-        (self.vector, self.coefficients, self.shares) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
+        self.missed.fill([[0.0; SIDE_BY_SIDE]; MAX_STEPS]);
+        (self.products, self.matrix) = ([[0.0; MAX_STEPS]; MAX_STEPS], [[0.0; MAX_STEPS]; MAX_STEPS]);
+        (self.vector, self.coefficients, self.shares) =
+            ([0.0; MAX_STEPS], [0.0; MAX_STEPS], [0.0; MAX_STEPS]);
         self.is_used = true;
     }
 
@@ -91,16 +92,18 @@ impl Predictor {
     /// ```
     pub(crate) fn rescale(&mut self, ratio: f64, order: i32) {
         self.lengths.iter_mut().for_each(|length| *length /= ratio);
-        let was_credible = self.shares.iter().any(|share| *share != 0.0) || self.coefficients == [0.0; MOST];
+        let was_credible =
+            self.shares.iter().any(|share| *share != 0.0) || self.coefficients == [0.0; MAX_STEPS];
         let [last, before] = [self.place(0), self.place(1)];
         let factor = ratio.powi(order);
         for missed in &mut self.missed {
             let kept = [missed[last], missed[before]].map(|block| block.map(|value| factor * value));
-            *missed = [[0.0; SIDE_BY_SIDE]; MOST];
+            *missed = [[0.0; SIDE_BY_SIDE]; MAX_STEPS];
             [missed[last], missed[before]] = kept;
         }
         let products = self.products;
-        (self.products, self.matrix, self.vector) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST], [0.0; MOST]);
+        (self.products, self.matrix, self.vector) =
+            ([[0.0; MAX_STEPS]; MAX_STEPS], [[0.0; MAX_STEPS]; MAX_STEPS], [0.0; MAX_STEPS]);
         for i in 0..2 {
             for j in 0..2 {
                 self.products[i][j] = factor * factor * products[i][j];
@@ -109,7 +112,7 @@ impl Predictor {
         let [one, two] = self.lengths;
         // Before the second step there is one length only.
         let further = if self.products[1][1] > 0.0 { (1.0 + 3.0 * one) / (one + 3.0 * two) } else { 0.0 };
-        (self.coefficients, self.shares) = ([0.0; MOST], [0.0; MOST]);
+        (self.coefficients, self.shares) = ([0.0; MAX_STEPS], [0.0; MAX_STEPS]);
         (self.coefficients[0], self.coefficients[1]) = (1.0 + further, -further);
         if was_credible {
             (self.shares[last], self.shares[before]) = (1.0 + further, -further);
@@ -138,9 +141,9 @@ impl Predictor {
         &mut self,
         found: &[Vec<f64>],
         guessed: impl Fn(usize) -> &'a [f64],
-        numbers: &Numbers,
+        tuning: &Tuning,
     ) {
-        let mut products = [0.0; MOST + 1];
+        let mut products = [0.0; MAX_STEPS + 1];
         let mut first = 0;
         for (stage, found) in found.iter().enumerate() {
             let guessed = guessed(stage);
@@ -150,12 +153,12 @@ impl Predictor {
             }
             first += found.len().div_ceil(SIDE_BY_SIDE);
         }
-        self.processor.0.dispatch(Learn { memory: self, products, numbers });
+        self.processor.0.dispatch(Learn { memory: self, products, tuning });
     }
 
     /// |d - Σ c_j d_j|² of a step that has missed d, by the products of d with what was missed before, and with itself.
     #[inline(always)]
-    fn left(&self, toward: &[f64; MOST], whole: f64) -> f64 {
+    fn left(&self, toward: &[f64; MAX_STEPS], whole: f64) -> f64 {
         let mut left = whole;
         for (i, &share) in self.coefficients.iter().enumerate() {
             let predicted: f64 =
@@ -168,7 +171,7 @@ impl Predictor {
     /// Place of what was missed so many steps before the last one.
     #[inline(always)]
     fn place(&self, ago: usize) -> usize {
-        (self.oldest + MOST - 1 - ago) % MOST
+        (self.oldest + MAX_STEPS - 1 - ago) % MAX_STEPS
     }
 }
 
@@ -199,7 +202,7 @@ impl pulp::WithSimd for Improve<'_> {
         for stage in self.guess {
             for (values, missed) in stage.chunks_mut(SIDE_BY_SIDE).zip(&mut blocks) {
                 let mut missing = [0.0; SIDE_BY_SIDE];
-                for place in 0..MOST {
+                for place in 0..MAX_STEPS {
                     for k in 0..SIDE_BY_SIDE {
                         missing[k] += shares[place] * missed[place][k];
                     }
@@ -222,13 +225,13 @@ struct Note<'a> {
 }
 
 impl pulp::WithSimd for Note<'_> {
-    type Output = [f64; MOST + 1];
+    type Output = [f64; MAX_STEPS + 1];
 
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
         let Note { memory, first, found, guessed } = self;
         let oldest = memory.oldest;
-        let mut sums = [[0.0; SIDE_BY_SIDE]; MOST + 1];
+        let mut sums = [[0.0; SIDE_BY_SIDE]; MAX_STEPS + 1];
         let blocks = memory.weights[first..].iter().zip(&mut memory.missed[first..]);
         for (block, (weights, missed)) in blocks.enumerate().take(found.len().div_ceil(SIDE_BY_SIDE)) {
             let (found, guessed) = (numbers(found, block), numbers(guessed, block));
@@ -237,9 +240,9 @@ impl pulp::WithSimd for Note<'_> {
             for k in 0..SIDE_BY_SIDE {
                 latest[k] = found[k] - guessed[k];
                 weighted[k] = weights[k] * latest[k];
-                sums[MOST][k] += weighted[k] * latest[k];
+                sums[MAX_STEPS][k] += weighted[k] * latest[k];
             }
-            for place in 0..MOST {
+            for place in 0..MAX_STEPS {
                 for k in 0..SIDE_BY_SIDE {
                     sums[place][k] += weighted[k] * missed[place][k];
                 }
@@ -253,8 +256,8 @@ impl pulp::WithSimd for Note<'_> {
 /// Finds the coefficients for the next step.
 struct Learn<'a> {
     memory: &'a mut Predictor,
-    products: [f64; MOST + 1],
-    numbers: &'a Numbers,
+    products: [f64; MAX_STEPS + 1],
+    tuning: &'a Tuning,
 }
 
 impl pulp::WithSimd for Learn<'_> {
@@ -262,32 +265,33 @@ impl pulp::WithSimd for Learn<'_> {
 
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
-        let Learn { memory, products, numbers } = self;
+        let Learn { memory, products, tuning } = self;
         let (fading, credible) =
-            (numbers.of(Number::PredictionFading), numbers.of(Number::PredictionCredible));
+            (tuning.of(TuningParameter::PredictionFading), tuning.of(TuningParameter::PredictionCredible));
         memory.lengths = [1.0, memory.lengths[0]];
         // The oldest was looked back at for the last time.
-        let toward: [f64; MOST] = std::array::from_fn(|ago| products[memory.place(ago)]);
-        for i in 0..MOST {
+        let toward: [f64; MAX_STEPS] = std::array::from_fn(|ago| products[memory.place(ago)]);
+        for i in 0..MAX_STEPS {
             memory.vector[i] = fading * memory.vector[i] + toward[i];
-            for j in 0..MOST {
+            for j in 0..MAX_STEPS {
                 memory.matrix[i][j] = fading * memory.matrix[i][j] + memory.products[i][j];
             }
         }
-        let is_credible = memory.left(&toward, products[MOST]) <= credible * credible * products[MOST];
+        let is_credible =
+            memory.left(&toward, products[MAX_STEPS]) <= credible * credible * products[MAX_STEPS];
         let before = memory.products;
-        memory.products[0][0] = products[MOST];
-        for i in 1..MOST {
+        memory.products[0][0] = products[MAX_STEPS];
+        for i in 1..MAX_STEPS {
             memory.products[0][i] = toward[i - 1];
             memory.products[i][0] = toward[i - 1];
-            memory.products[i][1..].copy_from_slice(&before[i - 1][..MOST - 1]);
+            memory.products[i][1..].copy_from_slice(&before[i - 1][..MAX_STEPS - 1]);
         }
-        memory.oldest = (memory.oldest + 1) % MOST;
+        memory.oldest = (memory.oldest + 1) % MAX_STEPS;
         if memory.is_used {
             memory.coefficients = coefficients(&memory.matrix, &memory.vector, memory.most);
         }
         memory.is_used = !memory.is_used;
-        for ago in 0..MOST {
+        for ago in 0..MAX_STEPS {
             memory.shares[memory.place(ago)] = if is_credible { memory.coefficients[ago] } else { 0.0 };
         }
     }
@@ -295,16 +299,20 @@ impl pulp::WithSimd for Learn<'_> {
 
 /// Solves the normal equations for the first `most` coefficients, the others are zero.
 #[inline(always)]
-fn coefficients(matrix: &[[f64; MOST]; MOST], vector: &[f64; MOST], most: usize) -> [f64; MOST] {
+fn coefficients(
+    matrix: &[[f64; MAX_STEPS]; MAX_STEPS],
+    vector: &[f64; MAX_STEPS],
+    most: usize,
+) -> [f64; MAX_STEPS] {
     let (mut rows, mut values) = (*matrix, *vector);
-    let mut solved = [0.0; MOST];
+    let mut solved = [0.0; MAX_STEPS];
     for k in 0..most {
         if rows[k][k] > DEPENDENT * matrix[k][k] {
             let inverse = 1.0 / rows[k][k];
             let (row, value) = (rows[k].map(|entry| entry * inverse), values[k] * inverse);
-            for i in 0..MOST {
+            for i in 0..MAX_STEPS {
                 let factor = rows[i][k];
-                for j in 0..MOST {
+                for j in 0..MAX_STEPS {
                     rows[i][j] -= factor * row[j];
                 }
                 values[i] -= factor * value;
@@ -313,8 +321,8 @@ fn coefficients(matrix: &[[f64; MOST]; MOST], vector: &[f64; MOST], most: usize)
             solved[k] = 1.0;
         }
     }
-    let result: [f64; MOST] = std::array::from_fn(|k| if solved[k] > 0.0 { values[k] } else { 0.0 });
-    if result.iter().all(|value| value.is_finite()) { result } else { [0.0; MOST] }
+    let result: [f64; MAX_STEPS] = std::array::from_fn(|k| if solved[k] > 0.0 { values[k] } else { 0.0 });
+    if result.iter().all(|value| value.is_finite()) { result } else { [0.0; MAX_STEPS] }
 }
 
 #[cfg(test)]
@@ -324,7 +332,7 @@ mod tests {
     fn guessed(of: impl Fn(usize) -> f64, steps: usize) -> f64 {
         let mut guess = Predictor::new(1, &[1.0]);
         for step in 0..steps {
-            guess.learn(&[vec![of(step)]], |_| &[0.0], &Numbers::default());
+            guess.learn(&[vec![of(step)]], |_| &[0.0], &Tuning::default());
         }
         let mut value = [vec![0.0]];
         guess.improve(&mut value);
@@ -350,7 +358,7 @@ mod tests {
                 };
                 let mut guess = Predictor::new(stages, &vec![1.0; count]);
                 for step in 0..6 {
-                    guess.learn(&values(step), |_| &[0.0; 19][..count], &Numbers::default());
+                    guess.learn(&values(step), |_| &[0.0; 19][..count], &Tuning::default());
                 }
                 let mut next = vec![vec![0.0; count]; stages];
                 guess.improve(&mut next);
@@ -369,7 +377,7 @@ mod tests {
         let of = |step: f64| vec![(0.9 * step).cos() + (2.2 * step).sin(), (0.9 * step + 0.3).cos()];
         let mut guess = Predictor::new(1, &[1.0, 3.0]);
         for step in 0..40 {
-            guess.learn(&[of(f64::from(step))], |_| &[0.0, 0.0], &Numbers::default());
+            guess.learn(&[of(f64::from(step))], |_| &[0.0, 0.0], &Tuning::default());
         }
         let mut next = [vec![0.0, 0.0]];
         guess.improve(&mut next);
@@ -386,7 +394,7 @@ mod tests {
         let (mut time, mut size) = (0.0, 1.0);
         for next in [1.0, 1.0, 0.5, 0.3, 1.5, 1.0] {
             let found = miss(time, size);
-            guess.learn(&[vec![found; 9], vec![8.0 * found; 9]], |_| &[0.0; 9], &Numbers::default());
+            guess.learn(&[vec![found; 9], vec![8.0 * found; 9]], |_| &[0.0; 9], &Tuning::default());
             let missed: Vec<f64> = guess.last_missed(1, 2).take(9).collect();
             assert!(missed.iter().all(|value| (value - 8.0 * found).abs() < 1e-12 * found), "{missed:?}");
             time += size;
@@ -415,7 +423,7 @@ mod tests {
         assert_eq!(guessed(|_| 1.0, 0), 0.0);
         let mut guess = Predictor::new(1, &[1.0]);
         for _ in 0..5 {
-            guess.learn(&[vec![1.0]], |_| &[0.0], &Numbers::default());
+            guess.learn(&[vec![1.0]], |_| &[0.0], &Tuning::default());
         }
         guess.forget();
         let mut value = [vec![0.0]];

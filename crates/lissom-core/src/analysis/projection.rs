@@ -2,7 +2,7 @@
 
 use lissom_solver::SolverKind;
 
-use super::initial::{Initial, InitialError};
+use super::initial_conditions::{ConsistentInitialConditions, InitialError};
 use crate::kinematics::Quantity;
 use crate::scaling::Representative;
 use crate::schemes::Tableau;
@@ -12,7 +12,7 @@ use crate::system::{State, System};
 /// projection is orthogonal in the kinetic energy, which therefore falls; the share 1 - α of that is given back by
 /// scaling all velocities.
 pub(crate) struct Projection {
-    initial: Initial,
+    initial: ConsistentInitialConditions,
     tableau: Tableau,
 }
 
@@ -24,7 +24,7 @@ impl Projection {
         solver: &SolverKind,
         tableau: Tableau,
     ) -> Self {
-        Self { initial: Initial::new(system, state, representative, solver), tableau }
+        Self { initial: ConsistentInitialConditions::new(system, state, representative, solver), tableau }
     }
 
     pub(crate) fn apply(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {

@@ -11,15 +11,15 @@ use super::simulation::{Simulation, warn};
 use super::step_error::StepError;
 use crate::judge::Warning;
 use crate::kinematics::Kinematics;
-use crate::mechanisms::Mechanism;
-use crate::newton::Memory;
+use crate::newton::JacobianState;
 use crate::scaling::Representative;
 use crate::schemes::relaxation::relaxation;
 use crate::schemes::statics;
+use crate::solver_features::SolverFeature;
 use crate::system::{State, System};
 
 /// Steps until there is no equilibrium to be found.
-const MOST_STEPS: usize = 300;
+const MAX_STEPS: usize = 300;
 /// Steps that end less far than this from where they begin, relative to the representative length, are followed by one without
 /// inertia …
 const SLOW: f64 = 0.03;
@@ -36,7 +36,7 @@ const FIRST: f64 = 10.0;
 /// Iterations of a step, which is tried again shorter if they are not enough.
 const ITERATIONS: usize = 15;
 /// Steps without solution until there is no equilibrium to be found.
-const MOST_FAILURES: usize = 60;
+const MAX_FAILURES: usize = 60;
 /// The next step over the last, and the same after a step without solution.
 const LONGER: f64 = 2.0;
 const SHORTER: f64 = 0.125;
@@ -62,7 +62,7 @@ pub(crate) fn relax(
         Settings { scheme: relaxation(), control: None, from_equilibrium: false, ..settings.clone() };
     // A shorter step costs less than iterations that do not lead to the end of a long one, and than its parts.
     settings.limits.max_iterations = settings.limits.max_iterations.min(ITERATIONS);
-    settings.limits.without = settings.limits.without.and(Mechanism::Parts);
+    settings.limits.disabled = settings.limits.disabled.and(SolverFeature::StepBisection);
     let mut reached = state.clone();
     let mut failures = 0;
     let unloaded = system.linearization_at(&state.kinematics);
@@ -72,7 +72,7 @@ pub(crate) fn relax(
     let mut step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
     // Number and size of the next step after which one without inertia is tried.
     let (mut next_try, mut long_enough) = (0, 0.0);
-    for step in 0..MOST_STEPS {
+    for step in 0..MAX_STEPS {
         settings.scheme = relaxation();
         settings.step_size = step_size;
         let mut simulation = begin(system, &reached, &settings, &representative, time)?;
@@ -81,7 +81,7 @@ pub(crate) fn relax(
         let Ok(_) = outcome else {
             step_size *= SHORTER;
             failures += 1;
-            if failures > MOST_FAILURES {
+            if failures > MAX_FAILURES {
                 return None;
             }
             continue;
@@ -91,7 +91,7 @@ pub(crate) fn relax(
             return None;
         }
         reached = simulation.state().clone();
-        let is_due = step >= next_try || step_size >= long_enough || step + 1 == MOST_STEPS;
+        let is_due = step >= next_try || step_size >= long_enough || step + 1 == MAX_STEPS;
         let taken = step_size;
         step_size *= LONGER;
         if moved > SLOW * length || !is_due {
@@ -128,7 +128,7 @@ impl Simulation {
         self.totals.newton_iterations += iterations;
         let Some((reached, doubts)) = found else { return Err(error.clone()) };
         self.resize(size)?;
-        self.memory = Memory::default();
+        self.jacobian_state = JacobianState::default();
         self.next = reached;
         // That of a step of unit length has lost digits.
         self.next.kinematics.time = time;

@@ -18,11 +18,11 @@ use super::{StepError, Unwatched};
 use crate::newton::Equations;
 
 /// Most corrections of a neighbour's step.
-const MOST: usize = 12;
+const MAX_CORRECTIONS: usize = 12;
 /// A correction below this part of what the step finds out is round-off.
 const ROUND_OFF: f64 = 1e-13;
 /// A correction below this is round-off whatever the step finds out [-, rad].
-const LEAST: f64 = 1e-13;
+const MIN_CORRECTION: f64 = 1e-13;
 /// Corrections still to come, by their contraction, may be this part of the first one. The derivatives of reactions err by more:
 /// a small displacement is a large force across a constraint.
 const TO_COME: f64 = 1e-11;
@@ -77,11 +77,11 @@ impl Simulation {
         self.scaled = base.scaled;
         let scheme = &self.settings.scheme;
         let work = &mut *self.work;
-        self.scaled.enter(self.system.layout(), scheme, &self.state, &mut work.unit);
+        self.scaled.to_unit_step(self.system.layout(), scheme, &self.state, &mut work.unit);
         self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
         work.increments.clone_from(&base.work.increments);
         work.multipliers.clone_from(&base.work.multipliers);
-        work.yielding.clone_from(&base.work.yielding);
+        work.regularization.clone_from(&base.work.regularization);
         work.anderson.forget();
         std::mem::swap(&mut work.factorization, &mut base.work.factorization);
         std::mem::swap(&mut work.equilibration, &mut base.work.equilibration);
@@ -98,11 +98,11 @@ impl Simulation {
         equations.update_motions();
         let (mut made, mut first) = (0, 0.0);
         let (mut last, mut size_of_last) = (f64::INFINITY, f64::INFINITY);
-        while made < MOST {
+        while made < MAX_CORRECTIONS {
             let correction = equations.correct();
             made += 1;
             let relative = correction.size / correction.reference.max(f64::MIN_POSITIVE);
-            let is_found = relative <= FOUND || correction.size <= LEAST;
+            let is_found = relative <= FOUND || correction.size <= MIN_CORRECTION;
             let contraction = correction.size / size_of_last;
             if made == 1 {
                 first = correction.size;
@@ -124,7 +124,7 @@ impl Simulation {
         equations.final_violations(&mut self.next.violations);
         std::mem::swap(&mut self.work.factorization, &mut base.work.factorization);
         std::mem::swap(&mut self.work.equilibration, &mut base.work.equilibration);
-        if !(last <= FOUND || size_of_last <= LEAST) {
+        if !(last <= FOUND || size_of_last <= MIN_CORRECTION) {
             let time = self.state.kinematics.time + size;
             let hint = "the neighbouring model has no solution near this one";
             return Err(StepError::NotConverged { time, iterations: made, correction, worst, hint });

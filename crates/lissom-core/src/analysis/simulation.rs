@@ -5,20 +5,21 @@ use std::sync::Arc;
 use lissom_solver::FactorReport;
 
 use super::accumulated::Accumulation;
-use super::initial::Initial;
+use super::initial_conditions::ConsistentInitialConditions;
 use super::projection::Projection;
 use super::settings::Settings;
 use super::totals::Totals;
 use super::workspace::Workspace;
 use crate::judge::rates::ConstraintRates;
 use crate::judge::singular::SingularPositions;
-use crate::judge::{Ledger, Warning};
+use crate::judge::{EnergyBalance, Warning};
 use crate::kinematics::Kinematics;
-use crate::newton::Memory;
+use crate::newton::JacobianState;
 use crate::scaling::{Representative, Scaled};
-use crate::stepping::kinks::Kink;
+use crate::stepping::breakpoints::Breakpoint;
 use crate::stepping::{
-    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, TimeFunctions, Watch,
+    Controller, EventDetector, Impacts, IntegratorHistory, LoadControl, Resolution, StepBisection,
+    TimeFunctions,
 };
 use crate::system::{State, System};
 
@@ -40,25 +41,25 @@ pub struct Simulation {
     /// For schemes whose velocities leave the constraints a little.
     pub(crate) projection: Option<Projection>,
     /// For held values that change between steps.
-    pub(crate) held_values: Option<Initial>,
-    pub(crate) memory: Memory,
+    pub(crate) held_values: Option<ConsistentInitialConditions>,
+    pub(crate) jacobian_state: JacobianState,
     /// For schemes that remember what belongs to the step size.
-    pub(crate) method_memory: Option<MethodMemory>,
+    pub(crate) integrator_history: Option<IntegratorHistory>,
     /// Where in a planned step it stands, and the size of the next attempt.
-    pub(crate) parts: Parts,
+    pub(crate) step_bisection: StepBisection,
     pub(crate) controller: Option<Controller>,
     /// Size of the next load step, where it is chosen.
     pub(crate) load_control: Option<LoadControl>,
     /// When functions of time are not smooth: steps of motions, and load steps of chosen size, do not cross it.
-    pub(crate) kinks: Vec<Kink>,
+    pub(crate) breakpoints: Vec<Breakpoint>,
     /// How far any node has moved since the start, for the error estimate [-].
     pub(crate) farthest: f64,
     pub(crate) totals: Totals,
     pub(crate) velocity_correction: f64,
     /// Energy and work up to the state.
-    pub(crate) ledger: Ledger,
+    pub(crate) energy_balance: EnergyBalance,
     /// The same up to where the attempt at the next step has come.
-    pub(crate) next_ledger: Ledger,
+    pub(crate) next_energy_balance: EnergyBalance,
     /// Largest violation of a constraint at the end of the last attempt, relative to the representative length, or in radians.
     pub(crate) next_violation: f64,
     /// Reasons to doubt the motion up to the state.
@@ -71,7 +72,7 @@ pub struct Simulation {
     /// determined.
     pub(crate) stability: Vec<(f64, Option<usize>)>,
     /// Numbers that may change their sign within a step.
-    pub(crate) watch: Watch,
+    pub(crate) event_detector: EventDetector,
     /// How fast forces switch in steps of planned size.
     pub(crate) impacts: Impacts,
     /// Whether steps of planned size resolve the motion.
@@ -116,8 +117,8 @@ impl Simulation {
     }
 
     /// Energy of the model, and work of loads and drives since the start.
-    pub fn ledger(&self) -> &Ledger {
-        &self.ledger
+    pub fn energy_balance(&self) -> &EnergyBalance {
+        &self.energy_balance
     }
 
     /// Reasons to doubt the motion up to the state, each kind once.

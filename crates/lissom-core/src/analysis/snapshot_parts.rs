@@ -4,8 +4,8 @@ use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
 use super::anderson::Anderson;
-use super::compliance::Compliance;
 use super::predictor::Predictor;
+use super::regularization::Regularization;
 use super::tangent_numbers::TangentNumbers;
 use super::workspace::{Effort, Workspace};
 use crate::system::System;
@@ -22,7 +22,7 @@ pub(crate) struct Learned {
     tangent: Option<Vec<TangentNumbers>>,
     equilibration: Option<Vec<f64>>,
     force_round_off: f64,
-    yielding: Option<(Compliance, usize)>,
+    regularization: Option<(Regularization, usize)>,
     fell_back: Option<(usize, f64)>,
 }
 
@@ -37,7 +37,7 @@ impl Workspace {
             tangent: self.report.as_ref().map(|_| self.factorization.numbers()),
             equilibration: self.equilibration.as_ref().map(|found| found.factors().to_vec()),
             force_round_off: self.force_round_off,
-            yielding: self.yielding.clone(),
+            regularization: self.regularization.clone(),
             fell_back: self.fell_back,
         }
     }
@@ -58,7 +58,7 @@ impl Workspace {
             equilibration.set_factors(factors);
         }
         self.force_round_off = from.force_round_off;
-        self.yielding.clone_from(&from.yielding);
+        self.regularization.clone_from(&from.regularization);
         if from.fell_back.is_some() && self.fell_back.is_none() {
             let pivoting = lissom_solver::kind("pivoting").unwrap_or(self.solver);
             self.factorization.replace_solver(self.fall_back.take().unwrap_or(pivoting), system.structure());

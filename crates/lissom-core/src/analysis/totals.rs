@@ -41,5 +41,5 @@ pub struct Totals {
     /// The unknown whose pivot vanished, so that the run went on with a pivoting solver.
     pub fell_back_at: Option<usize>,
     /// The multiplier whose pivot vanished because its constraint repeats others, so that all of them yield a little.
-    pub yielded_at: Option<usize>,
+    pub regularized_at: Option<usize>,
 }

@@ -4,19 +4,19 @@ use lissom_solver::FactorReport;
 use serde::{Deserialize, Serialize};
 
 use super::anderson::Anderson;
-use super::compliance::Compliance;
 use super::corrections::processor;
 use super::factorization::Factorization;
 use super::predictor::Predictor;
+use super::regularization::Regularization;
 use crate::equilibration::Equilibration;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Layout, Quantity};
-use crate::mechanisms::Without;
-use crate::numbers::Numbers;
-use crate::scaling::{Representative, Scaled, StageMotion, UnitStart};
+use crate::scaling::{Representative, Scaled, StageMotion, UnitStepState};
 use crate::schemes::{Increments, Scheme};
+use crate::solver_features::DisabledFeatures;
 use crate::system::{Scratch, State, System, Threads};
+use crate::tuning::Tuning;
 
 /// What was done to find solutions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -29,7 +29,7 @@ pub(crate) struct Effort {
 
 /// Everything a step needs besides system and state, allocated once.
 pub(crate) struct Workspace {
-    pub(crate) unit: UnitStart,
+    pub(crate) unit: UnitStepState,
     /// The scheme's first guess of the increments, by stage.
     pub(crate) predicted: Vec<Vec<f64>>,
     /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
@@ -66,7 +66,7 @@ pub(crate) struct Workspace {
     /// Forces below this are round-off of the stiffest elements' strains [N].
     pub(crate) force_round_off: f64,
     /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
-    pub(crate) yielding: Option<(Compliance, usize)>,
+    pub(crate) regularization: Option<(Regularization, usize)>,
     /// The solver that factors.
     pub(super) solver: &'static lissom_solver::SolverKind,
     /// What joints see at the start of the step.
@@ -90,10 +90,10 @@ pub(crate) struct Workspace {
     pub(crate) threads: Option<Threads>,
     pub(crate) report: Option<FactorReport>,
     pub(crate) anderson: Anderson,
-    /// Mechanisms that are left out.
-    pub(crate) without: Without,
-    /// Numbers to go by.
-    pub(crate) numbers: Numbers,
+    /// Features that are switched off.
+    pub(crate) disabled: DisabledFeatures,
+    /// Parameters of the solver.
+    pub(crate) tuning: Tuning,
 }
 
 impl Workspace {
@@ -110,7 +110,7 @@ impl Workspace {
         let count = layout.coordinate_count();
         let sizes = sizes(layout, representative);
         Self {
-            unit: UnitStart::new(layout, scheme),
+            unit: UnitStepState::new(layout, scheme),
             predicted: vec![vec![0.0; count]; stages],
             predictors: [
                 Predictor::new(stages, &sizes),
@@ -138,7 +138,7 @@ impl Workspace {
             fall_back: None,
             fell_back: None,
             force_round_off: 0.0,
-            yielding: None,
+            regularization: None,
             solver,
             joint_starts: JointStarts::default(),
             scratch: Some(Box::default()),
@@ -153,8 +153,8 @@ impl Workspace {
             length: representative.length,
             threads: None,
             report: None,
-            without: Without::default(),
-            numbers: Numbers::default(),
+            disabled: DisabledFeatures::default(),
+            tuning: Tuning::default(),
         }
     }
 
@@ -164,8 +164,8 @@ impl Workspace {
             self.unit.predict(&stage.prediction, predicted);
         }
         let [of_increments, of_multipliers] = &mut self.predictors;
-        of_increments.learn(&self.increments, |stage| &self.predicted[stage], &self.numbers);
-        of_multipliers.learn(&self.multipliers, |_| multipliers, &self.numbers);
+        of_increments.learn(&self.increments, |stage| &self.predicted[stage], &self.tuning);
+        of_multipliers.learn(&self.multipliers, |_| multipliers, &self.tuning);
         self.is_miss_known = true;
     }
 

@@ -12,22 +12,22 @@ use crate::system::{State, System};
 const ROUND_OFF: f64 = 1e-9;
 /// A point of contact that runs round by this angle in a step is not resolved: all schemes miss a twelfth of its third power
 /// in a step, here 1 % of the circle's radius [rad].
-const LARGEST_RUN: f64 = 0.5;
+const MAX_RUN: f64 = 0.5;
 
 /// The first wheel on a plane whose point of contact runs round by more in a step than the step resolves, as where the wheel
 /// has nearly fallen flat. No part turns as fast as that.
 pub(crate) fn runs_round(system: &System, (from, to): (&Kinematics, &Kinematics)) -> Option<Warning> {
     system.joints().iter().find_map(|joint| {
         let contact = joint.joint().contact()?;
-        let [before, after] = [from, to].map(|at| contact.down(&joint.outright(at).0.rotation));
+        let [before, after] = [from, to].map(|at| contact.down(&joint.evaluate_absolute(at).0.rotation));
         let angle = before.cross(&after).norm().atan2(before.dot(&after));
-        let is_seen = contact.radius > 0.0 && angle > LARGEST_RUN;
+        let is_seen = contact.radius > 0.0 && angle > MAX_RUN;
         is_seen.then(|| Warning::ContactRunsRound { time: to.time, joint: joint.name.clone(), angle })
     })
 }
 
 /// Adds the first wheel that the plane would have to pull, or that would slide, if there is none yet.
-pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) {
+pub(crate) fn check(system: &System, state: &State, warnings: &mut Vec<Warning>) {
     if let Some(doubt) = doubt(system, state)
         && warnings.iter().all(|known| known.code() != doubt.code())
     {
@@ -52,7 +52,7 @@ fn rail_doubt(joint: &AttachedJoint, state: &State, round_off: f64) -> Option<Wa
     if normal < -round_off {
         return Some(Warning::WheelLifts { time, joint: name, force: -normal });
     }
-    let (relative, _) = joint.outright(&state.kinematics);
+    let (relative, _) = joint.evaluate_absolute(&state.kinematics);
     let doubt = contact.doubt(&Pose::new(&relative.rotation, &relative.position))?;
     Some(Warning::RailContact { time, joint: name, doubt })
 }

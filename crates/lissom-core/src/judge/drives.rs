@@ -6,9 +6,9 @@ use crate::scaling::Representative;
 use crate::system::System;
 
 /// A drive goes at once if it goes further in a step than its larger rate at both ends would take it, so many times over.
-const MOST: f64 = 2.0;
+const MAX_RATIO: f64 = 2.0;
 /// Ways below this part of the representative length, or this angle, are not reported [-, rad].
-const LEAST: f64 = 1e-6;
+const MIN_DISPLACEMENT: f64 = 1e-6;
 
 /// The first drive that jumps between two instants.
 pub(crate) fn jump(
@@ -24,7 +24,7 @@ pub(crate) fn jump(
         let rate = function.first_derivative(from.time).abs().max(function.first_derivative(to.time).abs());
         let row = system.layout().coordinate_rows[drive.prescribed.coordinate] as usize;
         let unit = if quantities[row] == Quantity::Length { representative.length } else { 1.0 };
-        (way > LEAST * unit && way > MOST * elapsed * rate).then(|| (drive.name.clone(), way))
+        (way > MIN_DISPLACEMENT * unit && way > MAX_RATIO * elapsed * rate).then(|| (drive.name.clone(), way))
     });
     jumping.map(|(drive, way)| Warning::DriveJumps { time: to.time, drive, way })
 }

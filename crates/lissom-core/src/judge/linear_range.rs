@@ -5,16 +5,16 @@ use crate::elements::{LinearLimit, LinearRange};
 use crate::system::{State, System};
 
 /// Adds the first superelement that leaves its linear range in each way, if there is none yet.
-pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) {
+pub(crate) fn check(system: &System, state: &State, warnings: &mut Vec<Warning>) {
     for limit in LinearLimit::ALL {
         let Some(found) = system.linear_range(limit, &state.kinematics).filter(|own| own.part > 1.0) else {
             continue;
         };
-        tell_of(system, state, (limit, found), warnings);
+        check_element(system, state, (limit, found), warnings);
     }
 }
 
-fn tell_of(
+fn check_element(
     system: &System,
     state: &State,
     (limit, found): (LinearLimit, LinearRange),

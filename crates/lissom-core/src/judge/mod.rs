@@ -6,16 +6,16 @@
 //! scheme feeds motions which it does not resolve.
 
 pub(crate) mod contact;
+pub(crate) mod degenerate_joint;
 pub(crate) mod drives;
-pub(crate) mod held;
-mod ledger;
+mod energy_balance;
 pub(crate) mod linear_range;
 pub(crate) mod rates;
 pub(crate) mod singular;
 pub(crate) mod start;
 mod warning;
 
-pub use ledger::Ledger;
+pub use energy_balance::EnergyBalance;
 pub use warning::Warning;
 
 use std::f64::consts::PI;
@@ -27,20 +27,20 @@ use crate::system::{State, System};
 
 /// Violation of a constraint at which it is not held, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.
-const LARGEST_VIOLATION: f64 = 1e-5;
+const MAX_VIOLATION: f64 = 1e-5;
 /// Violation that is reported: a tenth of that.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
 /// A node that turns further in one step than a quarter of a turn is not resolved by any of the schemes [rad].
-pub(crate) const LARGEST_TURN: f64 = 0.5 * PI;
+pub(crate) const MAX_TURN: f64 = 0.5 * PI;
 /// Nodes of an element that are turned against each other by more than this cannot be distinguished from the other way round:
 /// part of half a turn.
-const LARGEST_RELATIVE_TURN: f64 = 0.9;
+const MAX_RELATIVE_TURN: f64 = 0.9;
 /// Velocities that change by more than this part of the largest in a step are no smooth motion.
 const SMOOTH: f64 = 0.5;
 /// A slider may be past the end of its beam by this part of the length: round-off.
 const PAST_THE_END: f64 = 1e-9;
 /// Constraints named in a message.
-const MOST_NAMED: usize = 4;
+const MAX_LISTED: usize = 4;
 
 /// Judges steps of one simulation.
 pub(crate) struct Judge<'a> {
@@ -53,7 +53,7 @@ pub(crate) struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Judges the step from `start` to `end`; gives the ledger after it, and the largest violation of a constraint, relative to the
+    /// Judges the step from `start` to `end`; gives the energy balance after it, and the largest violation of a constraint, relative to the
     /// representative length, or in radians.
     ///
     /// # Errors
@@ -62,27 +62,27 @@ impl Judge<'_> {
         &self,
         start: &State,
         end: &State,
-        ledger: &Ledger,
-    ) -> Result<(Ledger, f64), StepError> {
+        energy_balance: &EnergyBalance,
+    ) -> Result<(EnergyBalance, f64), StepError> {
         let violation = self.constraints(end)?;
         self.sliders(end)?;
         if self.is_motion {
             positive_mass(self.system, &end.kinematics)?;
         }
-        if let Some(held::LostHold { joint, kind, equation, angle }) =
-            held::crossed(self.system, &start.kinematics, &end.kinematics)
+        if let Some(degenerate_joint::RankLoss { joint, kind, equation, angle }) =
+            degenerate_joint::crossed(self.system, &start.kinematics, &end.kinematics)
         {
             let (time, angle) = (end.kinematics.time, angle.to_degrees());
             return Err(StepError::JointLosesHold { time, joint, kind, equation, angle });
         }
         let is_smooth = self.is_motion && self.turns(start, end)?;
-        let weighs = !is_smooth || ledger.is_due();
+        let weighs = !is_smooth || energy_balance.is_due();
         if weighs {
             relative_turns(self.system, &end.kinematics)?;
         }
-        let after = ledger.after(self.system, (&start.into(), &end.into()), (weighs, self.is_motion));
+        let after = energy_balance.after(self.system, (&start.into(), &end.into()), (weighs, self.is_motion));
         if self.checks_energy && self.is_motion {
-            after.refuse_gain(ledger, end.kinematics.time, || self.most_restless(start, end))?;
+            after.refuse_gain(energy_balance, end.kinematics.time, || self.most_restless(start, end))?;
         }
         Ok((after, violation))
     }
@@ -103,7 +103,7 @@ impl Judge<'_> {
     /// for more than the others leave. Gives the largest violation.
     fn constraints(&self, end: &State) -> Result<f64, StepError> {
         let worst = self.violations(end).fold(0.0_f64, f64::max);
-        if worst <= LARGEST_VIOLATION {
+        if worst <= MAX_VIOLATION {
             return Ok(worst);
         }
         Err(StepError::Contradiction {
@@ -113,9 +113,9 @@ impl Judge<'_> {
     }
 
     /// Told where constraints are violated by more than solving leaves, and less than what fails.
-    pub(crate) fn yielding(&self, end: &State, worst: f64) -> Option<Warning> {
-        let is_told = worst > NOTEWORTHY_VIOLATION;
-        is_told.then(|| Warning::ConstraintsYield {
+    pub(crate) fn regularized(&self, end: &State, worst: f64) -> Option<Warning> {
+        let is_reported = worst > NOTEWORTHY_VIOLATION;
+        is_reported.then(|| Warning::RegularizedConstraints {
             time: end.kinematics.time,
             violated: self.names_of_violated(end, worst),
         })
@@ -144,7 +144,7 @@ impl Judge<'_> {
         let rank = |size: f64| (20.0 * size / worst).round();
         named.sort_by(|a, b| rank(b.0).total_cmp(&rank(a.0)));
         let mut words: Vec<String> = Vec::new();
-        for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MOST_NAMED) {
+        for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MAX_LISTED) {
             let (joint, equation) = self.system.layout().constraint_name(k);
             let unit = match self.quantities()[k] {
                 Quantity::Length => "m",
@@ -188,7 +188,7 @@ impl Judge<'_> {
             ];
         }
         let angle = fastest.sqrt() * elapsed;
-        if angle <= LARGEST_TURN {
+        if angle <= MAX_TURN {
             return Ok((0..2).all(|k| change[k] <= SMOOTH * SMOOTH * largest[k]));
         }
         let node = self.system.layout().name_of_node(node).to_owned();
@@ -205,8 +205,8 @@ fn positive_mass(system: &System, at: &Kinematics) -> Result<(), StepError> {
 
 /// Fails where two nodes of an element are turned against each other by nearly half a turn or more.
 pub(crate) fn relative_turns(system: &System, at: &Kinematics) -> Result<(), StepError> {
-    let Some((cosine, [one, other])) = system.least_aligned(at) else { return Ok(()) };
-    if cosine >= (0.5 * LARGEST_RELATIVE_TURN * PI).cos() {
+    let Some((cosine, [one, other])) = system.max_relative_rotation(at) else { return Ok(()) };
+    if cosine >= (0.5 * MAX_RELATIVE_TURN * PI).cos() {
         return Ok(());
     }
     let layout = system.layout();

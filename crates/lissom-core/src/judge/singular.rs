@@ -35,7 +35,7 @@ const VANISHES: f64 = 0.1;
 /// Motion between two looks over the root of the smallest pivot [rad].
 const BETWEEN_LOOKS: f64 = 0.25;
 /// Loops of more equations are not watched: looking at them would take longer than a step.
-const MOST_EQUATIONS: usize = 100;
+const MAX_EQUATIONS: usize = 100;
 /// An equation that takes part in a dependence by less than this is not named.
 const TAKES_PART: f64 = 1e-3;
 
@@ -75,7 +75,7 @@ impl SingularPositions {
     pub(crate) fn new(system: &System, at: &Kinematics, length: f64) -> Self {
         let length = if length > 0.0 { length } else { 1.0 };
         let mut loops = loops::of(system);
-        loops.retain(|found| found.multipliers.len() <= MOST_EQUATIONS);
+        loops.retain(|found| found.multipliers.len() <= MAX_EQUATIONS);
         let (mut gradient, mut pivots) = (Gradient::default(), Pivots::default());
         let known = |found: &Loop| {
             found.gradient(system, at, length, &mut gradient);
@@ -127,7 +127,7 @@ impl SingularPositions {
     /// Looks at where a step has led; `way` is how far the fastest node went, over the representative length. Gives the
     /// first singular position since the last look.
     pub(crate) fn look(&mut self, system: &System, at: &Kinematics, way: f64) -> Option<Warning> {
-        let mut told = None;
+        let mut warning = None;
         for (found, known) in self.loops.iter().zip(&mut self.known) {
             known.moved += way;
             if known.moved < known.unseen() {
@@ -144,10 +144,10 @@ impl SingularPositions {
             };
             if let Some((time, equation)) = singular {
                 let joints = self.pivots.names(system, found, equation);
-                told = told.or(Some(Warning::SingularPosition { time, joints }));
+                warning = warning.or(Some(Warning::SingularPosition { time, joints }));
             }
         }
-        told
+        warning
     }
 }
 

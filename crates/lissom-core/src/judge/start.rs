@@ -15,7 +15,7 @@ const WRITTEN: f64 = 1e-6;
 /// Where less than this part of the given kinetic energy remains, nothing of what was given does.
 const NOTHING: f64 = 1e-4;
 /// Rates of constraints that stay above this part of the largest rate contradict each other.
-const LARGEST_RATE: f64 = 1e-6;
+const MAX_RATE: f64 = 1e-6;
 /// Deformation rates below this part of the largest speed over the representative length are not worth telling.
 const JOLT: f64 = 1e-3;
 
@@ -40,16 +40,16 @@ fn speed(twist: &lissom_motion::Vector6, length: f64) -> f64 {
 pub(crate) fn velocities(
     system: &System,
     representative: &Representative,
-    told: &Kinematics,
+    specified: &Kinematics,
     used: &Kinematics,
     negligible: f64,
 ) -> Result<Vec<Warning>, InitialError> {
     let length = representative.length;
-    let are_given = representative.largest_speed(system, told) > negligible;
-    let given = &told.nodes;
+    let are_given = representative.largest_speed(system, specified) > negligible;
+    let given = &specified.nodes;
     let largest = given.iter().chain(&used.nodes).map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
     let of_coordinates =
-        if are_given { rates_of_coordinates(system, (length, largest), told, used)? } else { None };
+        if are_given { rates_of_coordinates(system, (length, largest), specified, used)? } else { None };
     let mut warnings: Vec<Warning> = of_coordinates.into_iter().collect();
     let changed = |node: usize| {
         let is_given = are_given && given[node].twist.norm_squared() > 0.0;
@@ -93,22 +93,22 @@ pub(crate) fn velocities(
 fn rates_of_coordinates(
     system: &System,
     (length, largest): (f64, f64),
-    told: &Kinematics,
+    specified: &Kinematics,
     used: &Kinematics,
 ) -> Result<Option<Warning>, InitialError> {
     let change = |k: &usize| {
-        let (given, used) = (told.coordinates[*k].rate, used.coordinates[*k].rate);
+        let (given, used) = (specified.coordinates[*k].rate, used.coordinates[*k].rate);
         let arm = if system.layout().coordinate_quantity(*k) == Quantity::Angle { length } else { 1.0 };
         if arm * given.abs() <= WRITTEN * largest { 0.0 } else { (used - given).abs() / given.abs() }
     };
-    let worst = (0..told.coordinates.len()).max_by(|a, b| change(a).total_cmp(&change(b)));
+    let worst = (0..specified.coordinates.len()).max_by(|a, b| change(a).total_cmp(&change(b)));
     let Some(worst) = worst.filter(|worst| change(worst) > NOTEWORTHY) else { return Ok(None) };
     let unit = match system.layout().coordinate_quantity(worst) {
         Quantity::Length => "m/s",
         Quantity::Angle => "rad/s",
         Quantity::State => "1/s",
     };
-    let [given, used] = [told, used].map(|at| at.coordinates[worst].rate);
+    let [given, used] = [specified, used].map(|at| at.coordinates[worst].rate);
     let part = system.layout().coordinate_name(worst).to_owned();
     let words = |rate: f64| format!("{rate:.6} {unit}");
     if used.abs() < NOTHING * given.abs() {
@@ -137,14 +137,14 @@ pub(crate) fn rates(
         Quantity::Angle => rates[k].abs() * representative.length,
     };
     let worst = (0..rates.len()).map(relative).fold(0.0, f64::max);
-    if worst <= (LARGEST_RATE * largest).max(negligible) {
+    if worst <= (MAX_RATE * largest).max(negligible) {
         return Ok(());
     }
     let mut violated: Vec<String> = Vec::new();
     for k in (0..rates.len()).filter(|&k| relative(k) > 0.1 * worst) {
         let (joint, equation) = layout.constraint_name(k);
         let name = format!("`{joint}` ({equation})");
-        if violated.len() < super::MOST_NAMED && !violated.contains(&name) {
+        if violated.len() < super::MAX_LISTED && !violated.contains(&name) {
             violated.push(name);
         }
     }

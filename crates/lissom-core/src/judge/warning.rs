@@ -142,7 +142,7 @@ pub enum Warning {
         "at t = {time:.6e} s constraints yield: {violated}; they repeat each other, or others, and hold what loads or drives strain, so \
          that results are good to that only: free what is held twice, or look whether units are right"
     )]
-    ConstraintsYield {
+    RegularizedConstraints {
         /// When it was first seen [s].
         time: f64,
         /// Names of the constraints and their violations.
@@ -343,7 +343,7 @@ impl Warning {
             Self::DriveJumps { .. } => "drive-jumps",
             Self::Unresolved { .. } => "unresolved-motion",
             Self::UnresolvedRates { .. } => "unresolved-rates",
-            Self::ConstraintsYield { .. } => "constraints-yield",
+            Self::RegularizedConstraints { .. } => "constraints-yield",
             Self::ContactRunsRound { .. } => "contact-runs-round",
             Self::FunctionUnseen { .. } => "function-unseen",
             Self::WheelLifts { .. } => "wheel-lifts",

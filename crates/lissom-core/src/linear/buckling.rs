@@ -26,9 +26,9 @@ const NOTHING: f64 = 1e-9;
 /// Load factor below which no mode is believed to be where none is found, over the magnitude of the lowest negative one.
 const FAR_AWAY: f64 = 1e3;
 /// A search that has so many vectors, and eight times as many as modes are sought, is ended: there are no more modes.
-const MOST_VECTORS: usize = 300;
+const MAX_VECTORS: usize = 300;
 /// Times the search is started again with new vectors.
-const MOST_RESTARTS: usize = 4;
+const MAX_RESTARTS: usize = 4;
 
 /// A buckling mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,7 +153,7 @@ impl LinearModel<'_> {
             modes.truncate(keep);
             let counted = self.counted(&change, &modes, next, largest);
             let is_short = modes.len() < count && !is_whole;
-            if counted == Completeness::Counted || is_exhausted || restarts == MOST_RESTARTS {
+            if counted == Completeness::Counted || is_exhausted || restarts == MAX_RESTARTS {
                 modes.truncate(count);
                 let is_unknown = is_short && counted == Completeness::Counted;
                 let completeness = if is_unknown { Completeness::Unknown } else { counted };
@@ -228,7 +228,7 @@ fn search(
         let mut positive: Vec<_> =
             estimates.into_iter().filter(|estimate| estimate.0 > NOTHING * largest).collect();
         positive.sort_by(|a, b| b.0.total_cmp(&a.0));
-        *is_exhausted |= krylov.order() > MOST_VECTORS.max(8 * wanted);
+        *is_exhausted |= krylov.order() > MAX_VECTORS.max(8 * wanted);
         let are_enough = positive.len() >= wanted && positive[..wanted].iter().all(is_converged);
         if are_enough || *is_exhausted {
             let before = positive.len();

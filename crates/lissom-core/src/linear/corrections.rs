@@ -24,7 +24,7 @@ use crate::elements::superelement::{Damping, flexibility, rigid_column};
 
 /// Part of the elastic energy that may be missed under loads that give or take all stiffness: what shapes to first order in the loads leave
 /// there is as much.
-const LEAST: f64 = 1e-3;
+const MIN_ENERGY_FRACTION: f64 = 1e-3;
 
 impl Reduction {
     /// With the first `modes` modes, and, if `is_corrected`, with shapes that make up for those left out.
@@ -103,7 +103,7 @@ impl Reduction {
             }
         }
         let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(gram);
-        let chosen: Vec<usize> = (0..left).filter(|&k| eigenvalues[k] > LEAST).collect();
+        let chosen: Vec<usize> = (0..left).filter(|&k| eigenvalues[k] > MIN_ENERGY_FRACTION).collect();
         if chosen.is_empty() {
             return DMatrix::zeros(left, 0);
         }

@@ -29,7 +29,7 @@ const MECHANISM: f64 = 1e-12;
 /// ε: modes that bend count by this part.
 const BENDING: f64 = 1e-3;
 /// Terms below this part of the largest one, in modes of equal energy, are left out.
-const LEAST: f64 = 1e-6;
+const MIN_TERM: f64 = 1e-6;
 
 /// The static state under a load of the floating frame, interfaces held.
 #[derive(Clone, Debug, PartialEq)]
@@ -231,7 +231,7 @@ fn shortening(modes: &Modes, natural: &[DMatrix<f64>]) -> Vec<Shortening> {
     let largest = terms.iter().map(size).fold(0.0, f64::max);
     terms
         .iter()
-        .filter(|term| size(term) > LEAST * largest)
+        .filter(|term| size(term) > MIN_TERM * largest)
         .map(|(i, matrix)| Shortening {
             direction: modes.shapes.column(*i).into_owned(),
             matrix: modes.back(matrix) / modes.squares[*i],

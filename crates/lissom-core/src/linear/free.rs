@@ -34,7 +34,7 @@ const NO_LEVER: f64 = 1e-9;
 /// Coordinates that move by less than this part of the largest motion do not take part.
 const TAKES_PART: f64 = 1e-6;
 /// Parts that are named.
-const MOST_NAMED: usize = 4;
+const MAX_LISTED: usize = 4;
 
 /// What forces do along a motion.
 struct ForcesAlong {
@@ -186,8 +186,8 @@ impl LinearModel<'_> {
                 }
             }
         }
-        let more = rows.len().saturating_sub(MOST_NAMED);
-        let named: Vec<String> = rows.iter().take(MOST_NAMED).map(|&row| layout.name_of(row)).collect();
+        let more = rows.len().saturating_sub(MAX_LISTED);
+        let named: Vec<String> = rows.iter().take(MAX_LISTED).map(|&row| layout.name_of(row)).collect();
         let named = named.join(", ");
         if more > 0 { format!("{named} and {more} more") } else { named }
     }

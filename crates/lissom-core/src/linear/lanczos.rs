@@ -27,7 +27,7 @@ const BEYOND: usize = 4;
 /// Squares of rates below this part of the small one that stands for zero are not distinguished from rigid modes where the shift is chosen.
 const NEAREST: f64 = 1e-4;
 /// Times the search is started again with new vectors.
-const MOST_RESTARTS: usize = 6;
+const MAX_RESTARTS: usize = 6;
 /// Where modes are counted if none is found, in units of the shift.
 const FAR_AWAY: [f64; 3] = [1e2, 1e5, 1e8];
 /// Round-off of a solve, relative to the eigenvalue's distance from the shift.
@@ -275,10 +275,10 @@ fn search<'a>(
         };
         let completeness = match missing {
             Count::None => Completeness::Counted,
-            Count::Some(missing) if restarts == MOST_RESTARTS || is_exhausted => {
+            Count::Some(missing) if restarts == MAX_RESTARTS || is_exhausted => {
                 Completeness::Missing(missing)
             }
-            Count::Unknown if restarts == MOST_RESTARTS || is_exhausted => Completeness::Unknown,
+            Count::Unknown if restarts == MAX_RESTARTS || is_exhausted => Completeness::Unknown,
             Count::Some(_) | Count::Unknown => {
                 restarts += 1;
                 let added = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2);

@@ -11,7 +11,7 @@ use super::rolling_axes;
 use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use super::velocity_constraints::{refuse, take_forces};
 use crate::analysis::InitialError;
-use crate::analysis::initial::Initial;
+use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::interrupt::{self, Interrupted};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
@@ -131,7 +131,7 @@ impl<'a> LinearModel<'a> {
             take_forces(system, &mut unloaded, true);
             [imbalance, released] = hold(system, &mut state, &unloaded, &representative, &zeros)?;
         } else {
-            let mut initial = Initial::new(system, &state, &representative, solver);
+            let mut initial = ConsistentInitialConditions::new(system, &state, &representative, solver);
             initial
                 .accelerations(system, &mut state)
                 .map_err(|error| LinearError::Accelerations { time, error })?;

@@ -32,7 +32,7 @@ use crate::kinematics::{Kinematics, LOCKED, NodeId};
 /// Places that differ by less, over the length of the model, and axes [rad], are the same.
 const SAME: f64 = 1e-6;
 /// Blades are at most so many.
-const MOST_BLADES: usize = 12;
+const MAX_BLADES: usize = 12;
 
 /// Why there are no multi-blade coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -233,7 +233,7 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
         return generator(columns);
     }
     let Some((blades, images)) =
-        (2..=MOST_BLADES).rev().find_map(|blades| Some((blades, axis.images(at, blades)?)))
+        (2..=MAX_BLADES).rev().find_map(|blades| Some((blades, axis.images(at, blades)?)))
     else {
         return Err(NoMultiblade::NotPeriodic);
     };

@@ -11,7 +11,7 @@ use lissom_solver::{
 };
 use num_complex::Complex64;
 
-use crate::analysis::compliance::{Compliance, Refinement};
+use crate::analysis::regularization::{Refinement, Regularization};
 use crate::equilibration::Equilibration;
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
@@ -71,8 +71,8 @@ impl<'a> RealShift<'a> {
         self.refinement.stop();
         if repeats(&report, count) {
             self.refinement.start(&self.values);
-            let mut compliance = Compliance::new(pattern, count);
-            compliance.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
+            let mut regularization = Regularization::new(pattern, count);
+            regularization.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
             report = self.solver.factor(&self.values);
         }
         let negative = report?.negative_pivots.unwrap_or(usize::MAX);
@@ -170,8 +170,8 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         self.refinement.stop();
         if repeats(&report, count) {
             self.refinement.start(&self.values);
-            let mut compliance = Compliance::new(pattern, count);
-            compliance.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
+            let mut regularization = Regularization::new(pattern, count);
+            regularization.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
             report = self.solver.factor(&self.values);
         }
         report.map(|_| ())

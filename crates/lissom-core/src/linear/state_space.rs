@@ -15,7 +15,7 @@ use super::output::OutputDerivatives;
 use crate::kinematics::Quantity;
 
 /// Most coordinates of a model whose matrices are filled.
-const MOST_COORDINATES: usize = 600;
+const MAX_COORDINATES: usize = 600;
 /// A pivot of the constraints below this part of the largest is none.
 const RANK: f64 = 1e-9;
 /// A reduced mass matrix of a smaller ratio between pivots has freedoms without mass.
@@ -41,7 +41,7 @@ pub struct StateSpace {
 #[non_exhaustive]
 pub enum StateSpaceError {
     /// Too many coordinates.
-    #[error("the model has {0} coordinates: full matrices are made of up to {MOST_COORDINATES}")]
+    #[error("the model has {0} coordinates: full matrices are made of up to {MAX_COORDINATES}")]
     TooLarge(usize),
     /// Inputs act on constraints.
     #[error("an input is a prescribed motion, whose velocity and acceleration would be inputs as well")]
@@ -78,7 +78,7 @@ impl LinearModel<'_> {
         outputs: &[(OutputDerivatives, Vec<f64>)],
     ) -> Result<StateSpace, StateSpaceError> {
         let count = self.coordinate_count();
-        if count > MOST_COORDINATES {
+        if count > MAX_COORDINATES {
             return Err(StateSpaceError::TooLarge(count));
         }
         if inputs.iter().any(|input| input[count..].iter().any(|&value| value != 0.0)) {
@@ -98,7 +98,7 @@ impl LinearModel<'_> {
     /// would be larger.
     pub(super) fn first_order(&self, most: usize, rate: f64) -> Option<DMatrix<f64>> {
         let freedoms = self.coordinate_count().saturating_sub(self.system.layout().multiplier_rows().len());
-        if 2 * freedoms > most || self.coordinate_count() > MOST_COORDINATES {
+        if 2 * freedoms > most || self.coordinate_count() > MAX_COORDINATES {
             return None;
         }
         if self.system.sees_multipliers() || self.system.layout().impulses().next().is_some() {

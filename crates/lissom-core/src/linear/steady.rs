@@ -19,14 +19,14 @@ use super::model::{LinearError, LinearModel, nothing, point, stopped};
 use super::rolling_axes;
 use super::shifted::ComplexShift;
 use super::velocity_constraints::refuse;
-use crate::analysis::initial::Initial;
+use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeMotion, Quantity};
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
 /// Most corrections.
-const MOST: usize = 60;
+const MAX_CORRECTIONS: usize = 60;
 /// A correction below this, of angles and of parts of the model's length, ends it …
 const STILL: f64 = 1e-13;
 /// … and so does one that is no smaller than the last, if it is below this.
@@ -84,7 +84,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     let time = state.kinematics.time;
     let unloaded = system.linearization_at(&state.kinematics);
     let representative = Representative::of(system, &state.kinematics, &unloaded);
-    let mut initial = Initial::new(system, &state, &representative, solver);
+    let mut initial = ConsistentInitialConditions::new(system, &state, &representative, solver);
     initial.velocities(system, &mut state).map_err(|error| LinearError::Accelerations { time, error })?;
     let rate = rate_of(&state);
     let fields: Vec<Vector6> =
@@ -103,7 +103,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     let mut shifted = ComplexShift::new(system, &representative);
     let mut residual = vec![0.0; layout.size()];
     let (mut last, mut right) = (f64::INFINITY, vec![Complex64::default(); layout.size()]);
-    for _ in 0..MOST {
+    for _ in 0..MAX_CORRECTIONS {
         system.violations(&state.kinematics, &mut violations);
         for (violation, start) in violations.iter_mut().zip(&start) {
             *violation -= start;

@@ -6,7 +6,7 @@ const EASY: f64 = 7.0;
 /// Least and largest change from step to step.
 const CHANGE: (f64, f64) = (0.5, 1.7);
 /// Longest step: largest displacement over the model's length, and rotation, of any node [-, rad].
-const LARGEST_TURN: f64 = 0.2;
+const MAX_TURN: f64 = 0.2;
 /// Cosine of the angle by which the direction may turn in a step; below the second number the step is given up.
 const BENT: (f64, f64) = (0.96, 0.8);
 /// Angle between the chord of a step and the mean of its tangents: part of the angle between these, and what is allowed besides [rad].
@@ -36,7 +36,7 @@ impl ArcControl {
 
     /// The next step; `turn` is the largest displacement or rotation on a unit of the path.
     pub(crate) fn propose(&self, turn: f64) -> f64 {
-        self.size.min(LARGEST_TURN / turn)
+        self.size.min(MAX_TURN / turn)
     }
 
     /// Whether the path has turned so far in a step, by the cosine of the angle, that it may have gone over to another one.

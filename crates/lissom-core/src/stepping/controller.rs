@@ -8,7 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numbers::{Number, Numbers};
+use crate::tuning::{Tuning, TuningParameter};
 
 /// Order of the estimate in the step size.
 const ORDER: f64 = 3.0;
@@ -55,11 +55,11 @@ impl Controller {
     }
 
     /// A step of `taken` [s] had an estimated error of `error` times the tolerance, and is accepted.
-    pub(crate) fn accept(&mut self, taken: f64, error: f64, max_step: f64, numbers: &Numbers) {
-        let largest = if self.has_failed { 1.0 } else { numbers.of(Number::Growth) };
-        let factor = (numbers.of(Number::Safety) * error.powf(-1.0 / ORDER)).min(largest);
+    pub(crate) fn accept(&mut self, taken: f64, error: f64, max_step: f64, tuning: &Tuning) {
+        let largest = if self.has_failed { 1.0 } else { tuning.of(TuningParameter::Growth) };
+        let factor = (tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER)).min(largest);
         self.has_failed = false;
-        let kept = numbers.of(Number::Kept);
+        let kept = tuning.of(TuningParameter::Kept);
         let wanted = taken * if (1.0 / kept..kept).contains(&factor) { 1.0 } else { factor };
         // A step cut short to end where it must says that at least its size is possible.
         self.size = if taken < self.size { wanted.max(self.size.min(taken * factor)) } else { wanted };
@@ -67,9 +67,9 @@ impl Controller {
     }
 
     /// A step of `taken` [s] had an estimated error of `error` times the tolerance, above 1, and is rejected.
-    pub(crate) fn reject(&mut self, taken: f64, error: f64, numbers: &Numbers) {
+    pub(crate) fn reject(&mut self, taken: f64, error: f64, tuning: &Tuning) {
         if error.is_finite() {
-            self.size = taken * numbers.of(Number::Safety) * error.powf(-1.0 / ORDER);
+            self.size = taken * tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER);
             self.has_failed = true;
         } else {
             self.fail(taken);
@@ -95,10 +95,10 @@ mod tests {
             let size = controller.propose(end - time);
             let error = (size / of(time)).powi(3);
             if error > 1.0 {
-                controller.reject(size, error, &Numbers::default());
+                controller.reject(size, error, &Tuning::default());
                 rejected += 1;
             } else {
-                controller.accept(size, error, 10.0, &Numbers::default());
+                controller.accept(size, error, 10.0, &Tuning::default());
                 time += size;
                 taken.push(size);
             }

@@ -30,10 +30,10 @@ pub(super) enum Order {
 }
 
 /// Motions smaller than this part of the model's size are not resolved for their own sake.
-pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;
+pub(crate) const MIN_REFERENCE: f64 = 1e-6;
 
 /// Errors of a step below this part of the model's size are round-off, which no smaller step lowers.
-pub(crate) const SMALLEST_ERROR: f64 = 3e-13;
+pub(crate) const MIN_ERROR: f64 = 3e-13;
 
 /// Largest scaled displacement or turn of a node, or change of a generalised coordinate, between two instants, at most 1.
 pub(crate) fn excursion(system: &System, (from, to): (&Kinematics, &Kinematics), length: f64) -> f64 {

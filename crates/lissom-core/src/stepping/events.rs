@@ -1,6 +1,6 @@
 //! Steps that end at events and where forces switch.
 
-use super::watch::Located;
+use super::event_detector::LocatedRoot;
 use crate::analysis::{Simulation, StepError, StepReport, Stopwatch, warn};
 use crate::judge::Warning;
 use crate::newton::Outcome;
@@ -9,7 +9,7 @@ use crate::signals::event::Occurrence;
 /// An attempt that was checked for zeros of switching functions.
 pub(super) enum Checked {
     /// It can be accepted, and ends at the zero if there is one.
-    Accepted(Outcome, Option<Located>),
+    Accepted(Outcome, Option<LocatedRoot>),
     /// A force switched at the start of the step: the attempt has to be repeated.
     SwitchedAtStart,
 }
@@ -17,12 +17,12 @@ pub(super) enum Checked {
 impl Simulation {
     /// The events that happened since the start, in their order.
     pub fn occurrences(&self) -> &[Occurrence] {
-        &self.watch.known.occurrences
+        &self.event_detector.known.occurrences
     }
 
     /// Name of the event at which the run is to end, if the last step ended at one.
     pub fn stopped_by(&self) -> Option<&str> {
-        let event = self.watch.known.stopped_by?;
+        let event = self.event_detector.known.stopped_by?;
         Some(&self.system.signals().events()[event].name)
     }
 
@@ -38,17 +38,18 @@ impl Simulation {
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<Checked, StepError> {
-        if self.watch.is_empty() {
+        if self.event_detector.is_empty() {
             return Ok(Checked::Accepted(outcome, None));
         }
-        let Some(mut located) = self.watch.crossing(&self.system, (&self.state, &self.next), size) else {
+        let Some(mut located) = self.event_detector.crossing(&self.system, (&self.state, &self.next), size)
+        else {
             return Ok(Checked::Accepted(outcome, None));
         };
         if located.size == 0.0 {
-            if !self.watch.switch_at_start(&located.who) {
-                return Err(self.chatters(located.who[0]));
+            if !self.event_detector.switch_at_start(&located.indices) {
+                return Err(self.chatters(located.indices[0]));
             }
-            self.hold_sides()?;
+            self.freeze_switches()?;
             self.work.forget_predictions();
             report.rejected += 1;
             return Ok(Checked::SwitchedAtStart);
@@ -58,7 +59,7 @@ impl Simulation {
             report.rejected += 1;
             solved = located.size;
             outcome = self.attempt(solved, watch)?;
-            if self.watch.is_met(&self.system, (&self.state, &self.next), &mut located) {
+            if self.event_detector.is_met(&self.system, (&self.state, &self.next), &mut located) {
                 break;
             }
         }
@@ -69,15 +70,19 @@ impl Simulation {
     ///
     /// # Errors
     /// If signals switch again and again, or there are no consistent accelerations with the values that events set.
-    pub(super) fn after_events(&mut self, located: Option<&Located>, longest: f64) -> Result<(), StepError> {
-        if self.watch.is_empty() {
+    pub(super) fn after_events(
+        &mut self,
+        located: Option<&LocatedRoot>,
+        longest: f64,
+    ) -> Result<(), StepError> {
+        if self.event_detector.is_empty() {
             return Ok(());
         }
         let happened = self
-            .watch
+            .event_detector
             .accept(&self.system, &self.state, located, longest)
             .map_err(|which| self.chatters(which))?;
-        self.hold_sides()?;
+        self.freeze_switches()?;
         if happened.is_empty() {
             return Ok(());
         }
@@ -95,18 +100,18 @@ impl Simulation {
         graph.check(&at).map_err(StepError::Signal)?;
         let time = at.time;
         self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })?;
-        self.watch.renew(&self.system, &self.state, &happened);
-        self.hold_sides()
+        self.event_detector.renew(&self.system, &self.state, &happened);
+        self.freeze_switches()
     }
 
     /// Lets signals be continued from the sides of their switches that are known: forces may jump with them.
-    pub(crate) fn hold_sides(&mut self) -> Result<(), StepError> {
-        if self.watch.holds_sides(&self.system, &self.state.kinematics) {
+    pub(crate) fn freeze_switches(&mut self) -> Result<(), StepError> {
+        if self.event_detector.has_frozen_switches(&self.system, &self.state.kinematics) {
             return Ok(());
         }
         let first = self.system.signals().first_side();
         let mut at = self.state.kinematics.clone();
-        self.watch.hold_sides(&self.system, &mut at);
+        self.event_detector.freeze_switches(&self.system, &mut at);
         let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
         if pairs().all(|(side, held)| side == held || *held == 0.0) {
             // Sides that become known change nothing.
@@ -119,10 +124,10 @@ impl Simulation {
 
     /// After a step of planned size that was accepted.
     pub(super) fn note_impacts(&mut self) {
-        let told = self.impacts.accept(&self.system, &self.state.kinematics);
+        let found = self.impacts.accept(&self.system, &self.state.kinematics);
         let is_contact = |warning: &Warning| matches!(warning, Warning::ContactTooShort { .. });
         let known = self.warnings.iter().position(is_contact);
-        match (told, known) {
+        match (found, known) {
             (Some((which, time)), None) => {
                 let what = self.system.name_of_switch(which);
                 warn(&mut self.warnings, Warning::ContactTooShort { time, what });

@@ -61,11 +61,11 @@ impl Impacts {
         for (approach, &value) in self.approaches.iter_mut().zip(&self.values) {
             approach.accept(value, duration, at.time);
         }
-        let told = self.approaches.iter().enumerate().filter_map(|(which, approach)| {
+        let found = self.approaches.iter().enumerate().filter_map(|(which, approach)| {
             let (rate, time) = approach.stopped?;
             (rate >= SLOW * approach.fastest).then_some((which, time))
         });
-        told.min_by(|a, b| a.1.total_cmp(&b.1))
+        found.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
@@ -118,7 +118,7 @@ mod tests {
 
     /// Whether the gap of a body that meets a spring of ω at a rate of 1 at the time 0 is reported, with steps of `step` the
     /// first of which ends at `first`; the body goes on through the spring and back.
-    fn is_told(omega: f64, step: f64, first: f64, restitution: f64) -> bool {
+    fn is_reported(omega: f64, step: f64, first: f64, restitution: f64) -> bool {
         let contact = std::f64::consts::PI / omega;
         let gap = |time: f64| match time {
             time if time <= 0.0 => -time,
@@ -130,34 +130,34 @@ mod tests {
     }
 
     #[test]
-    fn contacts_shorter_than_steps_are_told_whatever_the_phase_and_long_ones_are_not() {
+    fn contacts_shorter_than_steps_are_reported_whatever_the_phase_and_long_ones_are_not() {
         for phase in 0..10 {
             let first = -2.0 - 0.1 * f64::from(phase);
             for omega in [1.0, 2.0, 10.0, 1e3] {
                 for restitution in [1.0, 0.5, 0.15] {
-                    assert!(is_told(omega, 1.0, first, restitution), "{omega} {first} {restitution}");
+                    assert!(is_reported(omega, 1.0, first, restitution), "{omega} {first} {restitution}");
                 }
             }
-            assert!(!is_told(0.3, 1.0, first, 1.0), "{first}");
-            assert!(!is_told(0.1, 1.0, first, 1.0), "{first}");
+            assert!(!is_reported(0.3, 1.0, first, 1.0), "{first}");
+            assert!(!is_reported(0.1, 1.0, first, 1.0), "{first}");
         }
     }
 
     #[test]
-    fn a_slow_approach_is_no_longer_told_beside_fast_ones_that_are_not_stopped() {
+    fn a_slow_approach_is_no_longer_reported_beside_fast_ones_that_are_not_stopped() {
         let mut approach = Approach { value: 1e-3, ..Approach::default() };
-        let is_told =
+        let is_reported =
             |approach: &Approach| approach.stopped.is_some_and(|(rate, _)| rate >= SLOW * approach.fastest);
         for (k, value) in [5e-4, 0.0, -5e-4, -5e-4].into_iter().enumerate() {
             approach.accept(value, 1.0, k as f64);
         }
-        assert!(is_told(&approach), "stopped at once: {approach:?}");
+        assert!(is_reported(&approach), "stopped at once: {approach:?}");
         (4..10).for_each(|k| approach.accept(-f64::from(k), 1.0, f64::from(k)));
-        assert!(!is_told(&approach), "{approach:?}");
+        assert!(!is_reported(&approach), "{approach:?}");
     }
 
     #[test]
-    fn passing_on_is_not_told() {
+    fn passing_on_is_not_reported() {
         let mut approach = Approach { value: 1.0, ..Approach::default() };
         assert!(!(0..50).any(|k| approach.is_stopped((0.2 * f64::from(k)).cos(), 0.1)));
     }

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numbers::{MOST_HALVINGS, Number, Numbers};
+use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
 /// Iterations that a step of the right length takes: few tangents serve several steps.
 const EASY: f64 = 15.0;
@@ -34,7 +34,7 @@ pub(super) struct Attempts {
 impl LoadControl {
     /// With the length of the first step.
     pub(crate) fn new(size: f64) -> Self {
-        Self { size, least: size / f64::from(1_u32 << MOST_HALVINGS) }
+        Self { size, least: size / f64::from(1_u32 << MAX_HALVINGS) }
     }
 
     /// The next step, where `rest` is left of the range.
@@ -75,12 +75,15 @@ impl LoadControl {
         size: f64,
         iterations: usize,
         (missing, tolerance): (f64, f64),
-        numbers: &Numbers,
+        tuning: &Tuning,
     ) {
         let ease = EASY / iterations.max(1) as f64;
         // The part that is missing grows with the square of the length.
-        let error =
-            if missing > 0.0 { numbers.of(Number::Safety) * (tolerance / missing).sqrt() } else { CHANGE.1 };
+        let error = if missing > 0.0 {
+            tuning.of(TuningParameter::Safety) * (tolerance / missing).sqrt()
+        } else {
+            CHANGE.1
+        };
         let error = if missing > tolerance { 1.0 } else { error };
         self.size = (size * ease.min(error).clamp(CHANGE.0, CHANGE.1)).max(self.least);
     }
@@ -96,7 +99,7 @@ mod tests {
         let (mut at, mut sizes) = (0.0, Vec::new());
         while at < 1.0 - 1e-12 {
             let size = control.propose(1.0 - at, 0.25);
-            control.accept(size, 2, (0.0, 0.01), &Numbers::default());
+            control.accept(size, 2, (0.0, 0.01), &Tuning::default());
             at += size;
             sizes.push(size);
         }

@@ -5,50 +5,50 @@
 //! estimated error allows. What the scheme and Newton's method remember goes over to the new size.
 
 mod arc;
+pub(crate) mod breakpoints;
 mod controller;
 pub(crate) mod dense;
 mod error_estimate;
+mod event_detector;
 mod events;
 mod impacts;
-pub(crate) mod kinks;
+mod integrator_history;
 mod load_steps;
-mod method_memory;
-mod parts;
 mod resolution;
 mod samples;
 mod snapshot;
+mod step_bisection;
 mod time_functions;
-mod watch;
 
 pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
+pub(crate) use event_detector::{EventDetector, EventState};
 pub(crate) use impacts::Impacts;
+pub(crate) use integrator_history::IntegratorHistory;
 pub(crate) use load_steps::LoadControl;
-pub(crate) use method_memory::MethodMemory;
-pub(crate) use parts::Parts;
 pub(crate) use resolution::Resolution;
 pub use snapshot::{Snapshot, SnapshotError};
+pub(crate) use step_bisection::StepBisection;
 pub(crate) use time_functions::TimeFunctions;
-pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
 use crate::instants::SAME;
-use crate::judge::{LARGEST_TURN, Ledger};
+use crate::judge::{EnergyBalance, MAX_TURN};
 use crate::kinematics::Quantity;
-use crate::mechanisms::Mechanism;
-use crate::newton::{Memory, Outcome};
-use crate::numbers::Number;
-use crate::scaling::{ScaleBy, UnitStart};
+use crate::newton::{JacobianState, Outcome};
+use crate::scaling::{ScaleBy, UnitStepState};
 use crate::schemes::Stage;
+use crate::solver_features::SolverFeature;
 use crate::system::State;
-use error_estimate::{Order, SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
+use crate::tuning::TuningParameter;
+use breakpoints::Breakpoint;
+use error_estimate::{MIN_ERROR, MIN_REFERENCE, Order, driven, excursion, inertial_part};
 use events::Checked;
-use kinks::Kink;
 use load_steps::Attempts;
 
 /// Attempts at a step that are given up before the step is.
-const MOST_REJECTED: usize = 60;
+const MAX_REJECTED: usize = 60;
 /// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
 const SHORT_PART: f64 = 1e-3;
 /// Steps shorter than this part of the largest one are not tried [-].
@@ -59,7 +59,7 @@ impl Simulation {
     pub fn set_step_size(&mut self, step_size: f64) {
         if step_size != self.settings.step_size {
             self.settings.step_size = step_size;
-            self.parts = Parts::whole();
+            self.step_bisection = StepBisection::whole();
         }
     }
 
@@ -113,18 +113,18 @@ impl Simulation {
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<(), StepError> {
-        let mut start: Option<(State, Ledger)> = None;
+        let mut start: Option<(State, EnergyBalance)> = None;
         let mut first_error = None;
-        self.parts.restart();
+        self.step_bisection.restart();
         loop {
-            let share = self.parts.share();
+            let share = self.step_bisection.fraction();
             let size = share * whole;
             let attempt = self.attempt(size, watch);
             match attempt.and_then(|outcome| self.end_at_event((size, outcome), watch, report)) {
                 Ok(Checked::SwitchedAtStart) => {}
                 Ok(Checked::Accepted(outcome, located)) => {
                     if share < 1.0 && start.is_none() {
-                        start = Some((self.state.clone(), self.ledger));
+                        start = Some((self.state.clone(), self.energy_balance));
                     }
                     self.note_resolution(located.as_ref().map_or(share, |located| located.size / whole));
                     self.accept_step();
@@ -136,29 +136,29 @@ impl Simulation {
                     self.is_last_step_known = share == 1.0;
                     self.after_events(located.as_ref(), whole)?;
                     if located.is_some_and(|located| located.size < size) {
-                        self.parts.restart();
+                        self.step_bisection.restart();
                         return Ok(());
                     }
-                    if self.parts.accept(&self.settings.limits.numbers) {
+                    if self.step_bisection.accept(&self.settings.limits.tuning) {
                         return Ok(());
                     }
                 }
                 Err(error) => {
                     let may_help = error.may_need_a_smaller_step()
-                        && report.rejected < MOST_REJECTED
-                        && self.settings.limits.without.has(Mechanism::Parts);
-                    let told = cause::telling(first_error.take(), error);
-                    first_error = Some(told.clone());
-                    if watch.is_cancelled() || !(may_help && self.parts.refuse()) {
+                        && report.rejected < MAX_REJECTED
+                        && self.settings.limits.disabled.allows(SolverFeature::StepBisection);
+                    let cause = cause::more_specific(first_error.take(), error);
+                    first_error = Some(cause.clone());
+                    if watch.is_cancelled() || !(may_help && self.step_bisection.halve()) {
                         let error = if watch.is_cancelled() {
                             StepError::Interrupted { time: self.state.kinematics.time }
                         } else {
-                            self.with_cause(told, share <= SHORT_PART)
+                            self.with_cause(cause, share <= SHORT_PART)
                         };
                         if let Some(start) = start {
-                            (self.state, self.ledger) = start;
+                            (self.state, self.energy_balance) = start;
                         }
-                        self.parts = Parts::whole();
+                        self.step_bisection = StepBisection::whole();
                         if watch.is_cancelled() {
                             return Err(error);
                         }
@@ -190,8 +190,9 @@ impl Simulation {
         let now = self.state.kinematics.time + self.state.time_remainder;
         // A step across a kink of a load would not see what the load does between.
         let near = SAME * control.max_step;
-        let ahead = |kink: &&Kink| kink.time > now + near && kink.time < limit - near;
-        let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.time.next_down());
+        let ahead = |breakpoint: &&Breakpoint| breakpoint.time > now + near && breakpoint.time < limit - near;
+        let limit =
+            self.breakpoints.iter().find(ahead).map_or(limit, |breakpoint| breakpoint.time.next_down());
         let rest = limit - now;
         let mut attempts = Attempts::default();
         let (mut first_error, mut is_relaxed) = (None, false);
@@ -200,10 +201,10 @@ impl Simulation {
             let size = choice.propose(rest, control.max_step);
             let error = match self.attempt(size, watch) {
                 Ok(outcome) => {
-                    let missing = self.next_ledger.missing_work(&self.ledger);
+                    let missing = self.next_energy_balance.missing_work(&self.energy_balance);
                     if !choice.refuses(size, missing, control.relative_tolerance, &mut attempts) {
                         let missed = (missing, control.relative_tolerance);
-                        choice.accept(size, outcome.iterations, missed, &self.settings.limits.numbers);
+                        choice.accept(size, outcome.iterations, missed, &self.settings.limits.tuning);
                         note(report, &outcome);
                         break;
                     }
@@ -217,7 +218,7 @@ impl Simulation {
             }
             let Some(error) = error else { continue };
             attempts = Attempts::default();
-            let may_help = error.may_need_a_smaller_step() && report.rejected < MOST_REJECTED;
+            let may_help = error.may_need_a_smaller_step() && report.rejected < MAX_REJECTED;
             // The first failure is more specific than those of shorter steps.
             let first = first_error.get_or_insert(error);
             if !(may_help && choice.halve(size)) {
@@ -256,14 +257,14 @@ impl Simulation {
             return Ok(());
         }
         self.look_at_time_functions(now);
-        // Where it must end anyway at a kink, or has begun at one, nothing is to be gained by another tiny step.
-        let landing = self.landing(now, limit, control.max_step);
-        let limit = landing.map_or(limit, |landing| landing.end);
+        // Where it must end anyway at a breakpoint, or has begun at one, nothing is to be gained by another tiny step.
+        let stop_time = self.stop_time(now, limit, control.max_step);
+        let limit = stop_time.map_or(limit, |stop_time| stop_time.end);
         let rest = limit - now;
-        let told = self.told_by_its_ends(now, controller.size().min(control.max_step).min(rest));
+        let resolved = self.resolved_by_its_ends(now, controller.size().min(control.max_step).min(rest));
         let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
-            let size = size.min(told);
+            let size = size.min(resolved);
             // What would be left is round-off, over which velocities cannot be determined.
             let size = if (rest - size).abs() <= SAME * size { rest } else { size };
             let error = match self.attempt(size, watch) {
@@ -285,7 +286,7 @@ impl Simulation {
                             }
                         }
                     } else {
-                        controller.reject(size, error, &self.settings.limits.numbers);
+                        controller.reject(size, error, &self.settings.limits.tuning);
                         None
                     }
                 }
@@ -301,7 +302,7 @@ impl Simulation {
             }
             let is_hopeless = error.as_ref().is_some_and(|error| !error.may_need_a_smaller_step());
             if is_hopeless
-                || report.rejected > MOST_REJECTED
+                || report.rejected > MAX_REJECTED
                 || controller.size() < SHORTEST * control.max_step
             {
                 self.controller = Some(controller);
@@ -316,7 +317,7 @@ impl Simulation {
         };
         let taken = self.scaled.step_size();
         let error = report.error.unwrap_or(1.0);
-        controller.accept(taken, error, control.max_step, &self.settings.limits.numbers);
+        controller.accept(taken, error, control.max_step, &self.settings.limits.tuning);
         self.accept_step();
         if self.scaled.step_size() == rest {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
@@ -324,11 +325,11 @@ impl Simulation {
         self.farthest = self.farthest.max(self.excursion_of(&self.state));
         self.controller = Some(controller);
         self.is_last_step_known = true;
-        if let Some(landing) = landing.filter(|_| self.scaled.step_size() == rest) {
-            self.pass_kink(&landing, control.max_step)?;
+        if let Some(stop_time) = stop_time.filter(|_| self.scaled.step_size() == rest) {
+            self.cross_breakpoint(&stop_time, control.max_step)?;
         }
         self.after_events(located.as_ref(), control.max_step)?;
-        if self.watch.known.has_switched {
+        if self.event_detector.known.has_switched {
             self.work.forget_predictions();
         }
         Ok(())
@@ -348,7 +349,7 @@ impl Simulation {
     /// Goes over to steps of another size with all that is remembered.
     pub(crate) fn resize(&mut self, size: f64) -> Result<(), StepError> {
         let Self { system, settings, work, .. } = self;
-        if let Some(memory) = &mut self.method_memory {
+        if let Some(memory) = &mut self.integrator_history {
             let time = self.state.kinematics.time;
             let states = (&self.previous, &mut self.state, &mut self.next);
             memory
@@ -359,7 +360,7 @@ impl Simulation {
         self.scaled = self.scaled.resized(&settings.scaling, size);
         // Scaled tangents of motions hardly depend on the step size, those of load steps and unscaled ones do.
         if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None {
-            self.memory = Memory::default();
+            self.jacobian_state = JacobianState::default();
         }
         work.note_scales(system.layout(), &self.scaled);
         Ok(())
@@ -369,7 +370,7 @@ impl Simulation {
     fn turning_limit(&self) -> f64 {
         let nodes = &self.state.kinematics.nodes;
         let fastest = nodes.iter().fold(0.0_f64, |most, node| most.max(node.twist.fixed_rows::<3>(3).norm()));
-        let most = self.settings.limits.numbers.of(Number::Safety) * LARGEST_TURN;
+        let most = self.settings.limits.tuning.of(TuningParameter::Safety) * MAX_TURN;
         if fastest > 0.0 { most / fastest } else { f64::INFINITY }
     }
 
@@ -382,7 +383,7 @@ impl Simulation {
         self.miss_of_attempt(order);
         let work = &mut *self.work;
         let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
-        if self.watch.known.has_switched {
+        if self.event_detector.known.has_switched {
             // The filter would hide a motion that the switch has just woken: an impact on a stiff stop.
             motion.copy_from_slice(&work.error);
             self.system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
@@ -413,7 +414,7 @@ impl Simulation {
         let before = self.state.kinematics.time - self.previous.kinematics.time;
         let weight = 4.0 / (1.0 + 3.0 * before / self.scaled.step_size());
         // Behind a switch the motion is not smooth, and constants that assume so do not apply.
-        let constant = if self.watch.known.has_switched { 1.0 } else { scheme.error_constant };
+        let constant = if self.event_detector.known.has_switched { 1.0 } else { scheme.error_constant };
         let mut error = std::mem::take(&mut work.error);
         let quantities = self.system.layout().quantities();
         for ((row, error), last) in error.iter_mut().enumerate().zip(work.last_miss()) {
@@ -437,7 +438,7 @@ impl Simulation {
     /// three over the order of the estimate.
     fn estimated_error(&mut self, control: StepControl) -> f64 {
         let StepControl { relative_tolerance: tolerance, max_step } = control;
-        let mut reference = self.farthest.max(self.excursion_of(&self.next)).max(SMALLEST_REFERENCE);
+        let mut reference = self.farthest.max(self.excursion_of(&self.next)).max(MIN_REFERENCE);
         if reference < 1.0 {
             let ahead = (self.origin.time, self.next.kinematics.time + max_step);
             reference = reference.max(driven(&self.system, ahead, self.representative.length));
@@ -450,14 +451,14 @@ impl Simulation {
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });
-        let numbers = &self.settings.limits.numbers;
-        let share = numbers.of(Number::ShareOfStep);
+        let tuning = &self.settings.limits.tuning;
+        let share = tuning.of(TuningParameter::ShareOfStep);
         let (allowed, power) = match order {
-            Order::Third if is_third_order => (numbers.of(Number::ShareOfFirst) * tolerance, 1.0),
+            Order::Third if is_third_order => (tuning.of(TuningParameter::ShareOfFirst) * tolerance, 1.0),
             Order::Third => (share * tolerance.powf(3.0 / 2.0), 1.0),
             Order::Fourth => (share * tolerance.powf(4.0 / scheme_order), 3.0 / 4.0),
         };
-        let places = largest / (reference * allowed).max(SMALLEST_ERROR);
+        let places = largest / (reference * allowed).max(MIN_ERROR);
         let states = self.error_of_states() / allowed;
         let error = if states <= places || places.is_nan() { places } else { states };
         error.powf(power)
@@ -492,7 +493,7 @@ impl Simulation {
 ///
 /// In two-stage Radau IIA the force of the last stage has no weight in the position at the end, (A²)₂₂ = 0: a force that
 /// begins late in a step changes the velocity alone.
-fn velocity_miss(stage: &Stage, unit: &UnitStart, increments: &[Vec<f64>], row: usize) -> f64 {
+fn velocity_miss(stage: &Stage, unit: &UnitStepState, increments: &[Vec<f64>], row: usize) -> f64 {
     (unit.combine(&stage.rate, increments, row) - unit.curvature[row]) / 3.0
 }
 

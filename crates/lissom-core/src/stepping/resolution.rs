@@ -13,7 +13,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error_estimate::{Order, SMALLEST_REFERENCE};
+use super::error_estimate::{MIN_REFERENCE, Order};
 use crate::analysis::{Simulation, warn};
 use crate::judge::{self, Warning};
 
@@ -29,7 +29,7 @@ const OSCILLATION: f64 = 1.0 / 12.0;
 /// Mean of |cos|.
 const MEAN_COSINE: f64 = std::f64::consts::FRAC_2_PI;
 /// Most that an oscillation errs, in amplitudes.
-const MOST: f64 = 8.0;
+const MAX_ERROR: f64 = 8.0;
 /// Estimates beyond this part of how far the model moves are reported. Where motions amplify errors, those at the end are up to ten
 /// times the estimate: of 10 000 random mechanisms four erred by 1 to 2.5 % with estimates of 0.15 to 0.19 %.
 const NOTEWORTHY: f64 = 1e-3;
@@ -55,7 +55,7 @@ impl Missed {
         let amplitude = self.errors / (2.0 * pairs * MEAN_COSINE * OSCILLATION * angle.powi(3));
         // Where nothing differs there is no oscillation.
         let sum = self.sum + steps * self.last;
-        if amplitude.is_nan() { sum } else { sum.min(MOST * amplitude) }
+        if amplitude.is_nan() { sum } else { sum.min(MAX_ERROR * amplitude) }
     }
 }
 
@@ -192,7 +192,7 @@ impl Simulation {
         }
         self.farthest = self.farthest.max(self.excursion_of(&self.next));
         let (row, total) = self.resolution.worst();
-        let part = self.settings.scheme.planned_share * total / self.farthest.max(SMALLEST_REFERENCE);
+        let part = self.settings.scheme.planned_share * total / self.farthest.max(MIN_REFERENCE);
         if part <= NOTEWORTHY {
             // What looked large at the start may turn out small beside how far the model goes.
             if let Some(known) = known {

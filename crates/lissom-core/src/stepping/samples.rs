@@ -13,9 +13,9 @@ impl Simulation {
     /// The sample or breakpoint nearest to `time` [s], if it is not farther away than `distance` [s].
     pub fn distinguished_instant(&self, time: f64, distance: f64) -> Option<f64> {
         let samples = self.system.signals().nearest_samples(self.origin.time, time);
-        let next = self.kinks.partition_point(|kink| kink.time < time);
-        let breakpoints = &self.kinks[next.saturating_sub(1)..self.kinks.len().min(next + 1)];
-        let instants = samples.chain(breakpoints.iter().map(|kink| kink.time));
+        let next = self.breakpoints.partition_point(|breakpoint| breakpoint.time < time);
+        let breakpoints = &self.breakpoints[next.saturating_sub(1)..self.breakpoints.len().min(next + 1)];
+        let instants = samples.chain(breakpoints.iter().map(|breakpoint| breakpoint.time));
         let nearest = instants.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))?;
         ((nearest - time).abs() <= distance).then_some(nearest)
     }
@@ -30,7 +30,7 @@ impl Simulation {
         self.system.signals().next_sample(self.origin.time, self.now())
     }
 
-    /// Takes a step of planned size, in pieces that end at the samples and kinks within it. If it ends at `limit` [s] up to
+    /// Takes a step of planned size, in pieces that end at the samples and breakpoints within it. If it ends at `limit` [s] up to
     /// round-off, the clock is set to `limit`: sums of step sizes would drift away from the instants that are planned.
     pub(super) fn sampled_step(
         &mut self,
@@ -54,10 +54,13 @@ impl Simulation {
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<(), StepError> {
-        if !self.system.signals().has_samples() && self.watch.is_empty() && self.kinks.is_empty() {
+        if !self.system.signals().has_samples()
+            && self.event_detector.is_empty()
+            && self.breakpoints.is_empty()
+        {
             return self.planned_step(whole, watch, report);
         }
-        let start = (self.state.clone(), self.ledger, self.watch.known.clone());
+        let start = (self.state.clone(), self.energy_balance, self.event_detector.known.clone());
         let end = self.now() + whole;
         let end = if (limit - end).abs() <= instants::tolerance(end, whole) { limit } else { end };
         let same = instants::tolerance(end, whole);
@@ -71,19 +74,20 @@ impl Simulation {
             if next < rest - same {
                 (reaches_end, size) = (false, next);
             }
-            let landing = self.landing(began, began + size, whole);
-            if let Some(landing) = &landing {
-                reaches_end &= landing.clock >= began + size;
-                size = landing.end - began;
+            let stop_time = self.stop_time(began, began + size, whole);
+            if let Some(stop_time) = &stop_time {
+                reaches_end &= stop_time.clock >= began + size;
+                size = stop_time.end - began;
             }
             pieces += 1;
             let mut result = self.planned_step(size, watch, report);
             let is_whole = self.now() - began >= size - same;
-            if let Some(landing) = landing.filter(|_| result.is_ok() && is_whole) {
-                result = self.pass_kink(&landing, whole);
+            if let Some(stop_time) = stop_time.filter(|_| result.is_ok() && is_whole) {
+                result = self.cross_breakpoint(&stop_time, whole);
             }
             let result = result.and_then(|()| self.take_samples());
-            if result.is_err() || (reaches_end && is_whole) || self.watch.known.stopped_by.is_some() {
+            if result.is_err() || (reaches_end && is_whole) || self.event_detector.known.stopped_by.is_some()
+            {
                 break result;
             }
             rest = end - self.now();
@@ -95,7 +99,7 @@ impl Simulation {
         // What led to the state is known of the last piece alone.
         self.is_last_step_known &= pieces == 1;
         if outcome.is_err() {
-            (self.state, self.ledger, self.watch.known) = start;
+            (self.state, self.energy_balance, self.event_detector.known) = start;
         }
         outcome
     }

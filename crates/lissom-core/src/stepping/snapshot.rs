@@ -8,13 +8,13 @@ use std::sync::Arc;
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, Watched};
+use super::{Controller, EventState, Impacts, IntegratorHistory, LoadControl, Resolution, StepBisection};
 use crate::analysis::snapshot_parts::Learned;
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::singular::Known;
-use crate::judge::{Ledger, Warning};
+use crate::judge::{EnergyBalance, Warning};
 use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
-use crate::newton::Memory;
+use crate::newton::JacobianState;
 use crate::scaling::Scaled;
 use crate::system::State;
 
@@ -31,19 +31,19 @@ pub struct Snapshot {
     origin: StateNumbers,
     step_size: f64,
     scaled: Scaled,
-    memory: Memory,
-    method_memory: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
-    parts: Parts,
+    jacobian_state: JacobianState,
+    integrator_history: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
+    step_bisection: StepBisection,
     controller: Option<Controller>,
     load_control: Option<LoadControl>,
     stability: Vec<(f64, Option<usize>)>,
     farthest: f64,
     totals: Totals,
     velocity_correction: f64,
-    ledger: Ledger,
+    energy_balance: EnergyBalance,
     warnings: Vec<Warning>,
     singular: Vec<Known>,
-    watched: Watched,
+    event_state: EventState,
     impacts: Impacts,
     resolution: Resolution,
     learned: Learned,
@@ -171,19 +171,19 @@ impl Simulation {
             origin: (&origin).into(),
             step_size: self.settings.step_size,
             scaled: self.scaled,
-            memory: self.memory,
-            method_memory: self.method_memory.as_ref().map(MethodMemory::to_numbers),
-            parts: self.parts,
+            jacobian_state: self.jacobian_state,
+            integrator_history: self.integrator_history.as_ref().map(IntegratorHistory::to_numbers),
+            step_bisection: self.step_bisection,
             controller: self.controller,
             load_control: self.load_control,
             stability: self.stability.clone(),
             farthest: self.farthest,
             totals: self.totals,
             velocity_correction: self.velocity_correction,
-            ledger: self.ledger,
+            energy_balance: self.energy_balance,
             warnings: self.warnings.clone(),
             singular: self.singular.known.clone(),
-            watched: self.watch.known.clone(),
+            event_state: self.event_detector.known.clone(),
             impacts: self.impacts.clone(),
             resolution: self.resolution.clone(),
             learned: self.work.learned(),
@@ -211,21 +211,21 @@ impl Simulation {
         self.origin = State::from(&from.origin).kinematics;
         self.settings.step_size = from.step_size;
         self.scaled = from.scaled;
-        self.memory = from.memory;
-        if let (Some(memory), Some(numbers)) = (&mut self.method_memory, &from.method_memory) {
+        self.jacobian_state = from.jacobian_state;
+        if let (Some(memory), Some(numbers)) = (&mut self.integrator_history, &from.integrator_history) {
             memory.set_numbers(numbers);
         }
-        self.parts = from.parts;
+        self.step_bisection = from.step_bisection;
         self.controller = from.controller;
         self.load_control = from.load_control;
         self.stability.clone_from(&from.stability);
         self.farthest = from.farthest;
         self.totals = from.totals;
         self.velocity_correction = from.velocity_correction;
-        self.ledger = from.ledger;
+        self.energy_balance = from.energy_balance;
         self.warnings.clone_from(&from.warnings);
         self.singular.known.clone_from(&from.singular);
-        self.watch.known.clone_from(&from.watched);
+        self.event_detector.known.clone_from(&from.event_state);
         self.impacts.clone_from(&from.impacts);
         self.resolution.clone_from(&from.resolution);
         self.work.note_scales(self.system.layout(), &self.scaled);

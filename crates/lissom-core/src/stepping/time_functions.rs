@@ -9,12 +9,12 @@
 //! ```
 //!
 //! It is looked at where an interval is halved, as often as its bounds leave room for more than is seen. What cannot be determined by
-//! the ends of any interval, however short, is a jump: a step ends there, as at those that are known, see `kinks`. Chosen steps
+//! the ends of any interval, however short, is a jump: a step ends there, as at those that are known, see `breakpoints`. Chosen steps
 //! are so short that their ends determine the rest; a warning reports planned ones that are not.
 
 use std::sync::Arc;
 
-use super::kinks::Kink;
+use super::breakpoints::Breakpoint;
 use crate::analysis::{InitialError, Simulation, warn};
 use crate::instants::SAME;
 use crate::judge::Warning;
@@ -27,15 +27,15 @@ const DEPARTURE: f64 = 0.01;
 /// Where bounds are narrower than this part of the largest value, nothing hides between the instants looked at.
 const NARROW: f64 = 0.1;
 /// Intervals looked at within one step at most, and in the search for the largest value.
-const MOST_LOOKS: usize = 256;
+const MAX_INTERVALS: usize = 256;
 /// Of them so many wait at a time: an interval is halved no more often.
-const MOST_OPEN: usize = 64;
+const MAX_PENDING: usize = 64;
 /// Halvings of an interval after which what remains is a jump.
-const MOST_HALVINGS: usize = 30;
+const MAX_HALVINGS: usize = 30;
 /// Halvings of a step in which jumps beside fast motions are looked for.
 const FURTHER: i32 = 6;
 /// Intervals looked at in a block at most.
-const MOST_IN_BLOCK: usize = 16 * MOST_LOOKS;
+const MAX_INTERVALS_IN_BLOCK: usize = 16 * MAX_INTERVALS;
 /// Values and slopes at the ends are taken by this part of the interval inside: a jump at an end belongs to the neighbour.
 const INSIDE: f64 = 1e-6;
 /// Blocks begin by this part of a step before one of them: the golden section, that no simple part of a step is.
@@ -120,7 +120,7 @@ impl TimeFunctions {
 
     /// The longest step of `size` [s] or less, halved, from `from` on whose ends determine the functions within it, except for
     /// jumps.
-    fn told(
+    fn longest_resolved(
         &mut self,
         system: &System,
         origin: f64,
@@ -131,7 +131,7 @@ impl TimeFunctions {
         let sizes = self.sizes(system, origin, from, window);
         let mut longest = size;
         for ((_, function), &largest) in system.functions.iter().zip(sizes) {
-            for _ in 0..MOST_HALVINGS {
+            for _ in 0..MAX_HALVINGS {
                 if found(&**function, [from, from + longest], largest, part) != Found::Hidden {
                     break;
                 }
@@ -143,13 +143,13 @@ impl TimeFunctions {
 }
 
 impl Scan {
-    /// Looks at a block of steps, between the kinks that are known.
+    /// Looks at a block of steps, between the known breakpoints.
     fn look(&mut self, function: &dyn TimeFunction, [from, to]: [f64; 2], step: f64, size: f64) {
         if function.is_constant() || size == 0.0 {
             return;
         }
-        let kinks = function.kinks();
-        let inside = kinks.iter().copied().filter(|kink| *kink > from && *kink < to);
+        let breakpoints = function.breakpoints();
+        let inside = breakpoints.iter().copied().filter(|breakpoint| *breakpoint > from && *breakpoint < to);
         let mut begin = from;
         for end in inside.chain([to]) {
             self.look_between(function, [begin, end], step, size);
@@ -160,23 +160,23 @@ impl Scan {
     fn look_between(&mut self, function: &dyn TimeFunction, [from, to]: [f64; 2], step: f64, size: f64) {
         self.looks += 1;
         let length = to - from;
-        if self.looks > MOST_IN_BLOCK || length <= SAME * step {
+        if self.looks > MAX_INTERVALS_IN_BLOCK || length <= SAME * step {
             return;
         }
-        let is_told = || {
+        let is_reported = || {
             let part = [from, to];
             is_narrow(function, part, size) && departure(function, part, part) <= DEPARTURE * size
         };
         let mut middle = 0.5 * (from + to);
         if length > (1.0 + SAME) * step {
-            if is_told() {
+            if is_reported() {
                 return;
             }
         } else {
             match found(function, [from, to], size, DEPARTURE) {
                 Found::Nothing => return,
                 Found::Hidden => {
-                    // Between two kinks a step is shorter, and what it misses counts for less.
+                    // Between two breakpoints a step is shorter, and what it misses counts for less.
                     let part = DEPARTURE * (step / length).max(1.0);
                     if found(function, [from, to], size, part) == Found::Hidden {
                         self.hidden = Some(self.hidden.map_or(middle, |known| known.min(middle)));
@@ -209,15 +209,15 @@ fn largest(function: &dyn TimeFunction, from: f64, to: f64) -> f64 {
         let value = function.value(time).abs();
         if value.is_finite() { value } else { 0.0 }
     };
-    let part = (to - from) / MOST_LOOKS as f64;
-    let mut found = (0..=MOST_LOOKS).map(|k| size(from + k as f64 * part)).fold(0.0, f64::max);
+    let part = (to - from) / MAX_INTERVALS as f64;
+    let mut found = (0..=MAX_INTERVALS).map(|k| size(from + k as f64 * part)).fold(0.0, f64::max);
     let most = |[from, to]: [f64; 2]| {
         let [low, high] = function.bounds(from, to)?;
         Some(high.max(-low))
     };
     let mut open: Vec<(f64, [f64; 2])> =
         most([from, to]).into_iter().map(|most| (most, [from, to])).collect();
-    for _ in 0..MOST_LOOKS {
+    for _ in 0..MAX_INTERVALS {
         let Some(index) = (0..open.len()).max_by(|&a, &b| open[a].0.total_cmp(&open[b].0)) else { break };
         let (bound, [from, to]) = open.swap_remove(index);
         if bound <= 2.0 * found {
@@ -242,7 +242,7 @@ fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> 
     if function.is_constant() || size == 0.0 {
         return Found::Nothing;
     }
-    let mut open = [whole; MOST_OPEN];
+    let mut open = [whole; MAX_PENDING];
     let (mut last, mut looks) = (1, 0);
     while last > 0 {
         last -= 1;
@@ -251,7 +251,7 @@ fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> 
         if departure(function, whole, within) > part * size {
             return jump(function, whole, size).map_or(Found::Hidden, Found::Jump);
         }
-        if looks < MOST_LOOKS && last + 2 <= MOST_OPEN && !is_narrow(function, within, size) {
+        if looks < MAX_INTERVALS && last + 2 <= MAX_PENDING && !is_narrow(function, within, size) {
             let middle = 0.5 * (within[0] + within[1]);
             (open[last], open[last + 1]) = ([middle, within[1]], [within[0], middle]);
             last += 2;
@@ -262,12 +262,12 @@ fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> 
 
 /// The first number behind a jump: where some part of an interval is determined by the ends of no interval, however short.
 fn jump(function: &dyn TimeFunction, [mut from, mut to]: [f64; 2], size: f64) -> Option<f64> {
-    for _ in 0..MOST_HALVINGS {
+    for _ in 0..MAX_HALVINGS {
         let middle = 0.5 * (from + to);
-        let is_told = |half: [f64; 2]| departure(function, half, half) <= DEPARTURE * size;
-        if !is_told([from, middle]) {
+        let is_reported = |half: [f64; 2]| departure(function, half, half) <= DEPARTURE * size;
+        if !is_reported([from, middle]) {
             to = middle;
-        } else if !is_told([middle, to]) {
+        } else if !is_reported([middle, to]) {
             from = middle;
         } else {
             return None;
@@ -314,10 +314,10 @@ impl Simulation {
         }
         let sizes = self.sizes_of_blocks();
         for time in self.time_functions.look_ahead(&self.system, self.origin.time, now, sizes) {
-            let place = self.kinks.partition_point(|kink| kink.time < time);
-            let near = |kink: &Kink| (kink.time - time).abs() <= SAME * sizes[0];
-            if !self.kinks[place.saturating_sub(1)..].iter().take(2).any(near) {
-                self.kinks.insert(place, Kink::jump(time));
+            let place = self.breakpoints.partition_point(|breakpoint| breakpoint.time < time);
+            let near = |breakpoint: &Breakpoint| (breakpoint.time - time).abs() <= SAME * sizes[0];
+            if !self.breakpoints[place.saturating_sub(1)..].iter().take(2).any(near) {
+                self.breakpoints.insert(place, Breakpoint::jump(time));
             }
         }
     }
@@ -356,12 +356,12 @@ impl Simulation {
     }
 
     /// The longest step of `size` [s] or less within which no function of time does what its ends do not give.
-    pub(super) fn told_by_its_ends(&mut self, now: f64, size: f64) -> f64 {
+    pub(super) fn resolved_by_its_ends(&mut self, now: f64, size: f64) -> f64 {
         let window = WINDOW * self.sizes_of_blocks()[1];
         // The square root of what a step of third order may miss.
         let tolerance = self.settings.control.map_or(1.0, |control| control.relative_tolerance);
         let part = tolerance.powf(2.0 / 3.0).min(DEPARTURE);
-        self.time_functions.told(&self.system, self.origin.time, (now, size), part, window)
+        self.time_functions.longest_resolved(&self.system, self.origin.time, (now, size), part, window)
     }
 }
 

@@ -108,13 +108,14 @@ fn every_query_of_every_kind_is_a_derivative_of_the_violation() {
 
             let gradient = numbers(count * size, |out| constraint.gradient(&here.at, out));
             let multipliers: Vec<f64> = (0..count).map(|_| random.number()).collect();
-            let curvature = numbers(size * size, |out| constraint.curvature(&here.at, &multipliers, out));
+            let hessian =
+                numbers(size * size, |out| constraint.constraint_hessian(&here.at, &multipliers, out));
             for local in 0..size {
                 let column: Vec<f64> = gradient.iter().skip(local).step_by(size).copied().collect();
                 let found = difference(|step| violation(&moved(constraint, &here.at, local, step)));
                 assert_close(&what("gradient"), &column, &found, 1e-8);
 
-                let column: Vec<f64> = curvature.iter().skip(local).step_by(size).copied().collect();
+                let column: Vec<f64> = hessian.iter().skip(local).step_by(size).copied().collect();
                 let found = difference(|step| {
                     let at = moved(constraint, &here.at, local, step);
                     let gradient = numbers(count * size, |out| constraint.gradient(&at, out));

@@ -104,16 +104,16 @@ fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
 /// The force that a spring tells, times the rate that it tells, is the power of its forces, and so its motion is of the joint or
 /// of the places that it acts on.
 #[test]
-fn springs_tell_the_motion_that_their_forces_work_on() {
+fn springs_report_the_motion_that_their_forces_work_on() {
     for (seed, kind) in SPRINGS.iter().enumerate() {
         let mut random = Random::new(seed as u64 + 90);
         let (system, state, element) = with_spring(kind, true, &mut random);
         let mut here = Configuration::random(&system, &state, 0.3, &mut random);
         here.multipliers.fill(0.0);
         let motion = |at: &Kinematics| element.and_then(|element| system.spring_motion(element, at));
-        let told = motion(&here.at);
-        assert_eq!(told.is_some(), !WITHOUT_MOTION.contains(&kind.name), "{}: {told:?}", kind.name);
-        let Some([value, rate, force]) = told else { continue };
+        let reported = motion(&here.at);
+        assert_eq!(reported.is_some(), !WITHOUT_MOTION.contains(&kind.name), "{}: {reported:?}", kind.name);
+        let Some([value, rate, force]) = reported else { continue };
         let forces = here.residual(&system, 0.0);
         let power: f64 = (forces.iter().enumerate())
             .map(|(row, force)| match unknown(system.layout(), row) {
@@ -129,7 +129,7 @@ fn springs_tell_the_motion_that_their_forces_work_on() {
         let force = if kind.name == "rolling_contact" { -force } else { force };
         assert!(
             (force * rate - power).abs() < 1e-12 * (1.0 + power.abs()),
-            "{}: {told:?} {power}",
+            "{}: {reported:?} {power}",
             kind.name
         );
         // The rate is that of the value.

@@ -35,9 +35,9 @@ fn derivatives_of_every_way_to_lock() {
         let here = Configuration::random(&system, &state, 0.5, &mut random);
         let mut carried = vec![0.0; state.multipliers.len()];
         system.stage_violations(&here.point(0.0), &mut carried);
-        let mut outright = vec![0.0; carried.len()];
-        system.violations(&here.at, &mut outright);
-        for (a, b) in carried.iter().zip(&outright) {
+        let mut absolute = vec![0.0; carried.len()];
+        system.violations(&here.at, &mut absolute);
+        for (a, b) in carried.iter().zip(&absolute) {
             assert!((a - b).abs() < 1e-13, "{mask:06b}: {a} carried, {b} outright");
         }
     }

@@ -1,12 +1,12 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
+mod breakpoints;
 mod configuration;
 mod constraints;
 mod departures;
 mod energies;
 mod feedback;
 mod joint_lanes;
-mod kinks;
 mod locks;
 mod neighbours;
 mod rolling;
@@ -361,7 +361,7 @@ fn joined(kind: &joints::JointKind, random: &mut Random) -> (System, State) {
     builder.build(0.0).expect("valid")
 }
 
-/// The violation carried over a step equals the one evaluated outright, and joints start satisfied.
+/// The violation carried over a step equals the one evaluated from absolute positions, and joints start satisfied.
 #[test]
 fn violation_changes_agree_with_violations() {
     for (seed, kind) in joints::KINDS.iter().enumerate() {
@@ -379,9 +379,9 @@ fn violation_changes_agree_with_violations() {
         let here = Configuration::random(&system, &state, 0.5, &mut random);
         let mut carried = vec![0.0; count];
         system.stage_violations(&here.point(0.0), &mut carried);
-        let mut outright = vec![0.0; count];
-        system.violations(&here.at, &mut outright);
-        for (a, b) in carried.iter().zip(&outright) {
+        let mut absolute = vec![0.0; count];
+        system.violations(&here.at, &mut absolute);
+        for (a, b) in carried.iter().zip(&absolute) {
             assert!((a - b).abs() < 1e-13, "{}: {a} carried, {b} outright", kind.name);
         }
     }
@@ -401,10 +401,10 @@ fn a_slider_carries_its_violation_past_nodes() {
         system.violations(&state.kinematics, &mut violations);
         assert!(violations.iter().all(|value| value.abs() < 1e-14), "not satisfied at the start");
         let here = Configuration::random(&system, &state, size, &mut random);
-        let (mut carried, mut outright) = (vec![0.0; count], vec![0.0; count]);
+        let (mut carried, mut absolute) = (vec![0.0; count], vec![0.0; count]);
         system.stage_violations(&here.point(0.0), &mut carried);
-        system.violations(&here.at, &mut outright);
-        for (a, b) in carried.iter().zip(&outright) {
+        system.violations(&here.at, &mut absolute);
+        for (a, b) in carried.iter().zip(&absolute) {
             assert!((a - b).abs() < 1e-13, "{a} carried, {b} outright");
         }
         if size > 1.0 {

@@ -235,7 +235,7 @@ fn the_linear_range_is_that_of_the_interface_that_deforms_most() {
     let turn = Motion::exponential(&lissom_motion::screw(&Vector3::zeros(), &Vector3::new(0.0, 0.0, -0.32)));
     moved.nodes[3].frame = moved.nodes[3].frame * turn;
     assert!((used(&moved).part - 1.6).abs() < 1e-13 && used(&moved).node == 3, "{:?}", used(&moved));
-    let (cosine, pair) = element.least_aligned(&moved).expect("it turns");
+    let (cosine, pair) = element.max_relative_rotation(&moved).expect("it turns");
     assert!((cosine.abs() - 0.16_f64.cos()).abs() < 1e-14 && pair == [2, 3], "{cosine} {pair:?}");
 }
 
@@ -347,7 +347,7 @@ fn a_steady_translation_changes_no_force() {
 fn matrices_that_are_those_of_no_free_part_are_refused() {
     let (places, good) = two_halves();
     good.clone().check(&places).expect("good matrices");
-    let told = |change: &dyn Fn(&mut ReducedMatrices)| {
+    let error_of = |change: &dyn Fn(&mut ReducedMatrices)| {
         let mut matrices = good.clone();
         change(&mut matrices);
         matrices.check(&places).expect_err("bad matrices").to_string()
@@ -369,7 +369,7 @@ fn matrices_that_are_those_of_no_free_part_are_refused() {
         ("has 11 rows and 11 columns", &|m| m.stiffness = DMatrix::zeros(11, 11)),
         ("has 3 rows", &|m| m.preload = vec![0.0; 3]),
     ] {
-        let error = told(change);
+        let error = error_of(change);
         assert!(error.contains(words), "{words}: {error}");
     }
     let swapped = [places[1], places[0]];

@@ -26,7 +26,7 @@ const NEVER_ZERO: f64 = 1e-14;
 /// Samples of a profile that is given.
 const SAMPLES: usize = 64;
 /// Iterations after which the place of contact counts as not found.
-const MOST_ITERATIONS: usize = 40;
+const MAX_ITERATIONS: usize = 40;
 /// Cosine of the angle from the top of the head up to which a place of contact is on its tread.
 const STEEPEST: f64 = 0.5;
 /// Clearances below this part of the wheel's radius are contacts.
@@ -210,7 +210,7 @@ impl RailContact {
         let size = |rows: &[f64; 2]| rows[0].hypot(rows[1] / self.radius);
         let mut rows = self.linearized(pose, &place);
         let mut before = size(&rows.map(Number::value));
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let [along, on_rail] = solved(&rows, &rows.map(Number::value));
             let mut share = 1.0;
             let (next, next_rows, after) = loop {

@@ -20,7 +20,7 @@ use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 const ROUND_OFF: f64 = 1e-10;
 
 /// Coordinates of one entry: its matrices are full.
-const MOST_COORDINATES: usize = 100;
+const MAX_COORDINATES: usize = 100;
 
 const MATRIX: &str = "a number, the diagonal, or all rows";
 
@@ -78,9 +78,9 @@ fn build(
 ) -> Result<Contribution, ParameterError> {
     let coordinates = attached.coordinates()?;
     let count = coordinates.len();
-    if count > MOST_COORDINATES {
+    if count > MAX_COORDINATES {
         let problem =
-            format!("names {count} coordinates; at most {MOST_COORDINATES} stand in one entry: take several");
+            format!("names {count} coordinates; at most {MAX_COORDINATES} stand in one entry: take several");
         return Err(ParameterError::new("coordinates", problem));
     }
     let [mass, damping, stiffness] =

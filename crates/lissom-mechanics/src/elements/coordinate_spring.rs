@@ -5,7 +5,7 @@ use super::contribution::Contribution;
 use super::force_law::{ForceLaw, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
-use super::sides::Sides;
+use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
@@ -106,7 +106,7 @@ pub(crate) struct CoordinateSpring {
     law: ForceLaw,
     /// Where it is free of force.
     rest: f64,
-    sides: Sides,
+    switch_states: SwitchStates,
 }
 
 fn add(
@@ -124,7 +124,7 @@ fn add(
             coordinate: [coordinate],
             law: ForceLaw::new(parameters, [elastic, damper])?,
             rest: parameters.number_or(rest, 0.0)?,
-            sides: Sides::default(),
+            switch_states: SwitchStates::default(),
         },
     ))
 }
@@ -148,12 +148,12 @@ impl Element for CoordinateSpring {
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let [elongation, rate] = self.motion(at);
-        out[0] += self.law.evaluate(elongation, rate, self.sides.of(at)).force;
+        out[0] += self.law.evaluate(elongation, rate, self.switch_states.of(at)).force;
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let [elongation, rate] = self.motion(at);
-        let response = self.law.evaluate(elongation, rate, self.sides.of(at));
+        let response = self.law.evaluate(elongation, rate, self.switch_states.of(at));
         out.stiffness[0] += response.stiffness;
         out.damping[0] += response.damping;
     }
@@ -166,13 +166,13 @@ impl Element for CoordinateSpring {
         self.law.switch_count()
     }
 
-    fn hold_sides(&mut self, sides: Sides) {
-        self.sides = sides;
+    fn freeze_switches(&mut self, switch_states: SwitchStates) {
+        self.switch_states = switch_states;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         let [elongation, rate] = self.motion(at);
-        self.law.switches(elongation, rate, self.sides.of(at), out);
+        self.law.switches(elongation, rate, self.switch_states.of(at), out);
     }
 
     fn is_load(&self) -> bool {
@@ -181,6 +181,6 @@ impl Element for CoordinateSpring {
 
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let [elongation, rate] = self.motion(at);
-        Some([elongation, rate, self.law.evaluate(elongation, rate, self.sides.of(at)).force])
+        Some([elongation, rate, self.law.evaluate(elongation, rate, self.switch_states.of(at)).force])
     }
 }

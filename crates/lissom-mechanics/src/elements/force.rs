@@ -66,8 +66,8 @@ impl DirectedLoad {
     }
 
     /// Times at which it is not smooth [s].
-    pub(super) fn kinks(&self) -> Vec<f64> {
-        self.scale.kinks()
+    pub(super) fn breakpoints(&self) -> Vec<f64> {
+        self.scale.breakpoints()
     }
 
     /// The load in the node's axes.
@@ -110,8 +110,8 @@ impl Element for Force {
         }
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.load.kinks()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.load.breakpoints()
     }
 
     fn is_load(&self) -> bool {

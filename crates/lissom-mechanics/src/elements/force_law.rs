@@ -11,7 +11,7 @@
 //! either. What f has more than P' takes energy away as long as it has the sign of v, because clamping is monotone. A law
 //! for which that does not hold has no potential energy, and its work is counted as that of a load.
 
-use super::sides::is_above;
+use super::switch_states::is_on_upper_branch;
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 
 /// On which side of the free length it acts, for lengths.
@@ -111,9 +111,9 @@ impl ForceLaw {
     /// How many kinks it has as far as [`switches`](Self::switches) reports them.
     pub(crate) fn switch_count(&self) -> usize {
         let laws = [&self.elastic, &self.damper].into_iter().flatten();
-        let kinks: usize = laws.map(|law| law.switch_count()).sum();
+        let breakpoints: usize = laws.map(|law| law.switch_count()).sum();
         let limits = self.limits.iter().filter(|limit| is_passed(**limit)).count();
-        self.has_ends().iter().filter(|has| **has).count() + kinks + limits
+        self.has_ends().iter().filter(|has| **has).count() + breakpoints + limits
     }
 
     /// Appends numbers that change their sign where the force begins or ends, at kinks of its expressions, and at limits.
@@ -132,7 +132,7 @@ impl ForceLaw {
         let mut passes = |next: &mut usize, value: f64| {
             hand(value);
             *next += 1;
-            is_above(sides.get(*next - 1), value)
+            is_on_upper_branch(sides.get(*next - 1), value)
         };
         let [has_upper, has_lower] = self.has_ends();
         let (above, below) = (elongation - self.play, elongation + self.play);
@@ -191,8 +191,8 @@ impl ForceLaw {
         if is_linear {
             return 0.5 * self.stiffness * past * past;
         }
-        let kinks = self.elastic.as_ref().map_or_else(Vec::new, |law| law.kinks());
-        integral(&|past| elastic(past).max(low).min(high), past, &kinks)
+        let breakpoints = self.elastic.as_ref().map_or_else(Vec::new, |law| law.breakpoints());
+        integral(&|past| elastic(past).max(low).min(high), past, &breakpoints)
     }
 
     /// Whether what depends on the rate takes energy away, as far as can be seen at rates of all sizes. One that puts
@@ -233,10 +233,10 @@ const DEPTH: usize = 14;
 /// Error of an integral, relative to its size.
 const ACCURACY: f64 = 1e-11;
 
-/// ∫₀ᵉⁿᵈ f dx by Simpson's rule with bisection, in pieces between `kinks`.
-fn integral(function: &dyn Fn(f64) -> f64, end: f64, kinks: &[f64]) -> f64 {
+/// ∫₀ᵉⁿᵈ f dx by Simpson's rule with bisection, in pieces between `breakpoints`.
+fn integral(function: &dyn Fn(f64) -> f64, end: f64, breakpoints: &[f64]) -> f64 {
     let mut places: Vec<f64> =
-        kinks.iter().copied().filter(|kink| kink * end > 0.0 && kink.abs() < end.abs()).collect();
+        breakpoints.iter().copied().filter(|kink| kink * end > 0.0 && kink.abs() < end.abs()).collect();
     places.extend([0.0, end]);
     places.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let mut sum = 0.0;

@@ -77,8 +77,8 @@ impl Element for JointLoad {
 
     fn linearize(&self, _: &Kinematics, _: &mut Tangents) {}
 
-    fn kinks(&self) -> Vec<f64> {
-        self.size.kinks()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.size.breakpoints()
     }
 
     fn is_load(&self) -> bool {

@@ -29,9 +29,9 @@ pub mod rolling;
 pub mod rolling_contact;
 pub mod rope;
 pub mod shape;
-pub mod sides;
 pub mod stop;
 pub mod superelement;
+pub mod switch_states;
 
 pub use contribution::Contribution;
 pub use initial_model::InitialModel;
@@ -280,7 +280,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     }
 
     /// Times at which its forces are known not to be smooth [s]. Default: none.
-    fn kinks(&self) -> Vec<f64> {
+    fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
 
@@ -290,7 +290,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     }
 
     /// Where the sides of its switches will be held: from these on its forces are to be continued. Default: nothing.
-    fn hold_sides(&mut self, _sides: sides::Sides) {}
+    fn freeze_switches(&mut self, _switch_states: switch_states::SwitchStates) {}
 
     /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
     fn switches(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
@@ -309,7 +309,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
 
     /// The two of its nodes that are turned most against each other, and the cosine of half the angle between them,
     /// for elements that cannot distinguish a turn from one the other way. Default: none.
-    fn least_aligned(&self, _at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+    fn max_relative_rotation(&self, _at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         None
     }
 }
@@ -352,11 +352,11 @@ mod tests {
             multipliers: Vec::new(),
         };
         assert!(Bare.coordinates().is_empty() && Bare.multipliers().is_empty() && !Bare.is_load());
-        assert!(Bare.kinks().is_empty() && Bare.switch_count() == 0);
+        assert!(Bare.breakpoints().is_empty() && Bare.switch_count() == 0);
         assert!(<Bare as Element>::blocks(&[Bare]).is_none() && Bare::derivative(&[(&Bare, 1.0)]).is_none());
         assert_eq!(Bare.deformation_rate(at), None);
         assert_eq!(Bare.spring_motion(at), None);
-        assert_eq!(Bare.least_aligned(at), None);
+        assert_eq!(Bare.max_relative_rotation(at), None);
         for limit in LinearLimit::ALL {
             assert_eq!(Bare.linear_range(limit, at), None);
         }

@@ -56,8 +56,8 @@ impl Element for Moment {
         }
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.load.kinks()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.load.breakpoints()
     }
 
     fn is_load(&self) -> bool {

@@ -11,7 +11,7 @@ use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
-use super::sides::Sides;
+use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, split};
@@ -63,7 +63,7 @@ pub(crate) struct PointSpring {
     points: [Vector3; 2],
     law: ForceLaw,
     length: f64,
-    sides: Sides,
+    switch_states: SwitchStates,
 }
 
 fn build(
@@ -87,7 +87,7 @@ fn build(
             points,
             law: ForceLaw::new(parameters, ["force", "damper_force"])?,
             length: parameters.number_or("length", distance)?,
-            sides: Sides::default(),
+            switch_states: SwitchStates::default(),
         },
     ))
 }
@@ -144,7 +144,7 @@ impl PointSpring {
         let length = span.norm().max(f64::MIN_POSITIVE);
         let direction = span / length;
         let rate = direction.dot(&(b.velocity - a.velocity));
-        (direction, length, rate, self.law.evaluate(length - self.length, rate, self.sides.of(at)))
+        (direction, length, rate, self.law.evaluate(length - self.length, rate, self.switch_states.of(at)))
     }
 }
 
@@ -193,7 +193,7 @@ impl Element for PointSpring {
         let rates = [0, 1].map(|j| tensions[j].2 + shares[j] * missed);
         let lengths = step.at_stages(length, rates);
         for j in 0..STAGES {
-            let sides = self.sides.of(step.stages[j]);
+            let sides = self.switch_states.of(step.stages[j]);
             let tension = self.law.evaluate(lengths[j] - self.length, rates[j], sides).force;
             let pull = tension * (tensions[j].0 + missed * inverse * speeds[j]);
             add_pull(&points[j], &pull, out[j]);
@@ -250,13 +250,13 @@ impl Element for PointSpring {
         self.law.switch_count()
     }
 
-    fn hold_sides(&mut self, sides: Sides) {
-        self.sides = sides;
+    fn freeze_switches(&mut self, switch_states: SwitchStates) {
+        self.switch_states = switch_states;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         let (_, length, rate, _) = self.tension(at, &self.points(at));
-        self.law.switches(length - self.length, rate, self.sides.of(at), out);
+        self.law.switches(length - self.length, rate, self.switch_states.of(at), out);
     }
 
     fn is_load(&self) -> bool {

@@ -15,7 +15,7 @@ use super::contribution::Contribution;
 use super::frame_pair::{FramePair, RelativeMotion};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
-use super::sides::{Sides, is_above};
+use super::switch_states::{SwitchStates, is_on_upper_branch};
 use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
@@ -93,7 +93,7 @@ pub struct RollingContact {
     stiffness: f64,
     dissipation: f64,
     traction: Traction,
-    sides: Sides,
+    switch_states: SwitchStates,
 }
 
 /// μ(σ).
@@ -159,7 +159,7 @@ fn build(
             stiffness: parameters.number("stiffness")?,
             dissipation: parameters.number_or("dissipation", 0.0)?,
             traction: traction(parameters)?,
-            sides: Sides::default(),
+            switch_states: SwitchStates::default(),
         },
     ))
 }
@@ -226,7 +226,7 @@ impl RollingContact {
         let gap_rate = normal_row.dot(&motion.twist);
         let sliding = rows.map(|row| row.dot(&motion.twist));
         let factor = 1.0 - self.dissipation * gap_rate;
-        let is_touching = is_above(self.sides.of(at).first(), -gap) && factor > 0.0;
+        let is_touching = is_on_upper_branch(self.switch_states.of(at).first(), -gap) && factor > 0.0;
         let normal = if is_touching {
             let elastic = -self.stiffness * gap;
             [elastic * factor, -self.stiffness * factor, -elastic * self.dissipation]
@@ -289,8 +289,8 @@ impl Element for RollingContact {
         1
     }
 
-    fn hold_sides(&mut self, sides: Sides) {
-        self.sides = sides;
+    fn freeze_switches(&mut self, switch_states: SwitchStates) {
+        self.switch_states = switch_states;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {

@@ -17,7 +17,7 @@ use super::force_law::{ForceLaw, Response};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::point_spring::Point;
-use super::sides::Sides;
+use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId};
@@ -72,13 +72,13 @@ pub const KIND: ElementKind = ElementKind {
 };
 
 /// Nodes a rope may lead over, besides the ground.
-const MOST_NODES: usize = 4;
+const MAX_NODES: usize = 4;
 /// Drums it may have: one at each end.
-const MOST_DRUMS: usize = 2;
+const MAX_DRUMS: usize = 2;
 /// Local unknowns of so many nodes and drums.
-const MOST: usize = 6 * MOST_NODES + MOST_DRUMS;
+const MAX_UNKNOWNS: usize = 6 * MAX_NODES + MAX_DRUMS;
 /// Places a rope may lead over.
-const MOST_PLACES: usize = 16;
+const MAX_PLACES: usize = 16;
 
 /// A rope over pulleys.
 #[derive(Clone, Debug)]
@@ -92,7 +92,7 @@ pub struct Rope {
     pays_out: Vec<[f64; 2]>,
     law: ForceLaw,
     length: Function,
-    sides: Sides,
+    switch_states: SwitchStates,
 }
 
 /// What drums pay out per unit of their coordinates, and where these are at the start.
@@ -106,7 +106,7 @@ fn drums(
     if radii.len() != drums.len() {
         return fault(format!("must be as many as `drums`: {} for {}", radii.len(), drums.len()));
     }
-    if drums.len() > MOST_DRUMS {
+    if drums.len() > MAX_DRUMS {
         return fault("belong to more than two drums: a rope has two ends".to_owned());
     }
     if radii.contains(&0.0) {
@@ -127,7 +127,7 @@ fn build(
     if points.len() < 2 {
         return fault("needs two places at least");
     }
-    if points.len() > MOST_PLACES {
+    if points.len() > MAX_PLACES {
         return fault("has more than 16 places: tie two ropes to a part between");
     }
     let lengths = points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
@@ -152,7 +152,7 @@ fn build(
     }
     match nodes.len() {
         0 => return fault("is all on the ground, which does not move"),
-        1..=MOST_NODES => {}
+        1..=MAX_NODES => {}
         _ => {
             return fault(
                 "leads over more than four parts besides the ground: tie two ropes to a part between",
@@ -171,7 +171,7 @@ fn build(
             pays_out,
             law: ForceLaw::new(&pulls, ["force", "damper_force"])?,
             length: parameters.function_or("length", at_start)?,
-            sides: Sides::default(),
+            switch_states: SwitchStates::default(),
         },
     ))
 }
@@ -186,8 +186,8 @@ struct Segment {
 
 /// The rope at one instant.
 struct Shape {
-    points: [Point; MOST_PLACES],
-    segments: [Segment; MOST_PLACES],
+    points: [Point; MAX_PLACES],
+    segments: [Segment; MAX_PLACES],
     /// Number of places.
     count: usize,
     /// Elongation of the whole and its rate [m, m/s].
@@ -220,7 +220,7 @@ impl Rope {
             Some((None, place)) => Point::fixed(place),
             None => Point::fixed(&Vector3::zeros()),
         });
-        let mut segments = [Segment::default(); MOST_PLACES];
+        let mut segments = [Segment::default(); MAX_PLACES];
         for (segment, pair) in segments.iter_mut().zip(points[..count].windows(2)) {
             let pair: &[Point] = pair;
             let span = pair[1].position - pair[0].position;
@@ -257,7 +257,7 @@ impl Rope {
     }
 
     fn tension(&self, shape: &Shape, at: &Kinematics) -> Response {
-        self.law.evaluate(shape.elongation, shape.rate, self.sides.of(at))
+        self.law.evaluate(shape.elongation, shape.rate, self.switch_states.of(at))
     }
 
     /// Adds the forces of pulls on all places [N, inertial axes].
@@ -294,7 +294,7 @@ impl Element for Rope {
     /// The length is integrated; what that misses is put back along the relative velocities of the places.
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let start = self.shape(step.start);
-        let mut moves = [Vector3::zeros(); MOST_PLACES];
+        let mut moves = [Vector3::zeros(); MAX_PLACES];
         for ((moved, point), (node, _)) in moves.iter_mut().zip(&start.points).zip(&self.places) {
             let Some(node) = node else { continue };
             let change = &step.changes[self.nodes[*node]];
@@ -319,7 +319,7 @@ impl Element for Rope {
         let lengths = step.at_stages(start.elongation + self.free(step.start)[0], rates);
         for j in 0..STAGES {
             let (elongation, rate) = (lengths[j] - frees[j][0], rates[j] - frees[j][1]);
-            let tension = self.law.evaluate(elongation, rate, self.sides.of(step.stages[j])).force;
+            let tension = self.law.evaluate(elongation, rate, self.switch_states.of(step.stages[j])).force;
             let shape = &shapes[j];
             let along = |segment: &Segment| segment.direction + missed * inverse * segment.speed;
             self.add_pulls(shape, |index| tension * shape.difference(index, along), out[j]);
@@ -334,9 +334,9 @@ impl Element for Rope {
         let first_drum = 6 * self.nodes.len();
         let size = first_drum + self.drums.len();
         let gradients = shape.points.each_ref().map(Point::gradient);
-        let mut by_length = [0.0; MOST];
-        let mut by_rate = [0.0; MOST];
-        let add = |sum: &mut [f64; MOST], node: usize, row: &SMatrix<f64, 1, 6>| {
+        let mut by_length = [0.0; MAX_UNKNOWNS];
+        let mut by_rate = [0.0; MAX_UNKNOWNS];
+        let add = |sum: &mut [f64; MAX_UNKNOWNS], node: usize, row: &SMatrix<f64, 1, 6>| {
             for k in 0..6 {
                 sum[6 * node + k] += row[k];
             }
@@ -395,21 +395,21 @@ impl Element for Rope {
         self.law.is_active() || !self.length.is_constant()
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.length.kinks()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.length.breakpoints()
     }
 
     fn switch_count(&self) -> usize {
         self.law.switch_count()
     }
 
-    fn hold_sides(&mut self, sides: Sides) {
-        self.sides = sides;
+    fn freeze_switches(&mut self, switch_states: SwitchStates) {
+        self.switch_states = switch_states;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         let shape = self.shape(at);
-        self.law.switches(shape.elongation, shape.rate, self.sides.of(at), out);
+        self.law.switches(shape.elongation, shape.rate, self.switch_states.of(at), out);
     }
 
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {

@@ -15,13 +15,13 @@
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
-use super::sides::{Sides, is_above};
+use super::switch_states::{SwitchStates, is_on_upper_branch};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Least restitution that a contact can have.
-const LEAST_RESTITUTION: f64 = 0.01;
+const MIN_RESTITUTION: f64 = 0.01;
 
 /// Registry entry of the stop of a rotation.
 pub const TORSIONAL: ElementKind = ElementKind {
@@ -102,7 +102,7 @@ pub struct Stop {
     stiffness: f64,
     exponent: f64,
     dissipation: f64,
-    sides: Sides,
+    switch_states: SwitchStates,
 }
 
 fn add(
@@ -124,7 +124,7 @@ fn add(
         stiffness: parameters.number("stiffness")?,
         exponent,
         dissipation: dissipation(parameters)?,
-        sides: Sides::default(),
+        switch_states: SwitchStates::default(),
     };
     Ok(Contribution::of(model, stop))
 }
@@ -141,8 +141,8 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
         return Err(ParameterError::new("dissipation", "and `restitution` say the same: leave one out"));
     }
     let restitution = parameters.number("restitution")?;
-    if !(LEAST_RESTITUTION..=1.0).contains(&restitution) {
-        return Err(ParameterError::new("restitution", format!("must be from {LEAST_RESTITUTION} to 1")));
+    if !(MIN_RESTITUTION..=1.0).contains(&restitution) {
+        return Err(ParameterError::new("restitution", format!("must be from {MIN_RESTITUTION} to 1")));
     }
     if !parameters.has("impact_velocity") {
         let problem = "needs `impact_velocity`, at which it holds: slower impacts lose less";
@@ -171,13 +171,13 @@ impl Stop {
     fn contact(&self, at: &Kinematics) -> Option<(f64, f64, f64)> {
         let rate = at.coordinates[self.coordinate[0]].rate;
         let [past_high, past_low] = self.depths(at);
-        let sides = self.sides.of(at);
+        let sides = self.switch_states.of(at);
         // A contact that lasts until the end of a step may be left within it: its force goes on straight, where it is a
         // straight line.
         let depth = |depth: f64| if self.exponent == 1.0 { depth } else { depth.max(0.0) };
-        if is_above(sides.first(), past_high) {
+        if is_on_upper_branch(sides.first(), past_high) {
             Some((depth(past_high), rate, 1.0))
-        } else if is_above(sides.get(1), past_low) {
+        } else if is_on_upper_branch(sides.get(1), past_low) {
             Some((depth(past_low), -rate, -1.0))
         } else {
             None
@@ -224,8 +224,8 @@ impl Element for Stop {
         2
     }
 
-    fn hold_sides(&mut self, sides: Sides) {
-        self.sides = sides;
+    fn freeze_switches(&mut self, switch_states: SwitchStates) {
+        self.switch_states = switch_states;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {

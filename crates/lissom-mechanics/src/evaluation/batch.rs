@@ -12,7 +12,7 @@ use super::tangent_assembler::{Slot, TangentAssembler};
 use super::threads::Threads;
 use super::work::{power, work};
 use crate::elements::blocks::Blocks;
-use crate::elements::sides::Sides;
+use crate::elements::switch_states::SwitchStates;
 use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
@@ -79,9 +79,9 @@ pub trait AnyBatch: Send + Sync {
     /// Work of an item's forces between two configurations [J].
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
     /// Times at which forces are known not to be smooth [s].
-    fn kinks(&self) -> Vec<f64>;
+    fn breakpoints(&self) -> Vec<f64>;
     /// Gives every item a place for the sides of its switches, from the held value `first` on, and says how many.
-    fn hold_sides(&mut self, first: usize) -> usize;
+    fn freeze_switches(&mut self, first: usize) -> usize;
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
     /// Appends where each switch acts, in words.
@@ -95,7 +95,7 @@ pub trait AnyBatch: Send + Sync {
     /// The first node of an item whose kinetic energy is not positive in every motion.
     fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId>;
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
-    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
+    fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
     /// What of these elements differs from those of neighbouring models, which come with the weights of a difference; none
     /// where that cannot be determined.
     fn changed(&self, neighbours: &[(&dyn AnyBatch, f64)], layout: &Layout) -> Option<Changed>;
@@ -394,16 +394,16 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.get(item).map_or(0.0, |item| work(item, (from, to), [1.0; 2]))
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.items.iter().flat_map(E::kinks).collect()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.items.iter().flat_map(E::breakpoints).collect()
     }
 
-    fn hold_sides(&mut self, first: usize) -> usize {
+    fn freeze_switches(&mut self, first: usize) -> usize {
         let mut next = first;
         for item in &mut self.items {
             let count = item.switch_count();
             if count > 0 {
-                item.hold_sides(Sides::held_at(next, count));
+                item.freeze_switches(SwitchStates::held_at(next, count));
                 next += count;
             }
         }
@@ -450,8 +450,8 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
     }
 
-    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
-        let pairs = self.items.iter().filter_map(|item| item.least_aligned(at));
+    fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        let pairs = self.items.iter().filter_map(|item| item.max_relative_rotation(at));
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }
 

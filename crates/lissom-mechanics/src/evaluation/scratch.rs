@@ -7,7 +7,7 @@ use crate::kinematics::step_stages::STAGES;
 
 thread_local! {
     /// Scratch of elements with more unknowns than usual.
-    static MORE_ROOM: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+    static LARGE_SCRATCH: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Calls `work` with so many zeros. Only the first large element of a thread allocates.
@@ -15,10 +15,10 @@ pub fn with_scratch<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
     if size <= STAGES * USUAL_UNKNOWNS {
         return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);
     }
-    let mut room = MORE_ROOM.take();
-    room.clear();
-    room.resize(size, 0.0);
-    let result = work(&mut room);
-    MORE_ROOM.set(room);
+    let mut scratch = LARGE_SCRATCH.take();
+    scratch.clear();
+    scratch.resize(size, 0.0);
+    let result = work(&mut scratch);
+    LARGE_SCRATCH.set(scratch);
     result
 }

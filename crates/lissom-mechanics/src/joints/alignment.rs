@@ -112,7 +112,7 @@ impl Aligned<'_> {
         place.support.sum(self.order() + derivative, |node| self.vector(node, at))
     }
 
-    /// c, evaluated outright.
+    /// c, evaluated from absolute positions.
     pub(crate) fn violation(&self, place: &Place, at: &Kinematics) -> f64 {
         self.direction(at).dot(&self.across(place, 0, at))
     }
@@ -130,10 +130,10 @@ impl Aligned<'_> {
         let before = self.direction(start);
         let turned =
             start.nodes[own].frame.rotation.apply(&(increments.nodes[own].turn * self.alignment.direction));
-        let moved = after.support.sum(order, |node| self.vector_change(node, increments));
+        let increment = after.support.sum(order, |node| self.vector_change(node, increments));
         let slid = slid(order, &|node| self.vector(node, start));
-        let at_end = after.support.sum(order, |node| self.vector(node, start)) + moved;
-        turned.dot(&at_end) + before.dot(&(moved + slid))
+        let at_end = after.support.sum(order, |node| self.vector(node, start)) + increment;
+        turned.dot(&at_end) + before.dot(&(increment + slid))
     }
 
     /// B.
@@ -155,7 +155,7 @@ impl Aligned<'_> {
     }
 
     /// Adds the derivatives of Bᵀ μ at a constant multiplier.
-    pub(crate) fn add_curvature(&self, place: &Place, at: &Kinematics, mu: f64, out: &mut [Row; LOCAL]) {
+    pub(crate) fn add_hessian(&self, place: &Place, at: &Kinematics, mu: f64, out: &mut [Row; LOCAL]) {
         let mut add = |row: usize, column: usize, block: &Matrix3| {
             for i in 0..3 {
                 for j in 0..3 {

@@ -5,7 +5,10 @@ use nalgebra::SVector;
 
 use super::attached::AttachedJoint;
 use super::blocks::Batches;
-use super::{Branch, Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, Own, Relative};
+use super::{
+    Branch, ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_COORDINATES,
+    Relative,
+};
 use crate::contact::CreepLaw;
 use crate::contact::wheel_on_plane::Contact;
 use crate::contact::wheel_on_rail::RailContact;
@@ -20,7 +23,7 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     /// See [`Joint::COORDINATES`].
     fn coordinates(&self) -> &'static [Coordinate];
     /// See [`Joint::initial`].
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion);
     /// See [`Joint::branch`].
     fn branch(&self) -> Option<Branch> {
         None
@@ -36,20 +39,26 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
         None
     }
     /// See [`Joint::violation`].
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
     /// See [`Joint::violation_change`].
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations;
+    fn violation_change(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
     /// See [`Joint::wrench`].
     fn wrench(
         &self,
         relative: &Relative,
-        own: &Own,
+        own: &JointCoordinates,
         mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>);
+    ) -> (Vector6, SVector<f64, MAX_COORDINATES>);
     /// See [`Joint::gradient`].
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
-    /// See [`Joint::curvature`].
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient);
+    /// See [`Joint::constraint_hessian`].
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    );
     /// Adds the joint, the one of this index, to the batch of its kind.
     fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches);
 }
@@ -67,7 +76,7 @@ impl<J: Joint> AnyJoint for J {
         J::COORDINATES
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         Joint::initial(self)
     }
 
@@ -79,30 +88,36 @@ impl<J: Joint> AnyJoint for J {
         Joint::contact(self)
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         Joint::violation(self, relative, own)
     }
 
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        J::violation_change(&relative.into(), &own.into(), &self.numbers())
+    fn violation_change(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
+        J::violation_change(&relative.into(), &own.into(), &self.constants())
     }
 
     fn wrench(
         &self,
         relative: &Relative,
-        own: &Own,
+        own: &JointCoordinates,
         mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        let (wrench, forces) = J::wrench(&relative.into(), &own.into(), &self.numbers(), mu);
+    ) -> (Vector6, SVector<f64, MAX_COORDINATES>) {
+        let (wrench, forces) = J::wrench(&relative.into(), &own.into(), &self.constants(), mu);
         (wrench.into(), forces.into())
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         Joint::gradient(self, relative, own, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        Joint::curvature(self, relative, own, mu, out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        Joint::constraint_hessian(self, relative, own, mu, out);
     }
 
     fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches) {

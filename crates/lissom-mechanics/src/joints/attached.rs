@@ -11,7 +11,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::constraint::{Constraint, Port};
 use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
-use super::{AnyJoint, Curvature, Equations, Gradient, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
+use super::{
+    AnyJoint, ConstraintHessian, Equations, Gradient, JointCoordinates, MAX_COORDINATES, MAX_EQUATIONS,
+    Relative,
+};
 use crate::contact::wheel_on_rail::{Pose, RailContactValues};
 use crate::elements::creep_force::CreepForce;
 use crate::elements::rolling::Rolling;
@@ -19,7 +22,7 @@ use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, Quantity, split};
 
 /// Derivatives of the equations with respect to the local unknowns.
-pub type LocalGradient = SMatrix<f64, MOST_EQUATIONS, LOCAL>;
+pub type LocalGradient = SMatrix<f64, MAX_EQUATIONS, LOCAL>;
 
 /// A joint between two nodes.
 #[derive(Debug)]
@@ -85,7 +88,7 @@ impl AttachedJoint {
         (rotation.matrix(), position)
     }
 
-    /// Relative motion and its change over the step: see `moved`.
+    /// Relative motion and its change over the step: see `relative_increment`.
     fn relative(&self, (rotation, position): (Matrix3, Vector3), increments: &Increments<'_>) -> Relative {
         let [base, tip] = self.frames.map(|frame| increments.nodes[frame.node].carried_at(&frame.offset));
         let a = base.turn.transpose();
@@ -101,8 +104,8 @@ impl AttachedJoint {
         }
     }
 
-    fn own(&self, at: &Kinematics, changes: &[f64]) -> Own {
-        let mut own = Own::default();
+    fn own(&self, at: &Kinematics, changes: &[f64]) -> JointCoordinates {
+        let mut own = JointCoordinates::default();
         for (k, &coordinate) in self.coordinates.iter().enumerate() {
             own.change[k] = changes[coordinate];
             own.value[k] = at.coordinates[coordinate].value + own.change[k];
@@ -110,9 +113,9 @@ impl AttachedJoint {
         own
     }
 
-    /// Relative motion and own coordinates, outright from absolute places.
-    pub fn outright(&self, at: &Kinematics) -> (Relative, Own) {
-        let mut own = Own::default();
+    /// Relative motion and own coordinates, from absolute positions.
+    pub fn evaluate_absolute(&self, at: &Kinematics) -> (Relative, JointCoordinates) {
+        let mut own = JointCoordinates::default();
         for (k, &coordinate) in self.coordinates.iter().enumerate() {
             own.value[k] = at.coordinates[coordinate].value;
         }
@@ -120,29 +123,29 @@ impl AttachedJoint {
     }
 
     /// Derivatives of the equations with respect to the local unknowns, as body variations.
-    pub(crate) fn gradient_at(&self, (relative, own): &(Relative, Own)) -> LocalGradient {
+    pub(crate) fn gradient_at(&self, (relative, own): &(Relative, JointCoordinates)) -> LocalGradient {
         let mut gradient = Gradient::zeros();
         self.joint.gradient(relative, own, &mut gradient);
         let mut rows = gradient.relative * self.variation(relative);
-        rows.fixed_columns_mut::<MOST_COORDINATES>(OWN).copy_from(&gradient.own);
+        rows.fixed_columns_mut::<MAX_COORDINATES>(OWN).copy_from(&gradient.own);
         rows
     }
 
     /// Derivatives of the equations with respect to the relative motion and the own coordinates.
-    pub fn own_gradient(&self, (relative, own): &(Relative, Own)) -> Gradient {
+    pub fn own_gradient(&self, (relative, own): &(Relative, JointCoordinates)) -> Gradient {
         let mut gradient = Gradient::zeros();
         self.joint.gradient(relative, own, &mut gradient);
         gradient
     }
 
     /// A relative motion, and coordinates, that satisfy the equations: those the joint was made with.
-    pub fn as_built(&self) -> (Relative, Own) {
+    pub fn as_built(&self) -> (Relative, JointCoordinates) {
         let (values, relative) = self.joint.initial();
-        (Relative::at_start(&relative), Own { value: values, ..Own::default() })
+        (Relative::at_start(&relative), JointCoordinates { value: values, ..JointCoordinates::default() })
     }
 
     /// Relative motion and own coordinates after the increments.
-    pub fn configuration(&self, increments: &Increments<'_>) -> (Relative, Own) {
+    pub fn configuration(&self, increments: &Increments<'_>) -> (Relative, JointCoordinates) {
         self.configuration_from(self.start(increments.start), increments)
     }
 
@@ -151,12 +154,16 @@ impl AttachedJoint {
         &self,
         start: (Matrix3, Vector3),
         increments: &Increments<'_>,
-    ) -> (Relative, Own) {
+    ) -> (Relative, JointCoordinates) {
         (self.relative(start, increments), self.own(increments.start, increments.coordinates))
     }
 
     /// Forces on the local unknowns for the multipliers `mu`.
-    pub fn forces(&self, (relative, own): &(Relative, Own), mu: &Equations) -> SVector<f64, LOCAL> {
+    pub fn forces(
+        &self,
+        (relative, own): &(Relative, JointCoordinates),
+        mu: &Equations,
+    ) -> SVector<f64, LOCAL> {
         let (wrench, moments) = self.joint.wrench(relative, own, mu);
         let on_base = -adjoint_inverse_transpose(relative, &wrench);
         let base = self.frames[0].offset.adjoint_inverse_transpose_times(&on_base);
@@ -164,7 +171,7 @@ impl AttachedJoint {
         let mut out = SVector::<f64, LOCAL>::zeros();
         out.fixed_rows_mut::<6>(0).copy_from(&base);
         out.fixed_rows_mut::<6>(TIP).copy_from(&tip);
-        out.fixed_rows_mut::<MOST_COORDINATES>(OWN).copy_from(&moments);
+        out.fixed_rows_mut::<MAX_COORDINATES>(OWN).copy_from(&moments);
         out
     }
 
@@ -173,21 +180,21 @@ impl AttachedJoint {
     pub(super) fn linearize_as<J: AnyJoint + ?Sized>(
         &self,
         joint: &J,
-        (relative, own): &(Relative, Own),
+        (relative, own): &(Relative, JointCoordinates),
         mu: &Equations,
-        weights: &[f64; MOST_EQUATIONS],
+        weights: &[f64; MAX_EQUATIONS],
         charts: Option<[&IncrementTangent; 2]>,
         out: &mut Derivatives,
     ) {
         let mut gradient = Gradient::zeros();
         joint.gradient(relative, own, &mut gradient);
-        let mut curvature = Curvature::zeros();
-        joint.curvature(relative, own, mu, &mut curvature);
+        let mut hessian = ConstraintHessian::zeros();
+        joint.constraint_hessian(relative, own, mu, &mut hessian);
         let (wrench, _) = joint.wrench(relative, own, mu);
         let inner = Inner {
             counts: (joint.equations().len(), joint.coordinates().len()),
             gradient: &gradient,
-            curvature: &curvature,
+            hessian: &hessian,
             wrench: &wrench,
             weights,
         };
@@ -198,12 +205,12 @@ impl AttachedJoint {
     pub(super) fn linearize_for<J: AnyJoint + ?Sized>(
         &self,
         joint: &J,
-        configuration: &(Relative, Own),
+        configuration: &(Relative, JointCoordinates),
         point: &Point<'_>,
         chart: Chart<'_>,
         out: &mut Derivatives,
     ) {
-        // The curvature of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
+        // The Hessian of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
         // from it, with w c much larger than the multipliers, it would spoil the correction.
         let mut mu = Equations::default();
         let own = self.first_multiplier..self.first_multiplier + self.equations();
@@ -219,11 +226,11 @@ impl AttachedJoint {
     /// Derivatives of the forces at constant multipliers `mu` with respect to the local unknowns, as body variations.
     pub(crate) fn force_derivatives(
         &self,
-        configuration: &(Relative, Own),
+        configuration: &(Relative, JointCoordinates),
         mu: &Equations,
     ) -> SMatrix<f64, LOCAL, LOCAL> {
         let mut derivatives = Derivatives::new();
-        self.linearize_as(self.joint(), configuration, mu, &[0.0; MOST_EQUATIONS], None, &mut derivatives);
+        self.linearize_as(self.joint(), configuration, mu, &[0.0; MAX_EQUATIONS], None, &mut derivatives);
         derivatives.sum(1.0, 0.0, 0.0);
         SMatrix::from_fn(|i, j| derivatives.column(j)[i])
     }
@@ -254,8 +261,8 @@ impl AttachedJoint {
 
     /// Accelerations of its coordinates that follow from those of its nodes, by the least squares of c̈ = 0. Schemes
     /// know those of massless coordinates to a lower order than those of nodes.
-    pub fn coordinate_accelerations(&self, at: &Kinematics) -> [f64; MOST_COORDINATES] {
-        let configuration = self.outright(at);
+    pub fn coordinate_accelerations(&self, at: &Kinematics) -> [f64; MAX_COORDINATES] {
+        let configuration = self.evaluate_absolute(at);
         let rows = self.gradient_at(&configuration);
         let speeds = self.speeds(at);
         let mut accelerations = SVector::<f64, LOCAL>::zeros();
@@ -263,8 +270,8 @@ impl AttachedJoint {
             accelerations.fixed_rows_mut::<6>(first).copy_from(&at.nodes[frame.node].acceleration);
         }
         let known = rows * accelerations;
-        let own = rows.fixed_columns::<MOST_COORDINATES>(OWN);
-        let mut right = SVector::<f64, MOST_COORDINATES>::zeros();
+        let own = rows.fixed_columns::<MAX_COORDINATES>(OWN);
+        let mut right = SVector::<f64, MAX_COORDINATES>::zeros();
         for equation in 0..self.equations() {
             let mut mu = Equations::default();
             mu[equation] = 1.0;
@@ -272,7 +279,7 @@ impl AttachedJoint {
             right -= own.row(equation).transpose() * (known[equation] + bias);
         }
         let mut square = own.tr_mul(&own);
-        for k in self.coordinates.len()..MOST_COORDINATES {
+        for k in self.coordinates.len()..MAX_COORDINATES {
             square[(k, k)] = 1.0;
         }
         let inverse = square.try_inverse().unwrap_or_else(SMatrix::zeros);
@@ -282,7 +289,7 @@ impl AttachedJoint {
     /// Where a wheel touches its rail and what acts there, for the multipliers `mu`; none for joints that are no such contact.
     pub fn rail_contact(&self, at: &Kinematics, mu: &Equations) -> Option<RailContactValues> {
         let contact = self.joint.rail_contact()?;
-        let (relative, _) = self.outright(at);
+        let (relative, _) = self.evaluate_absolute(at);
         let pose = Pose::new(&relative.rotation, &relative.position);
         let place = contact.place(&pose).place;
         let mut values = RailContactValues {
@@ -308,10 +315,10 @@ impl AttachedJoint {
     /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
     /// multipliers `mu` at the configuration `at`.
     pub fn reaction(&self, at: &Kinematics, mu: &Equations) -> Vector6 {
-        let (relative, own) = self.outright(at);
+        let (relative, own) = self.evaluate_absolute(at);
         let mut gradient = Gradient::zeros();
         self.joint.gradient(&relative, &own, &mut gradient);
-        let mut wrench = -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        let mut wrench = -gradient.relative.tr_mul(&SVector::<f64, MAX_EQUATIONS>::from_column_slice(mu));
         if let Some(contact) = self.joint.contact() {
             wrench += Rolling::new(self.frames, self.impulses.clone(), contact).wrench(at);
         }
@@ -360,7 +367,7 @@ impl Constraint for AttachedJoint {
     }
 
     fn violation(&self, at: &Kinematics, out: &mut [f64]) {
-        let (relative, own) = self.outright(at);
+        let (relative, own) = self.evaluate_absolute(at);
         out.copy_from_slice(&self.joint.violation(&relative, &own)[..self.equations()]);
     }
 
@@ -370,23 +377,23 @@ impl Constraint for AttachedJoint {
     }
 
     fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
-        let local = self.gradient_at(&self.outright(at));
+        let local = self.gradient_at(&self.evaluate_absolute(at));
         let columns = ported(self.coordinates.len());
         let entries = (0..self.equations()).flat_map(|e| columns.clone().map(move |k| (e, k)));
         out.iter_mut().zip(entries).for_each(|(value, entry)| *value = local[entry]);
     }
 
-    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+    fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
         let mut mu = Equations::default();
         mu[..multipliers.len()].copy_from_slice(multipliers);
-        let local = self.force_derivatives(&self.outright(at), &mu);
+        let local = self.force_derivatives(&self.evaluate_absolute(at), &mu);
         let columns = ported(self.coordinates.len());
         let entries = columns.clone().flat_map(|i| columns.clone().map(move |j| (i, j)));
         out.iter_mut().zip(entries).for_each(|(value, entry)| *value = local[entry]);
     }
 
     fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
-        let configuration = self.outright(at);
+        let configuration = self.evaluate_absolute(at);
         let speeds = self.speeds(at);
         for (equation, value) in out.iter_mut().enumerate() {
             let mut mu = Equations::default();

@@ -3,14 +3,14 @@
 //!
 //! ```text
 //! x:      δx = R η_u,                    wrench of the force f in the base's axes: (Rᵀ f, 0)
-//! R_ab:   δR_ab = (e_b × Rᵀ e_a)·η_θ,    curvature of q R_ab: q ẽ_b (Rᵀ e_a)~
+//! R_ab:   δR_ab = (e_b × Rᵀ e_a)·η_θ,    Hessian of q R_ab: q ẽ_b (Rᵀ e_a)~
 //! ```
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Real, Screw, Triple, Vector3, skew};
 
-use super::moved::{Axes, Moved};
-use super::{Curvature, Gradient, Relative};
+use super::relative_increment::{Axes, RelativeIncrement};
+use super::{ConstraintHessian, Gradient, Relative};
 
 /// Gradient of the position's component along an axis of the base.
 pub(crate) fn component_gradient(relative: &Relative, axis: usize, row: usize, out: &mut Gradient) {
@@ -21,13 +21,13 @@ pub(crate) fn component_gradient(relative: &Relative, axis: usize, row: usize, o
 
 /// Wrench on the tip of a force on its point, given in the base's axes.
 #[inline(always)]
-pub(crate) fn force_wrench<R: Real>(moved: &Moved<R>, force: Triple<R>) -> Screw<R> {
+pub(crate) fn force_wrench<R: Real>(increment: &RelativeIncrement<R>, force: Triple<R>) -> Screw<R> {
     let zero = force.x.like(0.0);
-    Screw::new(moved.rotation().transpose_times(force), Triple::new(zero, zero, zero))
+    Screw::new(increment.rotation().transpose_times(force), Triple::new(zero, zero, zero))
 }
 
-/// Curvature of [`force_wrench`]: δ(Rᵀ f) = (Rᵀ f)~ η_θ.
-pub(crate) fn force_curvature(relative: &Relative, force: &Vector3, out: &mut Curvature) {
+/// Hessian of [`force_wrench`]: δ(Rᵀ f) = (Rᵀ f)~ η_θ.
+pub(crate) fn force_hessian(relative: &Relative, force: &Vector3, out: &mut ConstraintHessian) {
     let turning = skew(&relative.rotation.tr_mul(force));
     let mut view = out.fixed_view_mut::<3, 3>(0, 3);
     view += turning;
@@ -47,12 +47,12 @@ pub(crate) fn cosine_gradient(
     }
 }
 
-/// Curvature of `factor` R_ab.
-pub(crate) fn cosine_curvature(
+/// Hessian of `factor` R_ab.
+pub(crate) fn cosine_hessian(
     relative: &Relative,
     (a, b): (usize, usize),
     factor: f64,
-    out: &mut Curvature,
+    out: &mut ConstraintHessian,
 ) {
     let turned = skew(&relative.rotation.row(a).transpose());
     let mut view = out.fixed_view_mut::<3, 3>(3, 3);

@@ -14,16 +14,16 @@ use pulp::{Simd, WithSimd};
 
 use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
-use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
-use super::singly::Singly;
+use super::relative_increment::{Angle, Axes, CoordinateIncrement, FrameChange, RelativeIncrement};
+use super::scalar_batch::ScalarJointBatch;
 use super::starts::{JointStarts, StartBlock};
-use super::{Coordinate, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS};
+use super::{Coordinate, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::joints::evaluation_point::{Chart, Point};
 use crate::kinematics::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
 use crate::kinematics::{Kinematics, Quantity};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.
-pub type Results = [Block; LOCAL + MOST_EQUATIONS];
+pub type Results = [Block; LOCAL + MAX_EQUATIONS];
 
 /// All joints, by kind.
 #[derive(Default)]
@@ -56,14 +56,14 @@ impl Batches {
     }
 
     /// Adds a joint to the batch of those that are evaluated one by one.
-    pub(super) fn enter_singly(&mut self, index: usize, joint: AttachedJoint) {
+    pub(super) fn enter_scalar(&mut self, index: usize, joint: AttachedJoint) {
         for batch in &mut self.0 {
-            if let Some(batch) = batch.as_any_mut().downcast_mut::<Singly>() {
+            if let Some(batch) = batch.as_any_mut().downcast_mut::<ScalarJointBatch>() {
                 batch.push(index, joint);
                 return;
             }
         }
-        let mut batch = Singly::new();
+        let mut batch = ScalarJointBatch::new();
         batch.push(index, joint);
         self.0.push(Box::new(batch));
     }
@@ -152,29 +152,29 @@ struct Pack {
     offsets: [Frames; 2],
     /// Whether the axes of one of them differ from its node's.
     is_turned: bool,
-    numbers: [Block; MOST_NUMBERS],
-    coordinates: [[u32; WIDTH]; MOST_COORDINATES],
+    constants: [Block; MAX_CONSTANTS],
+    coordinates: [[u32; WIDTH]; MAX_COORDINATES],
     /// First multiplier and number of equations.
     equations: [(u32, u32); WIDTH],
 }
 
 /// What eight joints see at a point, and what they answer.
-struct Room {
+struct BatchScratch {
     gathered: Gathered,
     results: Results,
 }
 
 thread_local! {
     /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
-    static ROOM: RefCell<Room> = const {
-        RefCell::new(Room {
+    static SCRATCH: RefCell<BatchScratch> = const {
+        RefCell::new(BatchScratch {
             gathered: Gathered {
                 changes: [[[0.0; WIDTH]; 12]; 2],
-                coordinates: [[0.0; WIDTH]; MOST_COORDINATES],
-                multipliers: [[0.0; WIDTH]; MOST_EQUATIONS],
-                violations: [[0.0; WIDTH]; MOST_EQUATIONS],
+                coordinates: [[0.0; WIDTH]; MAX_COORDINATES],
+                multipliers: [[0.0; WIDTH]; MAX_EQUATIONS],
+                violations: [[0.0; WIDTH]; MAX_EQUATIONS],
             },
-            results: [[0.0; WIDTH]; LOCAL + MOST_EQUATIONS],
+            results: [[0.0; WIDTH]; LOCAL + MAX_EQUATIONS],
         })
     };
 }
@@ -183,9 +183,9 @@ thread_local! {
 struct Gathered {
     /// Turn, column by column, and shift of base and tip node.
     changes: [[Block; 12]; 2],
-    coordinates: [Block; MOST_COORDINATES],
-    multipliers: [Block; MOST_EQUATIONS],
-    violations: [Block; MOST_EQUATIONS],
+    coordinates: [Block; MAX_COORDINATES],
+    multipliers: [Block; MAX_EQUATIONS],
+    violations: [Block; MAX_EQUATIONS],
 }
 
 impl<J: Joint> Batch<J> {
@@ -239,8 +239,8 @@ impl<J: Joint> JointBatch for Batch<J> {
             self.begin(point.increments.start, &mut own);
             &own
         });
-        ROOM.with_borrow_mut(|room| {
-            self.processor.dispatch(Evaluation { batch: self, wanted, point, starts, blocks, room, add });
+        SCRATCH.with_borrow_mut(|scratch| {
+            self.processor.dispatch(Evaluation { batch: self, wanted, point, starts, blocks, scratch, add });
         });
     }
 
@@ -267,8 +267,8 @@ impl<J: Joint> JointBatch for Batch<J> {
 
     fn pack(&mut self, joints: &[AttachedJoint]) {
         self.processor = processor_for(self.joints.len());
-        let numbers: Vec<[f64; MOST_NUMBERS]> = self.joints.iter().map(Joint::numbers).collect();
-        self.packs = packs(&self.indices, joints, &numbers);
+        let constants: Vec<[f64; MAX_CONSTANTS]> = self.joints.iter().map(Joint::constants).collect();
+        self.packs = packs(&self.indices, joints, &constants);
     }
 
     fn as_any_mut(&mut self) -> &mut dyn Any {
@@ -277,12 +277,12 @@ impl<J: Joint> JointBatch for Batch<J> {
 }
 
 /// Lays out what is constant of joints of any kind, given by their indices among all.
-fn packs(indices: &[u32], joints: &[AttachedJoint], numbers: &[[f64; MOST_NUMBERS]]) -> Vec<Pack> {
+fn packs(indices: &[u32], joints: &[AttachedJoint], constants: &[[f64; MAX_CONSTANTS]]) -> Vec<Pack> {
     let of = |chunk: &[u32], lane: usize| &joints[chunk[lane.min(chunk.len() - 1)] as usize];
     indices
         .chunks(WIDTH)
-        .zip(numbers.chunks(WIDTH))
-        .map(|(chunk, numbers)| {
+        .zip(constants.chunks(WIDTH))
+        .map(|(chunk, constants)| {
             let all: [&AttachedJoint; WIDTH] = std::array::from_fn(|lane| of(chunk, lane));
             let offsets = [0, 1].map(|side| {
                 let poses = all.map(|joint| Pose::from(&joint.frames[side].offset).components());
@@ -297,8 +297,8 @@ fn packs(indices: &[u32], joints: &[AttachedJoint], numbers: &[[f64; MOST_NUMBER
                 nodes: [0, 1].map(|side| all.map(|joint| joint.frames[side].node)),
                 offsets,
                 is_turned,
-                numbers: std::array::from_fn(|k| {
-                    std::array::from_fn(|lane| numbers[lane.min(numbers.len() - 1)][k])
+                constants: std::array::from_fn(|k| {
+                    std::array::from_fn(|lane| constants[lane.min(constants.len() - 1)][k])
                 }),
                 coordinates: std::array::from_fn(|k| {
                     all.map(|joint| joint.coordinates.get(k).map_or(0, |&coordinate| coordinate as u32))
@@ -371,18 +371,18 @@ impl Pack {
             let own = first as usize..(first + count) as usize;
             let (multipliers, violations) = (&point.multipliers[own.clone()], &point.violations[own]);
             // As many as the kind has at most, in a loop of known length where all are there.
-            if multipliers.len() == J::MOST && violations.len() == J::MOST {
-                for k in 0..J::MOST {
+            if multipliers.len() == J::MAX_ROWS && violations.len() == J::MAX_ROWS {
+                for k in 0..J::MAX_ROWS {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
             } else {
-                for k in 0..multipliers.len().min(J::MOST) {
+                for k in 0..multipliers.len().min(J::MAX_ROWS) {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
                 // Nothing is left over of other joints, which may not have been numbers.
-                for k in multipliers.len()..J::MOST {
+                for k in multipliers.len()..J::MAX_ROWS {
                     gathered.multipliers[k][lane] = 0.0;
                     gathered.violations[k][lane] = 0.0;
                 }
@@ -404,19 +404,19 @@ impl Pack {
             let frame = part.frame(&self.offsets[side]);
             (if self.is_turned { Some(Axes::of(frame.rotation)) } else { None }, frame.position)
         });
-        let moved = Moved::new(
+        let increment = RelativeIncrement::new(
             (axes(part, &start.rotation), triple(part, &start.place, 0)),
             change(part, &gathered.changes[0]).carried_at(base.0, base.1),
             change(part, &gathered.changes[1]).carried_at(tip.0, tip.1),
         );
-        let own = own_moved::<J, S>(part, start, gathered);
-        let mut numbers = [part.number(&self.numbers[0]); MOST_NUMBERS];
-        for k in 1..MOST_NUMBERS {
-            numbers[k] = part.number(&self.numbers[k]);
+        let own = coordinate_increment::<J, S>(part, start, gathered);
+        let mut constants = [part.number(&self.constants[0]); MAX_CONSTANTS];
+        for k in 1..MAX_CONSTANTS {
+            constants[k] = part.number(&self.constants[k]);
         }
-        let change = J::violation_change(&moved, &own, &numbers);
+        let change = J::violation_change(&increment, &own, &constants);
         let mut mu = change;
-        for k in 0..J::MOST {
+        for k in 0..J::MAX_ROWS {
             let violation = part.number(&gathered.violations[k]) + change[k];
             violation.store(&mut out[LOCAL + k], part.index);
             let weight = if k < J::LENGTHS { weights[0] } else { weights[1] };
@@ -425,28 +425,28 @@ impl Pack {
         if wanted == Wanted::Violations {
             return;
         }
-        let (wrench, forces) = J::wrench(&moved, &own, &numbers, &mu);
+        let (wrench, forces) = J::wrench(&increment, &own, &constants, &mu);
         // On the base acts the opposite wrench, at the base's point.
-        let rotation = moved.rotation();
-        let couple = wrench.rotation.plus_cross(moved.place, wrench.translation);
+        let rotation = increment.rotation();
+        let couple = wrench.rotation.plus_cross(increment.place, wrench.translation);
         let opposite = Screw::new(-rotation.times(wrench.translation), -rotation.times(couple));
         store_screw(part, at_node(opposite, base), &mut out[..6]);
         store_screw(part, at_node(wrench, tip), &mut out[TIP..OWN]);
-        for k in 0..MOST_COORDINATES {
+        for k in 0..MAX_COORDINATES {
             forces[k].store(&mut out[OWN + k], part.index);
         }
     }
 }
 
 #[inline(always)]
-fn own_moved<J: Joint, S: Simd>(
+fn coordinate_increment<J: Joint, S: Simd>(
     part: Part<S>,
     start: &StartBlock,
     gathered: &Gathered,
-) -> OwnMoved<Lanes<S>> {
+) -> CoordinateIncrement<Lanes<S>> {
     let zero = Lanes::splat(part.simd, 0.0);
     let none = Angle { sine: zero, cosine: zero, sine_change: zero, cosine_change: zero };
-    let mut own = OwnMoved { change: [zero; MOST_COORDINATES], angles: [none; MOST_COORDINATES] };
+    let mut own = CoordinateIncrement { change: [zero; MAX_COORDINATES], angles: [none; MAX_COORDINATES] };
     for k in 0..J::COORDINATES.len() {
         own.change[k] = part.number(&gathered.coordinates[k]);
         if J::COORDINATES[k].quantity == Quantity::Angle {
@@ -529,7 +529,7 @@ struct Evaluation<'a, J> {
     point: &'a Point<'a>,
     starts: &'a [StartBlock],
     blocks: Range<usize>,
-    room: &'a mut Room,
+    scratch: &'a mut BatchScratch,
     add: &'a mut dyn FnMut(usize, &Results),
 }
 
@@ -541,7 +541,7 @@ impl<J: Joint> WithSimd for Evaluation<'_, J> {
         let augmentation = &self.point.augmentation;
         let weights = [Quantity::Length, Quantity::Angle]
             .map(|quantity| augmentation.weight * augmentation.relative(quantity));
-        let Room { gathered, results } = self.room;
+        let BatchScratch { gathered, results } = self.scratch;
         for block in self.blocks {
             let pack = &self.batch.packs[block];
             let (parts, lanes) = parts::<S>(pack.count);

@@ -4,10 +4,11 @@
 use lissom_motion::{Real, Screw, Vector3};
 
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
-use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient};
+use super::primitives::{JointRotation, coincident, coincident_gradient, coincident_hessian};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
+    MAX_EQUATIONS, Relative,
 };
 
 /// Registry entry.
@@ -31,7 +32,7 @@ impl Joint for Clamp {
         &EQUATIONS
     }
 
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
         JointRotation::none(0.0).matches(relative, 3, &mut out);
@@ -40,30 +41,36 @@ impl Joint for Clamp {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        JointRotation::none(moved.place.x).held_change(moved)
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        JointRotation::none(increment.place.x).held_change(increment)
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        JointRotation::none(mu[0]).held_wrench(moved, mu)
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        JointRotation::none(mu[0]).held_wrench(increment, mu)
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         JointRotation::none(0.0).matches_gradient(relative, 3, out);
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::none(0.0).matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::none(0.0).matches_hessian(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
     }
 }

@@ -8,14 +8,13 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
 use super::primitives::{
-    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench,
+    JointRotation, coincident, coincident_change, coincident_gradient, coincident_hessian, coincident_wrench,
 };
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Branch, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    Branch, ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
+    MAX_EQUATIONS, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -54,7 +53,7 @@ pub struct ConstantVelocity {
 }
 
 impl Joint for ConstantVelocity {
-    const MOST: usize = 4;
+    const MAX_ROWS: usize = 4;
 
     fn equations(&self) -> &'static [&'static str] {
         &["position 1", "position 2", "position 3", "rotation 3"]
@@ -66,14 +65,14 @@ impl Joint for ConstantVelocity {
     }
 
     /// The tip's third axis is its shaft: turned there from the base's about an axis across both.
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let across = Vector3::z().cross(&self.tip);
         let angle = across.norm().atan2(self.tip.z);
         let axis = across.try_normalize(0.0).unwrap_or_else(Vector3::x);
-        ([0.0; MOST_COORDINATES], Motion::new(Rotation::exponential(&(angle * axis)), Vector3::zeros()))
+        ([0.0; MAX_COORDINATES], Motion::new(Rotation::exponential(&(angle * axis)), Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
         out[3] = 0.5 * (relative.rotation[(1, 0)] - relative.rotation[(0, 1)]);
@@ -82,39 +81,45 @@ impl Joint for ConstantVelocity {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let [a, b, c] = coincident_change(increment);
         let zero = a.like(0.0);
-        [a, b, c, moved.rotation_change.axial().z, zero, zero]
+        [a, b, c, increment.rotation_change.axial().z, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
         let zero = mu[0].like(0.0);
         let shaft = Triple::new(zero, zero, mu[3]);
-        let (moment, own) = JointRotation::none(zero).matches_moments(moved, shaft);
-        let mut wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
+        let (moment, own) = JointRotation::none(zero).matches_moments(increment, shaft);
+        let mut wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
         wrench.rotation = wrench.rotation + moment;
         (wrench, own)
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         let mut all = Gradient::zeros();
         JointRotation::none(0.0).matches_gradient(relative, 0, &mut all);
         out.relative.set_row(3, &all.relative.row(2));
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::none(0.0).matches_curvature(relative, &(mu[3] * Vector3::z()), out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::none(0.0).matches_hessian(relative, &(mu[3] * Vector3::z()), out);
     }
 }

@@ -97,7 +97,7 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
         ports.filter_map(node).collect()
     }
 
-    /// Violations, evaluated outright from absolute positions [m, rad].
+    /// Violations, evaluated from absolute positions [m, rad].
     fn violation(&self, at: &Kinematics, out: &mut [f64]);
 
     /// Changes of the violations since the start of a step, without cancellation [m, rad]; the time `elapsed` [s] ends
@@ -108,7 +108,7 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     fn gradient(&self, at: &Kinematics, out: &mut [f64]);
 
     /// Derivatives of Bᵀ μ at constant multipliers, by local unknown and local unknown; `out` is zero.
-    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]);
+    fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]);
 
     /// ∂c/∂t by equation; `out` is zero. Default: nothing depends on the time itself.
     fn time_derivative(&self, _at: &Kinematics, _out: &mut [f64]) {}
@@ -132,7 +132,7 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     }
 
     /// Times at which its functions of time are known not to be smooth [s].
-    fn kinks(&self) -> Vec<f64> {
+    fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
 

@@ -14,7 +14,7 @@ use super::evaluation_point::Increments;
 use super::step_stages::ROUND_OFF;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
-pub use crate::relation::{Coupled, MOST_COUPLED, Relation, RelationPoint};
+pub use crate::relation::{Coupled, MAX_COUPLED, Relation, RelationPoint};
 
 /// A relation with its place in the system.
 #[derive(Debug)]
@@ -99,8 +99,8 @@ impl Coupling {
     }
 
     /// ∂²c/∂q² as columns.
-    pub fn hessian(&self, at: &Kinematics) -> [Coupled; MOST_COUPLED] {
-        let mut out = [Coupled::default(); MOST_COUPLED];
+    pub fn hessian(&self, at: &Kinematics) -> [Coupled; MAX_COUPLED] {
+        let mut out = [Coupled::default(); MAX_COUPLED];
         for (k, column) in out.iter_mut().enumerate().take(self.count()) {
             let mut unit = Coupled::default();
             unit[k] = 1.0;
@@ -156,7 +156,7 @@ impl Constraint for Coupling {
         out.copy_from_slice(&self.slopes(at)[..self.count()]);
     }
 
-    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+    fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
         let count = self.count();
         for (j, column) in self.hessian(at).iter().enumerate().take(count) {
             for (i, value) in column.iter().enumerate().take(count) {

@@ -6,13 +6,11 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
-use super::primitives::{
-    JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis,
-};
+use super::primitives::{JointRotation, coincident_gradient, coincident_hessian, elementary, on_third_axis};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START};
 
@@ -50,12 +48,12 @@ impl Joint for Cylindrical {
         &EQUATIONS
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let rotation = Rotation::from_matrix(&elementary(2, self.angle));
         ([self.angle, self.displacement], Motion::new(rotation, self.displacement * Vector3::z()))
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         on_third_axis(relative, own.value[SLIDE], 0, &mut out);
         JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
@@ -64,36 +62,42 @@ impl Joint for Cylindrical {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let mut change = JointRotation::about_third_axis(&own.angles[0]).held_change(moved);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let mut change = JointRotation::about_third_axis(&own.angles[0]).held_change(increment);
         change[2] = change[2] - own.change[SLIDE];
         change
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(moved, mu);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(increment, mu);
         own[SLIDE] = -mu[2];
         (wrench, own)
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         out.own[(2, SLIDE)] = -1.0;
         JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

@@ -4,7 +4,7 @@
 //! (η, φ) = J δ,   B = (∂c/∂(η, φ)) J,   K = Jᵀ C J - [base] Jᵀ X(w) J,   Γ = Bᵀ W B
 //! ```
 //!
-//! δ variations of the local unknowns, C curvature of the equations, X(w) how the base's wrench turns with η, [base]
+//! δ variations of the local unknowns, C Hessian of the equations, X(w) how the base's wrench turns with η, [base]
 //! the base's rows only. To the right of each product J and B go through the charts of the nodes, if asked for.
 //! Rows are as wide as two blocks of eight, one for each side, and so products are of a number and a vector register.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
@@ -12,7 +12,7 @@
 use lissom_motion::{Block, Lanes, Matrix3, Matrix6, Real, Vector3, Vector6, WIDTH};
 use pulp::{Simd, WithSimd};
 
-use super::{Curvature, Gradient, MOST_COORDINATES, MOST_EQUATIONS};
+use super::{ConstraintHessian, Gradient, MAX_COORDINATES, MAX_EQUATIONS};
 
 /// The tip's first local unknown. The base's six begin at 0; two places behind them stay empty, so that each side
 /// fills vectors of eight.
@@ -20,11 +20,11 @@ pub const TIP: usize = 8;
 /// The joint's own coordinates.
 pub const OWN: usize = TIP + 6;
 /// Places of local unknowns.
-pub const LOCAL: usize = OWN + MOST_COORDINATES;
+pub const LOCAL: usize = OWN + MAX_COORDINATES;
 /// Blocks of local unknowns, one for each side; another one takes the equations.
 const SIDES: usize = 2;
 /// Relative motion and own coordinates.
-const INNER: usize = 6 + MOST_COORDINATES;
+const INNER: usize = 6 + MAX_COORDINATES;
 
 /// One number by local unknown.
 type Row = [Block; SIDES];
@@ -118,11 +118,11 @@ pub struct Inner<'a> {
     /// ∂c/∂(η, φ).
     pub gradient: &'a Gradient,
     /// C.
-    pub curvature: &'a Curvature,
+    pub hessian: &'a ConstraintHessian,
     /// w, on the tip's joint frame.
     pub wrench: &'a Vector6,
     /// Diagonal of W.
-    pub weights: &'a [f64; MOST_EQUATIONS],
+    pub weights: &'a [f64; MAX_EQUATIONS],
 }
 
 /// Derivatives of one joint after the other.
@@ -134,14 +134,14 @@ pub struct Derivatives {
     variation: [Row; INNER],
     charted: [Row; INNER],
     /// B, and the same through the charts.
-    gradient: [Row; MOST_EQUATIONS],
-    charted_gradient: [Row; MOST_EQUATIONS],
+    gradient: [Row; MAX_EQUATIONS],
+    charted_gradient: [Row; MAX_EQUATIONS],
     /// C J, and C J - X(w) J, through the charts.
     on_tip: [Row; INNER],
     on_base: [Row; INNER],
-    weights: [f64; MOST_EQUATIONS],
+    weights: [f64; MAX_EQUATIONS],
     /// The local matrix, column by column; multipliers follow the local unknowns.
-    columns: [[Block; SIDES + 1]; LOCAL + MOST_EQUATIONS],
+    columns: [[Block; SIDES + 1]; LOCAL + MAX_EQUATIONS],
     processor: pulp::Arch,
 }
 
@@ -155,7 +155,7 @@ impl Derivatives {
     /// Room.
     pub fn new() -> Self {
         let mut own = [ZEROS; INNER];
-        for k in 0..MOST_COORDINATES {
+        for k in 0..MAX_COORDINATES {
             own[6 + k][1][OWN - TIP + k] = 1.0;
         }
         Self {
@@ -163,12 +163,12 @@ impl Derivatives {
             coordinates: 0,
             variation: own,
             charted: own,
-            gradient: [ZEROS; MOST_EQUATIONS],
-            charted_gradient: [ZEROS; MOST_EQUATIONS],
+            gradient: [ZEROS; MAX_EQUATIONS],
+            charted_gradient: [ZEROS; MAX_EQUATIONS],
             on_tip: [ZEROS; INNER],
             on_base: [ZEROS; INNER],
-            weights: [0.0; MOST_EQUATIONS],
-            columns: [[[0.0; WIDTH]; SIDES + 1]; LOCAL + MOST_EQUATIONS],
+            weights: [0.0; MAX_EQUATIONS],
+            columns: [[[0.0; WIDTH]; SIDES + 1]; LOCAL + MAX_EQUATIONS],
             processor: pulp::Arch::new(),
         }
     }
@@ -251,7 +251,7 @@ impl Fill<'_> {
         let mut bent = [zero; INNER];
         for m in 0..6 + out.coordinates {
             for n in 0..6 + own {
-                let factor = inner.curvature[(m, n)];
+                let factor = inner.hessian[(m, n)];
                 if factor != 0.0 {
                     bent[m] = bent[m].plus_product(Lanes::splat(simd, factor), charted[n]);
                 }
@@ -317,7 +317,7 @@ impl Summation<'_> {
         }
         let plain = load(simd, gradient, side, part);
         let mut weighted = plain;
-        for e in 0..MOST_EQUATIONS {
+        for e in 0..MAX_EQUATIONS {
             weighted[e] = plain[e].scaled(self.augmented * weights[e]);
         }
         for column in 0..OWN + coordinates {

@@ -4,9 +4,10 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
+    MAX_EQUATIONS, Relative,
 };
 use crate::registry::ParameterError;
 
@@ -35,24 +36,24 @@ pub struct Distance {
 }
 
 impl Joint for Distance {
-    const MOST: usize = 1;
+    const MAX_ROWS: usize = 1;
 
     fn equations(&self) -> &'static [&'static str] {
         &["distance"]
     }
 
     /// One over the length.
-    fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        let mut numbers = [0.0; MOST_NUMBERS];
-        numbers[0] = 1.0 / self.length;
-        numbers
+    fn constants(&self) -> [f64; MAX_CONSTANTS] {
+        let mut constants = [0.0; MAX_CONSTANTS];
+        constants[0] = 1.0 / self.length;
+        constants
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         ([0.0; 2], Motion::new(Rotation::identity(), self.span))
     }
 
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let distance = relative.position.norm();
         let mut out = Equations::default();
         out[0] = (distance - self.length) * (distance + self.length) / (2.0 * self.length);
@@ -61,34 +62,40 @@ impl Joint for Distance {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
         // x·x - x₀·x₀ = Δ·(2 x - Δ), in the tip's axes
-        let change = moved.place_change.dot(moved.place.scaled(2.0) - moved.place_change);
+        let change = increment.place_change.dot(increment.place.scaled(2.0) - increment.place_change);
         let zero = change.like(0.0);
-        [change * numbers[0].scaled(0.5), zero, zero, zero, zero, zero]
+        [change * constants[0].scaled(0.5), zero, zero, zero, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let force = moved.place * (mu[0] * numbers[0]);
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let force = increment.place * (mu[0] * constants[0]);
         let zero = mu[0].like(0.0);
-        (Screw::new(force, Triple::new(zero, zero, zero)), [zero; MOST_COORDINATES])
+        (Screw::new(force, Triple::new(zero, zero, zero)), [zero; MAX_COORDINATES])
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         let row = relative.rotation.tr_mul(&relative.position) / self.length;
         out.relative.fixed_view_mut::<1, 3>(0, 0).copy_from(&row.transpose());
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
         // δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ
         let factor = mu[0] / self.length;
         let turning = factor * skew(&relative.rotation.tr_mul(&relative.position));

@@ -58,7 +58,7 @@ impl Constraint for Drive {
         out[0] = 1.0;
     }
 
-    fn curvature(&self, _at: &Kinematics, _multipliers: &[f64], _out: &mut [f64]) {}
+    fn constraint_hessian(&self, _at: &Kinematics, _multipliers: &[f64], _out: &mut [f64]) {}
 
     fn time_derivative(&self, at: &Kinematics, out: &mut [f64]) {
         out[0] = -self.prescribed.value.first_derivative(at.time);
@@ -82,7 +82,7 @@ impl Constraint for Drive {
         along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
     }
 
-    fn kinks(&self) -> Vec<f64> {
-        self.prescribed.value.kinks()
+    fn breakpoints(&self) -> Vec<f64> {
+        self.prescribed.value.breakpoints()
     }
 }

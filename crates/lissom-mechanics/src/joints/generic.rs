@@ -12,13 +12,13 @@
 use lissom_motion::{Real, Screw, Triple, Vector3};
 
 use super::base_axes::{
-    component_gradient, cosine_curvature, cosine_gradient, force_curvature, force_wrench, row,
+    component_gradient, cosine_gradient, cosine_hessian, force_hessian, force_wrench, row,
 };
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    AnyJoint, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    AnyJoint, ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -133,7 +133,7 @@ static EQUATIONS: [[&str; 6]; 64] = names();
 
 impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
     const LENGTHS: usize = LENGTHS;
-    const MOST: usize = LENGTHS + 3;
+    const MAX_ROWS: usize = LENGTHS + 3;
 
     fn equations(&self) -> &'static [&'static str] {
         let mask: usize = self.locked.iter().enumerate().map(|(k, &locked)| usize::from(locked) << k).sum();
@@ -142,22 +142,22 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
 
     /// 1 at the only locked translation, or the only free one where two are locked; likewise 1 at the only free
     /// rotation, at the only locked one, and where all are locked.
-    fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        let mut numbers = [0.0; MOST_NUMBERS];
+    fn constants(&self) -> [f64; MAX_CONSTANTS] {
+        let mut constants = [0.0; MAX_CONSTANTS];
         for axis in 0..3 {
             let is_single = self.locked[axis] == (LENGTHS == 1);
-            numbers[axis] = f64::from(is_single);
+            constants[axis] = f64::from(is_single);
         }
         match self.rotations() {
-            (2, Some(free)) => numbers[3 + free] = 1.0,
-            (1, Some(locked)) => numbers[6 + locked] = 1.0,
-            (3, _) => numbers[9] = 1.0,
+            (2, Some(free)) => constants[3 + free] = 1.0,
+            (1, Some(locked)) => constants[6 + locked] = 1.0,
+            (3, _) => constants[9] = 1.0,
             _ => {}
         }
-        numbers
+        constants
     }
 
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         let lengths = self.translations().map(|axis| relative.position[axis]);
         let angles = self.cosines().map(|Cosine { axes, sign }| sign * relative.rotation[axes]);
@@ -169,21 +169,21 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let Triple { x, y, z } = moved.position_change;
-        let [a, b, c, free_x, free_y, free_z, x_alone, y_alone, z_alone, all] = *numbers;
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let Triple { x, y, z } = increment.position_change;
+        let [a, b, c, free_x, free_y, free_z, x_alone, y_alone, z_alone, all] = *constants;
         let zero = x.like(0.0);
-        let mut out = [zero; MOST_EQUATIONS];
+        let mut out = [zero; MAX_EQUATIONS];
         match LENGTHS {
             0 => {}
             1 => out[0] = x * a + y * b + z * c,
             2 => (out[0], out[1]) = (x * (b + c) + y * a, y * c + z * (a + b)),
             _ => (out[0], out[1], out[2]) = (x, y, z),
         }
-        let change = &moved.rotation_change;
+        let change = &increment.rotation_change;
         let (first, second, third) = (row(change, 0), row(change, 1), row(change, 2));
         out[LENGTHS] = third.y * (all + free_y)
             - second.z * (free_z + x_alone)
@@ -196,12 +196,12 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let [a, b, c, free_x, free_y, free_z, x_alone, y_alone, z_alone, all] = *numbers;
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let [a, b, c, free_x, free_y, free_z, x_alone, y_alone, z_alone, all] = *constants;
         let zero = mu[0].like(0.0);
         let force = match LENGTHS {
             0 => Triple::new(zero, zero, zero),
@@ -211,19 +211,19 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
         };
         let [p, q, r] = [mu[LENGTHS], mu[LENGTHS + 1], mu[LENGTHS + 2]];
         // By rows a of R: the factors of e_b in Σ q_ab e_b × Rᵀ e_a.
-        let rotation = moved.rotation();
+        let rotation = increment.rotation();
         let first = Triple::new(zero, -(q * free_y + p * z_alone), q * (all + free_z));
         let second = Triple::new(r * all + q * free_x, zero, -(p * (free_z + x_alone)));
         let third = Triple::new(-(p * (free_x + y_alone)), p * (all + free_y), zero);
-        let mut wrench = force_wrench(moved, force);
+        let mut wrench = force_wrench(increment, force);
         wrench.rotation = first
             .cross(row(&rotation, 0))
             .plus_cross(second, row(&rotation, 1))
             .plus_cross(third, row(&rotation, 2));
-        (wrench, [zero; MOST_COORDINATES])
+        (wrench, [zero; MAX_COORDINATES])
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         for (row, axis) in self.translations().enumerate() {
             component_gradient(relative, axis, row, out);
         }
@@ -232,14 +232,20 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
         }
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
         let mut force = Vector3::zeros();
         for (row, axis) in self.translations().enumerate() {
             force[axis] = mu[row];
         }
-        force_curvature(relative, &force, out);
+        force_hessian(relative, &force, out);
         for (row, Cosine { axes, sign }) in self.cosines().enumerate() {
-            cosine_curvature(relative, axes, sign * mu[LENGTHS + row], out);
+            cosine_hessian(relative, axes, sign * mu[LENGTHS + row], out);
         }
     }
 }

@@ -27,7 +27,6 @@ pub mod generic;
 pub mod inline;
 pub mod kind;
 mod kinds;
-pub mod moved;
 pub mod parallel_axes;
 pub mod perpendicular_axes;
 pub mod planar;
@@ -39,11 +38,12 @@ pub mod prescribed_motion;
 pub mod prescribed_rotation;
 pub mod primitives;
 pub mod prismatic;
+pub mod relative_increment;
 pub mod revolute;
 pub mod rigid_link;
 pub mod rolling;
+pub(crate) mod scalar_batch;
 pub mod screw;
-pub(crate) mod singly;
 pub mod slider;
 pub mod spherical;
 pub mod starts;
@@ -62,17 +62,17 @@ use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3};
 use nalgebra::SMatrix;
 
 use crate::contact::wheel_on_plane::Contact;
-use moved::{Moved, OwnMoved};
+use relative_increment::{CoordinateIncrement, RelativeIncrement};
 
 use crate::kinematics::Quantity;
 
 /// Most equations a joint may have.
-pub const MOST_EQUATIONS: usize = 6;
+pub const MAX_EQUATIONS: usize = 6;
 /// Most algebraic coordinates a joint may have.
-pub const MOST_COORDINATES: usize = 2;
+pub const MAX_COORDINATES: usize = 2;
 
 /// Most numbers of its own that the equations of a joint hold.
-pub const MOST_NUMBERS: usize = 10;
+pub const MAX_CONSTANTS: usize = 10;
 
 /// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
 /// step, computed from the increments without cancellation.
@@ -131,24 +131,24 @@ impl Coordinate {
 
 /// The joint's own coordinates now, and their change since the start of the step [rad, m].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Own {
+pub struct JointCoordinates {
     /// Values now.
-    pub value: [f64; MOST_COORDINATES],
+    pub value: [f64; MAX_COORDINATES],
     /// Change since the start of the step.
-    pub change: [f64; MOST_COORDINATES],
+    pub change: [f64; MAX_COORDINATES],
 }
 
 /// One number per equation.
-pub type Equations = [f64; MOST_EQUATIONS];
+pub type Equations = [f64; MAX_EQUATIONS];
 
 /// Derivatives of the equations: with respect to the body variation η of the relative motion
 /// (translation, rotation), and to the joint's own coordinates. Unused rows and columns stay zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient {
     /// ∂c/∂η.
-    pub relative: SMatrix<f64, MOST_EQUATIONS, 6>,
+    pub relative: SMatrix<f64, MAX_EQUATIONS, 6>,
     /// ∂c/∂φ.
-    pub own: SMatrix<f64, MOST_EQUATIONS, MOST_COORDINATES>,
+    pub own: SMatrix<f64, MAX_EQUATIONS, MAX_COORDINATES>,
 }
 
 impl Gradient {
@@ -159,14 +159,14 @@ impl Gradient {
 }
 
 /// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
-pub type Curvature = SMatrix<f64, 8, 8>;
+pub type ConstraintHessian = SMatrix<f64, 8, 8>;
 
 /// The equations of a joint. What is evaluated often is written over one number or several side by side.
 pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Its algebraic coordinates.
     const COORDINATES: &'static [Coordinate] = &[];
     /// Most equations that a joint of the kind has; what is said of further ones is not looked at.
-    const MOST: usize = MOST_EQUATIONS;
+    const MAX_ROWS: usize = MAX_EQUATIONS;
     /// How many equations are lengths; they come first, angles follow.
     const LENGTHS: usize = 3;
 
@@ -174,13 +174,13 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn equations(&self) -> &'static [&'static str];
 
     /// Numbers of its own that the equations hold.
-    fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        [0.0; MOST_NUMBERS]
+    fn constants(&self) -> [f64; MAX_CONSTANTS] {
+        [0.0; MAX_CONSTANTS]
     }
 
     /// Coordinates at the start, and the relative motion for which they satisfy the equations.
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
-        ([0.0; MOST_COORDINATES], Motion::identity())
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
+        ([0.0; MAX_COORDINATES], Motion::identity())
     }
 
     /// For joints with an equation that vanishes in a pose they can reach, and beyond which it has a second branch of solutions: a
@@ -194,28 +194,34 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
         None
     }
 
-    /// Violation c of the equations, evaluated outright.
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
+    /// Violation c of the equations, evaluated from absolute positions.
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
 
-    /// Change of the violation since the start of the step, from the changes of `moved` and `own`, without
+    /// Change of the violation since the start of the step, from the changes of `increment` and `own`, without
     /// cancellation. Hot: inlined always.
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS];
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS];
 
     /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Hot: inlined always.
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]);
 
     /// ∂c/∂(η, φ); `out` is zero on entry.
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient);
 
     /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    );
 }

@@ -6,11 +6,11 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
 use super::primitives::{JointRotation, elementary};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::ANGLE_AT_START;
 
@@ -35,18 +35,18 @@ pub struct ParallelAxes {
 impl Joint for ParallelAxes {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
     const LENGTHS: usize = 0;
-    const MOST: usize = 3;
+    const MAX_ROWS: usize = 3;
 
     fn equations(&self) -> &'static [&'static str] {
         &EQUATIONS[3..]
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let rotation = Rotation::from_matrix(&elementary(2, self.angle));
         ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         JointRotation::about_third_axis(&own.angle(0)).matches(relative, 0, &mut out);
         out
@@ -54,34 +54,40 @@ impl Joint for ParallelAxes {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let [a, b, c] = JointRotation::about_third_axis(&own.angles[0]).matches_change(increment);
         let zero = a.like(0.0);
         [a, b, c, zero, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
         let zero = mu[0].like(0.0);
         let rotation = JointRotation::about_third_axis(&own.angles[0]);
-        let (moment, own) = rotation.matches_moments(moved, Triple::new(mu[0], mu[1], mu[2]));
+        let (moment, own) = rotation.matches_moments(increment, Triple::new(mu[0], mu[1], mu[2]));
         (Screw::new(Triple::new(zero, zero, zero), moment), own)
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 0, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
         let mu = Vector3::new(mu[0], mu[1], mu[2]);
-        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(relative, &mu, out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(relative, &mu, out);
     }
 }

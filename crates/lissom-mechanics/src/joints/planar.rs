@@ -4,13 +4,13 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
-use super::base_axes::{component_gradient, force_curvature, force_wrench};
+use super::base_axes::{component_gradient, force_hessian, force_wrench};
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
 use super::primitives::{JointRotation, elementary};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::ANGLE_AT_START;
 
@@ -35,18 +35,18 @@ pub struct Planar {
 impl Joint for Planar {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
     const LENGTHS: usize = 1;
-    const MOST: usize = 4;
+    const MAX_ROWS: usize = 4;
 
     fn equations(&self) -> &'static [&'static str] {
         &["position 3", "rotation 1", "rotation 2", "rotation 3"]
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let rotation = Rotation::from_matrix(&elementary(2, self.angle));
         ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         out[0] = relative.position.z;
         JointRotation::about_third_axis(&own.angle(0)).matches(relative, 1, &mut out);
@@ -55,38 +55,44 @@ impl Joint for Planar {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let [a, b, c] = JointRotation::about_third_axis(&own.angles[0]).matches_change(increment);
         let zero = a.like(0.0);
-        [moved.position_change.z, a, b, c, zero, zero]
+        [increment.position_change.z, a, b, c, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
         let zero = mu[0].like(0.0);
         let rotation = JointRotation::about_third_axis(&own.angles[0]);
-        let (moment, own) = rotation.matches_moments(moved, Triple::new(mu[1], mu[2], mu[3]));
-        let mut wrench = force_wrench(moved, Triple::new(zero, zero, mu[0]));
+        let (moment, own) = rotation.matches_moments(increment, Triple::new(mu[1], mu[2], mu[3]));
+        let mut wrench = force_wrench(increment, Triple::new(zero, zero, mu[0]));
         wrench.rotation = wrench.rotation + moment;
         (wrench, own)
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         component_gradient(relative, 2, 0, out);
         JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 1, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        force_curvature(relative, &(mu[0] * Vector3::z()), out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        force_hessian(relative, &(mu[0] * Vector3::z()), out);
         let mu = Vector3::new(mu[1], mu[2], mu[3]);
-        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(relative, &mu, out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(relative, &mu, out);
     }
 }

@@ -4,13 +4,13 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
-use super::base_axes::{component_gradient, force_curvature, force_wrench};
+use super::base_axes::{component_gradient, force_hessian, force_wrench};
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
 use super::primitives::POINT_EQUATIONS;
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::DISPLACEMENT_AT_START;
 
@@ -34,18 +34,18 @@ pub struct PointOnLine {
 
 impl Joint for PointOnLine {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::displacement("displacement")];
-    const MOST: usize = 3;
+    const MAX_ROWS: usize = 3;
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let place = Motion::new(Rotation::identity(), self.displacement * Vector3::z());
         ([self.displacement, 0.0], place)
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         out[..3].copy_from_slice((relative.position - own.value[0] * Vector3::z()).as_slice());
         out
@@ -53,33 +53,39 @@ impl Joint for PointOnLine {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let Triple { x, y, z } = moved.position_change;
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let Triple { x, y, z } = increment.position_change;
         let zero = x.like(0.0);
         [x, y, z - own.change[0], zero, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        (force_wrench(moved, Triple::new(mu[0], mu[1], mu[2])), [-mu[2], mu[2].like(0.0)])
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        (force_wrench(increment, Triple::new(mu[0], mu[1], mu[2])), [-mu[2], mu[2].like(0.0)])
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         for axis in 0..3 {
             component_gradient(relative, axis, axis, out);
         }
         out.own[(2, 0)] = -1.0;
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
-        force_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        force_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
     }
 }

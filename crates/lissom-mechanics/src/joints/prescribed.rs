@@ -13,7 +13,7 @@ pub struct Prescribed {
 }
 
 impl Prescribed {
-    /// Violation, evaluated outright.
+    /// Violation, evaluated from absolute positions.
     pub fn violation(&self, coordinate: f64, time: f64) -> f64 {
         coordinate - self.value.value(time)
     }

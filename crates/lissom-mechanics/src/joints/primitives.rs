@@ -10,8 +10,8 @@
 
 use lissom_motion::{Matrix3, Real, Screw, Triple, Vector3, axial, skew};
 
-use super::moved::{Angle, Axes, Moved};
-use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Relative};
+use super::relative_increment::{Angle, Axes, RelativeIncrement};
+use super::{ConstraintHessian, Equations, Gradient, MAX_COORDINATES, Relative};
 
 /// Names of three equations that hold two points together.
 pub(crate) const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
@@ -24,8 +24,8 @@ pub(crate) fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
 
 /// Change of [`coincident`] since the start of the step.
 #[inline(always)]
-pub(crate) fn coincident_change<R: Real>(moved: &Moved<R>) -> [R; 3] {
-    let Triple { x, y, z } = moved.place_change;
+pub(crate) fn coincident_change<R: Real>(increment: &RelativeIncrement<R>) -> [R; 3] {
+    let Triple { x, y, z } = increment.place_change;
     [x, y, z]
 }
 
@@ -42,12 +42,12 @@ pub(crate) fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gra
 
 /// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which lies at -Rᵀ x from the tip's.
 #[inline(always)]
-pub(crate) fn coincident_wrench<R: Real>(moved: &Moved<R>, mu: Triple<R>) -> Screw<R> {
-    Screw::new(mu, mu.cross(moved.place))
+pub(crate) fn coincident_wrench<R: Real>(increment: &RelativeIncrement<R>, mu: Triple<R>) -> Screw<R> {
+    Screw::new(mu, mu.cross(increment.place))
 }
 
-/// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
-pub(crate) fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+/// Hessian of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
+pub(crate) fn coincident_hessian(relative: &Relative, mu: &Vector3, out: &mut ConstraintHessian) {
     let mu = skew(mu);
     let turning = mu * skew(&relative.rotation.tr_mul(&relative.position));
     let mut view = out.fixed_view_mut::<3, 3>(3, 0);
@@ -57,7 +57,7 @@ pub(crate) fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut 
 }
 
 /// Rows `row..row + 3`: the tip's point lies on the base's third axis at the displacement d, c = Rᵀ x - d e₃. Like
-/// [`coincident`] but for a constant gradient by d, so that gradient and curvature by the relative motion are the same.
+/// [`coincident`] but for a constant gradient by d, so that gradient and Hessian by the relative motion are the same.
 /// The axes of base and tip agree, by other rows.
 pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
     coincident(relative, row, out);
@@ -72,9 +72,9 @@ pub(crate) struct JointRotation<R> {
     /// Change of Q since the start of the step, free of cancellation.
     pub change: Axes<R>,
     /// Axis vectors of Qᵀ ∂Q/∂φ_k, one per coordinate.
-    pub axes: [Triple<R>; MOST_COORDINATES],
+    pub axes: [Triple<R>; MAX_COORDINATES],
     /// ∂axes[k]/∂φ_j, at `[k][j]`.
-    pub axes_by: [[Triple<R>; MOST_COORDINATES]; MOST_COORDINATES],
+    pub axes_by: [[Triple<R>; MAX_COORDINATES]; MAX_COORDINATES],
     /// Number of coordinates.
     pub count: usize,
 }
@@ -127,11 +127,11 @@ impl<R: Real> JointRotation<R> {
 
     /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
     #[inline(always)]
-    pub(crate) fn matches_change(&self, moved: &Moved<R>) -> [R; 3] {
+    pub(crate) fn matches_change(&self, increment: &RelativeIncrement<R>) -> [R; 3] {
         let change = self
             .change
-            .transpose_product(moved.start_rotation)
-            .plus(self.rotation.transpose_product(moved.rotation_change));
+            .transpose_product(increment.start_rotation)
+            .plus(self.rotation.transpose_product(increment.rotation_change));
         let Triple { x, y, z } = change.axial();
         [x, y, z]
     }
@@ -140,13 +140,13 @@ impl<R: Real> JointRotation<R> {
     #[inline(always)]
     pub(crate) fn matches_moments(
         &self,
-        moved: &Moved<R>,
+        increment: &RelativeIncrement<R>,
         mu: Triple<R>,
-    ) -> (Triple<R>, [R; MOST_COORDINATES]) {
-        let e = self.rotation.transpose_product(moved.rotation());
+    ) -> (Triple<R>, [R; MAX_COORDINATES]) {
+        let e = self.rotation.transpose_product(increment.rotation());
         let m = (mu * e.trace() - e.times(mu)).scaled(0.5);
         let turned = e.times(m);
-        let mut own = [mu.x.like(0.0); MOST_COORDINATES];
+        let mut own = [mu.x.like(0.0); MAX_COORDINATES];
         for k in 0..self.count {
             own[k] = -self.axes[k].dot(turned);
         }
@@ -156,18 +156,22 @@ impl<R: Real> JointRotation<R> {
     /// Change of the violations of a joint that holds a point, then this rotation: [`coincident_change`] and
     /// [`Self::matches_change`].
     #[inline(always)]
-    pub(crate) fn held_change(&self, moved: &Moved<R>) -> [R; 6] {
-        let [a, b, c] = coincident_change(moved);
-        let [d, e, f] = self.matches_change(moved);
+    pub(crate) fn held_change(&self, increment: &RelativeIncrement<R>) -> [R; 6] {
+        let [a, b, c] = coincident_change(increment);
+        let [d, e, f] = self.matches_change(increment);
         [a, b, c, d, e, f]
     }
 
     /// Wrench on the tip of a joint that holds a point, then this rotation, and forces on the coordinates:
     /// [`coincident_wrench`] and [`Self::matches_moments`].
     #[inline(always)]
-    pub(crate) fn held_wrench(&self, moved: &Moved<R>, mu: &[R; 6]) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (moment, own) = self.matches_moments(moved, Triple::new(mu[3], mu[4], mu[5]));
-        let mut wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
+    pub(crate) fn held_wrench(
+        &self,
+        increment: &RelativeIncrement<R>,
+        mu: &[R; 6],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let (moment, own) = self.matches_moments(increment, Triple::new(mu[3], mu[4], mu[5]));
+        let mut wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
         wrench.rotation = wrench.rotation + moment;
         (wrench, own)
     }
@@ -198,8 +202,8 @@ impl JointRotation<f64> {
         }
     }
 
-    /// Curvature of [`Self::matches`].
-    pub(crate) fn matches_curvature(&self, relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+    /// Hessian of [`Self::matches`].
+    pub(crate) fn matches_hessian(&self, relative: &Relative, mu: &Vector3, out: &mut ConstraintHessian) {
         let e = self.error(relative);
         let m = 0.5 * (e.trace() * mu - e * mu);
         let dm = 0.5 * e * skew(mu) - mu * axial(&e).transpose();

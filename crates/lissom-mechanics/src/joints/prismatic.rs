@@ -6,11 +6,11 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
-use super::primitives::{JointRotation, coincident_curvature, coincident_gradient, on_third_axis};
+use super::primitives::{JointRotation, coincident_gradient, coincident_hessian, on_third_axis};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::DISPLACEMENT_AT_START;
 
@@ -42,12 +42,12 @@ impl Joint for Prismatic {
         &EQUATIONS
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let place = Motion::new(Rotation::identity(), self.displacement * Vector3::z());
         ([self.displacement, 0.0], place)
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         on_third_axis(relative, own.value[SLIDE], 0, &mut out);
         JointRotation::none(0.0).matches(relative, 3, &mut out);
@@ -56,35 +56,41 @@ impl Joint for Prismatic {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let mut change = JointRotation::none(moved.place.x).held_change(moved);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let mut change = JointRotation::none(increment.place.x).held_change(increment);
         change[2] = change[2] - own.change[SLIDE];
         change
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (wrench, mut own) = JointRotation::none(mu[0]).held_wrench(moved, mu);
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let (wrench, mut own) = JointRotation::none(mu[0]).held_wrench(increment, mu);
         own[SLIDE] = -mu[2];
         (wrench, own)
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         out.own[(2, SLIDE)] = -1.0;
         JointRotation::none(0.0).matches_gradient(relative, 3, out);
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::none(0.0).matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::none(0.0).matches_hessian(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
     }
 }

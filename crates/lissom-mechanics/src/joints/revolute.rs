@@ -6,11 +6,11 @@ use lissom_motion::{Motion, Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
-use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient, elementary};
+use super::primitives::{JointRotation, coincident, coincident_gradient, coincident_hessian, elementary};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::ANGLE_AT_START;
 
@@ -39,12 +39,12 @@ impl Joint for Revolute {
         &EQUATIONS
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let rotation = lissom_motion::Rotation::from_matrix(&elementary(2, self.angle));
         ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
         JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
@@ -53,31 +53,37 @@ impl Joint for Revolute {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        JointRotation::about_third_axis(&own.angles[0]).held_change(moved)
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        JointRotation::about_third_axis(&own.angles[0]).held_change(increment)
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        JointRotation::about_third_axis(&own.angles[0]).held_wrench(moved, mu)
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        JointRotation::about_third_axis(&own.angles[0]).held_wrench(increment, mu)
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

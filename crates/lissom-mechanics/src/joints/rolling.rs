@@ -16,9 +16,10 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
 use super::base_axes::row;
 use super::kind::{Build, Frames, Geometry, JointKind};
-use super::moved::{Moved, OwnMoved};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
+    MAX_EQUATIONS, Relative,
 };
 use crate::contact::wheel_on_plane::{Contact, upright};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
@@ -123,7 +124,7 @@ pub struct Rolling {
 }
 
 impl Joint for Rolling {
-    const MOST: usize = 1;
+    const MAX_ROWS: usize = 1;
 
     fn equations(&self) -> &'static [&'static str] {
         &["distance from the plane"]
@@ -134,19 +135,19 @@ impl Joint for Rolling {
     }
 
     /// Side of the plane, radius, axis.
-    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+    fn constants(&self) -> [f64; MAX_CONSTANTS] {
         let Contact { axis, side, radius, .. } = self.contact;
-        let mut numbers = [0.0; MOST_NUMBERS];
-        numbers[..5].copy_from_slice(&[side, radius, axis.x, axis.y, axis.z]);
-        numbers
+        let mut constants = [0.0; MAX_CONSTANTS];
+        constants[..5].copy_from_slice(&[side, radius, axis.x, axis.y, axis.z]);
+        constants
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
-        ([0.0; MOST_COORDINATES], Motion::new(Rotation::identity(), self.centre))
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
+        ([0.0; MAX_COORDINATES], Motion::new(Rotation::identity(), self.centre))
     }
 
     /// Measured from the start, where the wheel touches to the accuracy of the places given.
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let Contact { axis, side, radius, .. } = self.contact;
         let cosine = relative.rotation.row(2).transpose().dot(&axis);
         let mut out = Equations::default();
@@ -156,38 +157,38 @@ impl Joint for Rolling {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let [side, radius, x, y, z, ..] = *numbers;
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let [side, radius, x, y, z, ..] = *constants;
         let axis = Triple::new(x, y, z);
-        let before = row(&moved.start_rotation, 2).dot(axis);
-        let change = row(&moved.rotation_change, 2).dot(axis);
+        let before = row(&increment.start_rotation, 2).dot(axis);
+        let change = row(&increment.rotation_change, 2).dot(axis);
         let after = before + change;
         // ΔS = -(u₀ + u) Δu/(S₀ + S)
         let lower = radius * (before + after) * change / (upright(before) + upright(after));
         let zero = change.like(0.0);
-        [side * moved.position_change.z + lower, zero, zero, zero, zero, zero]
+        [side * increment.position_change.z + lower, zero, zero, zero, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let [side, radius, x, y, z, ..] = *numbers;
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let [side, radius, x, y, z, ..] = *constants;
         let axis = Triple::new(x, y, z);
-        let normal = row(&moved.rotation(), 2);
+        let normal = row(&increment.rotation(), 2);
         let cosine = normal.dot(axis);
         let lever = mu[0] * radius * cosine / upright(cosine);
         let zero = mu[0].like(0.0);
-        (Screw::new(normal * (side * mu[0]), axis.cross(normal) * lever), [zero; MOST_COORDINATES])
+        (Screw::new(normal * (side * mu[0]), axis.cross(normal) * lever), [zero; MAX_COORDINATES])
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         let Contact { axis, side, radius, .. } = self.contact;
         let normal = relative.rotation.row(2).transpose();
         let cosine = normal.dot(&axis);
@@ -198,7 +199,13 @@ impl Joint for Rolling {
         }
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
         let Contact { axis, side, radius, .. } = self.contact;
         let normal = relative.rotation.row(2).transpose();
         let cosine = normal.dot(&axis);

@@ -8,13 +8,11 @@ use lissom_motion::{Motion, Real, Rotation, Screw as Wrench, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
-use super::primitives::{
-    JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis,
-};
+use super::primitives::{JointRotation, coincident_gradient, coincident_hessian, elementary, on_third_axis};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{ANGLE_AT_START, Parameter, ParameterType};
 
@@ -56,18 +54,18 @@ impl Joint for Screw {
         &EQUATIONS
     }
 
-    fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        let mut numbers = [0.0; MOST_NUMBERS];
-        numbers[0] = self.pitch;
-        numbers
+    fn constants(&self) -> [f64; MAX_CONSTANTS] {
+        let mut constants = [0.0; MAX_CONSTANTS];
+        constants[0] = self.pitch;
+        constants
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let rotation = Rotation::from_matrix(&elementary(2, self.angle));
         ([self.angle, 0.0], Motion::new(rotation, self.pitch * self.angle * Vector3::z()))
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         on_third_axis(relative, self.pitch * own.value[0], 0, &mut out);
         JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
@@ -76,36 +74,42 @@ impl Joint for Screw {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let mut change = JointRotation::about_third_axis(&own.angles[0]).held_change(moved);
-        change[2] = change[2].minus_product(numbers[0], own.change[0]);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let mut change = JointRotation::about_third_axis(&own.angles[0]).held_change(increment);
+        change[2] = change[2].minus_product(constants[0], own.change[0]);
         change
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Wrench<R>, [R; MOST_COORDINATES]) {
-        let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(moved, mu);
-        own[0] = own[0].minus_product(numbers[0], mu[2]);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Wrench<R>, [R; MAX_COORDINATES]) {
+        let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(increment, mu);
+        own[0] = own[0].minus_product(constants[0], mu[2]);
         (wrench, own)
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         out.own[(2, 0)] = -self.pitch;
         JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_hessian(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

@@ -40,7 +40,7 @@ pub const KIND: JointKind = JointKind {
 /// Equations that hold the point on the line.
 pub(crate) const ON_LINE: usize = 3;
 /// Most equations of a slider, those of directions included.
-pub const MOST_EQUATIONS: usize = 6;
+pub const MAX_EQUATIONS: usize = 6;
 /// The tip among the local nodes.
 pub const TIP: usize = SUPPORT;
 /// The coordinate's local unknown.
@@ -165,7 +165,7 @@ impl Slider {
         Self::on_beam(place, 0).chain([(TIP, 1.0)])
     }
 
-    /// Violations, evaluated outright [m, rad]; those that it does not have are zero.
+    /// Violations, evaluated from absolute positions [m, rad]; those that it does not have are zero.
     fn violations(&self, at: &Kinematics) -> Vector6 {
         let place = self.place(at);
         let beside = self.tip.place(at) - self.along(&place, 0, at);
@@ -180,9 +180,9 @@ impl Slider {
         let change = increments.coordinates[self.coordinate];
         let (s, slide) = (start + change, (start, change));
         let after = Place { support: self.line.at(s) };
-        let moved = after.support.sum(0, |node| self.nodes[node].shift(increments));
+        let increment = after.support.sum(0, |node| self.nodes[node].shift(increments));
         let slid = self.line.change(0, slide, |node| self.nodes[node].place(increments.start));
-        let mut violation = filled(&(self.tip.shift(increments) - moved - slid));
+        let mut violation = filled(&(self.tip.shift(increments) - increment - slid));
         for (e, own) in self.aligned() {
             let slid =
                 |derivative: usize, of: &dyn Fn(usize) -> Vector3| self.line.change(derivative, slide, of);
@@ -197,8 +197,8 @@ impl Slider {
     }
 
     /// B by equation.
-    fn rows(&self, place: &Place, at: &Kinematics) -> [Row; MOST_EQUATIONS] {
-        let mut rows = [[0.0; LOCAL]; MOST_EQUATIONS];
+    fn rows(&self, place: &Place, at: &Kinematics) -> [Row; MAX_EQUATIONS] {
+        let mut rows = [[0.0; LOCAL]; MAX_EQUATIONS];
         for (k, factor) in Self::all(place) {
             let own = self.carried(place, k);
             let axes = own.motion(at).frame.rotation.matrix();
@@ -249,7 +249,7 @@ impl Slider {
             }
         }
         out[OWN][OWN] = -self.along(place, 2, at).dot(mu);
-        self.aligned().for_each(|(e, own)| own.add_curvature(place, at, multipliers[e], &mut out));
+        self.aligned().for_each(|(e, own)| own.add_hessian(place, at, multipliers[e], &mut out));
         out
     }
 
@@ -355,7 +355,7 @@ impl Constraint for Slider {
         out.copy_from_slice(&rows.as_flattened()[..out.len()]);
     }
 
-    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+    fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
         out.copy_from_slice(self.row_derivatives(&self.place(at), at, multipliers).as_flattened());
     }
 

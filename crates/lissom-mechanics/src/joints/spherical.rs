@@ -4,13 +4,14 @@
 use lissom_motion::{Real, Screw, Triple, Vector3};
 
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
 use super::primitives::{
-    POINT_EQUATIONS, coincident, coincident_change, coincident_curvature, coincident_gradient,
+    POINT_EQUATIONS, coincident, coincident_change, coincident_gradient, coincident_hessian,
     coincident_wrench,
 };
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
+    MAX_EQUATIONS, Relative,
 };
 
 /// Registry entry.
@@ -27,13 +28,13 @@ pub const KIND: JointKind = JointKind {
 pub struct Spherical;
 
 impl Joint for Spherical {
-    const MOST: usize = 3;
+    const MAX_ROWS: usize = 3;
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS
     }
 
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
         out
@@ -41,31 +42,37 @@ impl Joint for Spherical {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        let [a, b, c] = coincident_change(increment);
         let zero = a.like(0.0);
         [a, b, c, zero, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        _: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
-        (wrench, [mu[0].like(0.0); MOST_COORDINATES])
+        increment: &RelativeIncrement<R>,
+        _: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let wrench = coincident_wrench(increment, Triple::new(mu[0], mu[1], mu[2]));
+        (wrench, [mu[0].like(0.0); MAX_COORDINATES])
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
     }
 }

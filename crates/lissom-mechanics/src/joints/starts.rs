@@ -2,7 +2,7 @@
 
 use lissom_motion::{Block, Matrix3, Vector3, WIDTH};
 
-use super::MOST_COORDINATES;
+use super::MAX_COORDINATES;
 
 /// Values of all joints at the start of a step.
 #[derive(Clone, Debug, Default)]
@@ -16,13 +16,13 @@ pub struct StartBlock {
     /// Relative position in the tip's axes [m].
     pub(super) place: [Block; 3],
     /// Sine and cosine of coordinates that are angles.
-    pub(super) angles: [[Block; 2]; MOST_COORDINATES],
+    pub(super) angles: [[Block; 2]; MAX_COORDINATES],
 }
 
 impl StartBlock {
     pub(super) fn zeros() -> Self {
         let zeros = [0.0; WIDTH];
-        Self { rotation: [zeros; 9], place: [zeros; 3], angles: [[zeros; 2]; MOST_COORDINATES] }
+        Self { rotation: [zeros; 9], place: [zeros; 3], angles: [[zeros; 2]; MAX_COORDINATES] }
     }
 
     /// Relative rotation and position of one of the joints.

@@ -11,7 +11,7 @@ use nalgebra::SVector;
 
 use super::attached::{AttachedJoint, LocalGradient};
 use super::derivatives::{LOCAL, OWN, TIP};
-use super::{Equations, MOST_EQUATIONS};
+use super::{Equations, MAX_EQUATIONS};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::Quantity;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh};
@@ -24,7 +24,7 @@ pub struct Visit {
     /// B̃.
     pub rows: LocalGradient,
     /// Integrated violation.
-    pub violation: SVector<f64, MOST_EQUATIONS>,
+    pub violation: SVector<f64, MAX_EQUATIONS>,
 }
 
 impl AttachedJoint {
@@ -37,7 +37,7 @@ impl AttachedJoint {
         before: &Equations,
     ) -> [Visit; STAGES] {
         let mut rows = [LocalGradient::zeros(); STAGES];
-        let mut rates = [SVector::<f64, MOST_EQUATIONS>::zeros(); STAGES];
+        let mut rates = [SVector::<f64, MAX_EQUATIONS>::zeros(); STAGES];
         let mut weights = [SVector::<f64, LOCAL>::zeros(); STAGES];
         let mut squares = [0.0; STAGES];
         let mut way = 0.0_f64;
@@ -64,7 +64,7 @@ impl AttachedJoint {
         }
         let (relative, own) = self.configuration(&increments[STAGES]);
         let change = self.joint().violation_change(&relative, &own);
-        let missed = SVector::<f64, MOST_EQUATIONS>::from_column_slice(&change) - step.whole(rates);
+        let missed = SVector::<f64, MAX_EQUATIONS>::from_column_slice(&change) - step.whole(rates);
         let (mut inverse, mut shares) = step.shares(squares);
         if self.is_rigid() {
             // No relative motion is left: the rates are round-off, and so is what they miss.
@@ -76,7 +76,7 @@ impl AttachedJoint {
         }
         // What is below round-off counts in the violations but would be noise in the forces.
         let known = missed.map(|value| value * above_round_off(value.abs(), ROUND_OFF * way));
-        let before = SVector::<f64, MOST_EQUATIONS>::from_column_slice(before);
+        let before = SVector::<f64, MAX_EQUATIONS>::from_column_slice(before);
         let violations =
             step.at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
         [0, 1].map(|j| Visit {

@@ -5,11 +5,11 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
 use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -60,58 +60,59 @@ impl SwingArm {
 
 impl Joint for SwingArm {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
-    const MOST: usize = 3;
+    const MAX_ROWS: usize = 3;
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS[..self.equations]
     }
 
     /// The arm, and 1 where there is a third equation.
-    fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        let mut numbers = [0.0; MOST_NUMBERS];
-        numbers[..3].copy_from_slice(self.arm.as_slice());
-        numbers[3] = if self.equations == 3 { 1.0 } else { 0.0 };
-        numbers
+    fn constants(&self) -> [f64; MAX_CONSTANTS] {
+        let mut constants = [0.0; MAX_CONSTANTS];
+        constants[..3].copy_from_slice(self.arm.as_slice());
+        constants[3] = if self.equations == 3 { 1.0 } else { 0.0 };
+        constants
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let span = elementary(2, self.angle) * self.arm;
         ([self.angle, 0.0], Motion::new(Rotation::identity(), span))
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         self.rows(&(relative.position - elementary(2, own.value[0]) * self.arm))
     }
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
         let (_, turn) = elementary_of(2, &own.angles[0]);
-        let change = moved.position_change - turn.times(Triple::new(numbers[0], numbers[1], numbers[2]));
+        let change =
+            increment.position_change - turn.times(Triple::new(constants[0], constants[1], constants[2]));
         let zero = change.x.like(0.0);
-        [change.x, change.y, change.z * numbers[3], zero, zero, zero]
+        [change.x, change.y, change.z * constants[3], zero, zero, zero]
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        numbers: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let force = Triple::new(mu[0], mu[1], mu[2] * numbers[3]);
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        constants: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        let force = Triple::new(mu[0], mu[1], mu[2] * constants[3]);
         let (rotation, _) = elementary_of(2, &own.angles[0]);
-        let arm = rotation.times(Triple::new(numbers[0], numbers[1], numbers[2]));
+        let arm = rotation.times(Triple::new(constants[0], constants[1], constants[2]));
         let zero = mu[0].like(0.0);
         let swing = arm.y * force.x - arm.x * force.y;
-        let wrench = Screw::new(moved.rotation().transpose_times(force), Triple::new(zero, zero, zero));
+        let wrench = Screw::new(increment.rotation().transpose_times(force), Triple::new(zero, zero, zero));
         (wrench, [swing, zero])
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         let swing = Vector3::z().cross(&(elementary(2, own.value[0]) * self.arm));
         for i in 0..self.equations {
             for j in 0..3 {
@@ -121,7 +122,13 @@ impl Joint for SwingArm {
         }
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
         let force = self.forces(mu);
         let turning = skew(&relative.rotation.tr_mul(&force));
         let mut view = out.fixed_view_mut::<3, 3>(0, 3);

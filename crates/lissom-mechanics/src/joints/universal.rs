@@ -6,11 +6,11 @@ use lissom_motion::{Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::kind::{Build, Frames, JointKind};
-use super::moved::{Moved, OwnMoved};
-use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient};
+use super::primitives::{JointRotation, coincident, coincident_gradient, coincident_hessian};
+use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
-    Relative,
+    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 
 /// Registry entry.
@@ -34,7 +34,7 @@ impl Joint for Universal {
         &EQUATIONS
     }
 
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
         JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)])
@@ -44,32 +44,38 @@ impl Joint for Universal {
 
     #[inline(always)]
     fn violation_change<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-    ) -> [R; MOST_EQUATIONS] {
-        JointRotation::about_first_and_second_axis(&own.angles).held_change(moved)
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+    ) -> [R; MAX_EQUATIONS] {
+        JointRotation::about_first_and_second_axis(&own.angles).held_change(increment)
     }
 
     #[inline(always)]
     fn wrench<R: Real>(
-        moved: &Moved<R>,
-        own: &OwnMoved<R>,
-        _: &[R; MOST_NUMBERS],
-        mu: &[R; MOST_EQUATIONS],
-    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        JointRotation::about_first_and_second_axis(&own.angles).held_wrench(moved, mu)
+        increment: &RelativeIncrement<R>,
+        own: &CoordinateIncrement<R>,
+        _: &[R; MAX_CONSTANTS],
+        mu: &[R; MAX_EQUATIONS],
+    ) -> (Screw<R>, [R; MAX_COORDINATES]) {
+        JointRotation::about_first_and_second_axis(&own.angles).held_wrench(increment, mu)
     }
 
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, own: &JointCoordinates, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)])
             .matches_gradient(relative, 3, out);
     }
 
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)]).matches_curvature(
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        own: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
+        coincident_hessian(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)]).matches_hessian(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

@@ -13,7 +13,9 @@ use nalgebra::SVector;
 use super::attached::AttachedJoint;
 use super::blocks::Batches;
 use super::kind::{Build, Frames, Geometry, JointKind};
-use super::{AnyJoint, Coordinate, Curvature, Equations, Gradient, MOST_COORDINATES, Own, Relative};
+use super::{
+    AnyJoint, ConstraintHessian, Coordinate, Equations, Gradient, JointCoordinates, MAX_COORDINATES, Relative,
+};
 use crate::contact::CreepLaw;
 use crate::contact::profile::{RailProfile, WheelProfile};
 use crate::contact::wheel_on_plane::Contact;
@@ -331,8 +333,8 @@ impl AnyJoint for WheelOnRail {
         &[]
     }
 
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
-        ([0.0; MOST_COORDINATES], Motion::new(Rotation::identity(), self.centre))
+    fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
+        ([0.0; MAX_COORDINATES], Motion::new(Rotation::identity(), self.centre))
     }
 
     fn contact(&self) -> Option<Contact> {
@@ -347,13 +349,13 @@ impl AnyJoint for WheelOnRail {
         self.creep.as_ref()
     }
 
-    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let mut out = Equations::default();
         out[0] = self.contact.gap(&pose_of(relative)) - self.start;
         out
     }
 
-    fn violation_change(&self, relative: &Relative, _: &Own) -> Equations {
+    fn violation_change(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let before = Pose::new(&relative.start_rotation(), &(relative.position - relative.position_change));
         let mut out = Equations::default();
         out[0] = self.contact.gap(&pose_of(relative)) - self.contact.gap(&before);
@@ -363,15 +365,15 @@ impl AnyJoint for WheelOnRail {
     fn wrench(
         &self,
         relative: &Relative,
-        _: &Own,
+        _: &JointCoordinates,
         mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+    ) -> (Vector6, SVector<f64, MAX_COORDINATES>) {
         let pose = pose_of(relative);
         let row = self.contact.row(&pose, &self.contact.place(&pose).place);
         (mu[0] * Vector6::from(row), SVector::zeros())
     }
 
-    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+    fn gradient(&self, relative: &Relative, _: &JointCoordinates, out: &mut Gradient) {
         let pose = pose_of(relative);
         let row = self.contact.row(&pose, &self.contact.place(&pose).place);
         for (k, value) in row.into_iter().enumerate() {
@@ -379,7 +381,13 @@ impl AnyJoint for WheelOnRail {
         }
     }
 
-    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+    fn constraint_hessian(
+        &self,
+        relative: &Relative,
+        _: &JointCoordinates,
+        mu: &Equations,
+        out: &mut ConstraintHessian,
+    ) {
         let pose = pose_of(relative);
         let varied = pose.varied::<6>();
         let row = self.contact.row(&varied, &self.contact.varied_place(&pose, &varied));
@@ -391,6 +399,6 @@ impl AnyJoint for WheelOnRail {
     }
 
     fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches) {
-        batches.enter_singly(index, attached.with_joint(Box::new(self.clone())));
+        batches.enter_scalar(index, attached.with_joint(Box::new(self.clone())));
     }
 }

@@ -96,7 +96,7 @@ impl Graph {
         }
         self.evaluate(at, |values| {
             for (index, signal) in self.signals.iter().enumerate().filter(|(_, one)| one.sampling.is_none()) {
-                let mut arguments = [0.0; super::MOST_ARGUMENTS];
+                let mut arguments = [0.0; super::MAX_ARGUMENTS];
                 self.gather(signal, at, values, &mut arguments);
                 let arguments = &arguments[..signal.arguments.len()];
                 signal.function.switches(at.time, arguments, self.sides(index, at), out);

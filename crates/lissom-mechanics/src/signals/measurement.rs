@@ -3,21 +3,21 @@
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
 /// Most unknowns a measurement may touch: two nodes and two coordinates.
-pub const MOST_TOUCHED: usize = 14;
+pub const MAX_TOUCHED: usize = 14;
 
 /// Derivatives of a measurement: six per node it touches, by body variations and twists, then one per coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient {
     /// By places.
-    pub by_place: [f64; MOST_TOUCHED],
+    pub by_place: [f64; MAX_TOUCHED],
     /// By velocities.
-    pub by_rate: [f64; MOST_TOUCHED],
+    pub by_rate: [f64; MAX_TOUCHED],
 }
 
 impl Gradient {
     /// All zero.
     pub fn zero() -> Self {
-        Self { by_place: [0.0; MOST_TOUCHED], by_rate: [0.0; MOST_TOUCHED] }
+        Self { by_place: [0.0; MAX_TOUCHED], by_rate: [0.0; MAX_TOUCHED] }
     }
 }
 

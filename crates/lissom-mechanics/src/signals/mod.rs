@@ -31,7 +31,7 @@ pub type SignalId = usize;
 pub type MeasurementId = usize;
 
 /// Most arguments of one signal.
-pub const MOST_ARGUMENTS: usize = 64;
+pub const MAX_ARGUMENTS: usize = 64;
 
 /// Numbers that fit on the stack; larger graphs allocate when they are evaluated.
 const ON_STACK: usize = 64;
@@ -47,10 +47,10 @@ pub trait SignalFunction: Send + Sync + fmt::Debug {
         0
     }
     /// Appends numbers that change their sign where the function has a kink or a jump; 0 at all times where these are among
-    /// the known [`kinks`](Self::kinks).
+    /// the known [`breakpoints`](Self::breakpoints).
     fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<f64>) {}
     /// Times at which it is known not to be smooth [s], whatever its arguments. Default: none is known.
-    fn kinks(&self) -> &[f64] {
+    fn breakpoints(&self) -> &[f64] {
         &[]
     }
 }
@@ -176,7 +176,7 @@ impl Graph {
         sides: impl Fn(SignalId) -> &'k [f64],
         with: impl FnOnce(&[f64]) -> T,
     ) -> T {
-        with_room(self.signals.len(), |values| {
+        with_scratch(self.signals.len(), |values| {
             for index in 0..self.signals.len() {
                 values[index] = match self.signals[index].sampling {
                     Some(Sampling { held, .. }) => at.held[held],
@@ -200,7 +200,7 @@ impl Graph {
     /// The expression of a signal, evaluated whether it is sampled or not.
     fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
         let signal = &self.signals[index];
-        let mut arguments = [0.0; MOST_ARGUMENTS];
+        let mut arguments = [0.0; MAX_ARGUMENTS];
         self.gather(signal, at, values, &mut arguments);
         signal.function.value(at.time, &arguments[..signal.arguments.len()], sides)
     }
@@ -265,14 +265,14 @@ impl Graph {
         values: &[f64],
         mut add: impl FnMut(Argument, f64),
     ) {
-        with_room(root + 1, |adjoints| {
+        with_scratch(root + 1, |adjoints| {
             adjoints[root] = 1.0;
             for index in (0..=root).rev() {
                 let (signal, adjoint) = (&self.signals[index], adjoints[index]);
                 if adjoint == 0.0 || signal.sampling.is_some() {
                     continue;
                 }
-                let (mut arguments, mut gradient) = ([0.0; MOST_ARGUMENTS], [0.0; MOST_ARGUMENTS]);
+                let (mut arguments, mut gradient) = ([0.0; MAX_ARGUMENTS], [0.0; MAX_ARGUMENTS]);
                 let count = signal.arguments.len();
                 self.gather(signal, at, values, &mut arguments);
                 let sides = self.sides(index, at);
@@ -312,9 +312,9 @@ impl Graph {
     }
 
     /// Times at which signals are known not to be smooth between samples [s], themselves or by those they depend on.
-    pub fn kinks_of(&self, roots: impl Iterator<Item = SignalId>) -> Vec<f64> {
+    pub fn breakpoints_of(&self, roots: impl Iterator<Item = SignalId>) -> Vec<f64> {
         let reached = self.reached_from(roots);
-        reached.iter().flat_map(|&index| self.signals[index].function.kinks()).copied().collect()
+        reached.iter().flat_map(|&index| self.signals[index].function.breakpoints()).copied().collect()
     }
 
     /// Signals that some depend on between samples, themselves among them.
@@ -411,6 +411,6 @@ fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
 }
 
 /// Calls `with` with so many zeros.
-fn with_room<T>(count: usize, with: impl FnOnce(&mut [f64]) -> T) -> T {
+fn with_scratch<T>(count: usize, with: impl FnOnce(&mut [f64]) -> T) -> T {
     if count <= ON_STACK { with(&mut [0.0; ON_STACK][..count]) } else { with(&mut vec![0.0; count]) }
 }

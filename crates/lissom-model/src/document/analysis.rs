@@ -1,8 +1,8 @@
 //! What a model file wants computed, and how.
 
-use lissom_core::mechanisms::Without;
-use lissom_core::numbers::Numbers;
 use lissom_core::registry::{Parameter, Parameters};
+use lissom_core::solver_features::DisabledFeatures;
+use lissom_core::tuning::Tuning;
 
 use super::decode::of_kind;
 use crate::context::Context;
@@ -75,7 +75,7 @@ pub const DEFAULT_MODE_COUNT: usize = 20;
 pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 
 /// Most steps of a path where they are not given.
-const MOST_STEPS_OF_PATH: usize = 1000;
+const MAX_STEPS_OF_PATH: usize = 1000;
 
 /// Part of its work that a load step of chosen size may leave unexplained where nothing says otherwise.
 const TOLERANCE_OF_WORK: f64 = 0.01;
@@ -143,9 +143,9 @@ pub struct Analysis {
     /// Most iterations of a step.
     pub max_iterations: usize,
     /// What is left out of the search for a step's solution, for studies.
-    pub without: Without,
-    /// The numbers that the search and the choice of steps go by, changed for studies.
-    pub numbers: Numbers,
+    pub disabled: DisabledFeatures,
+    /// Parameters of the nonlinear solver and of step-size control, changed for studies.
+    pub tuning: Tuning,
     /// Steps from one record to the next.
     pub output_every: usize,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
@@ -234,8 +234,8 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         solver,
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
-        without: without(&reader),
-        numbers: numbers(&reader),
+        disabled: disabled(&reader),
+        tuning: tuning(&reader),
         output_every: if is_run { count("output_every", 1) } else { 1 },
         frames_per_second: if is_run {
             reader.number("frames_per_second").map(|rate| rate.value)
@@ -255,14 +255,14 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     Some(analysis)
 }
 
-fn without(reader: &Reader<'_, '_>) -> Without {
+fn disabled(reader: &Reader<'_, '_>) -> DisabledFeatures {
     let words = reader.choices("without").unwrap_or_default();
-    Without::of_words(words.iter().map(String::as_str)).unwrap_or_default()
+    DisabledFeatures::of_words(words.iter().map(String::as_str)).unwrap_or_default()
 }
 
-fn numbers(reader: &Reader<'_, '_>) -> Numbers {
+fn tuning(reader: &Reader<'_, '_>) -> Tuning {
     let [halved, doubled] = ["halved", "doubled"].map(|key| reader.choices(key).unwrap_or_default());
-    let halved = Numbers::default().times(halved.iter().map(String::as_str), 0.5);
+    let halved = Tuning::default().times(halved.iter().map(String::as_str), 0.5);
     halved.and_then(|halved| halved.times(doubled.iter().map(String::as_str), 2.0)).unwrap_or_default()
 }
 
@@ -284,7 +284,7 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
         );
     }
     let first = if reader.has("step") { Some(reader.number("step")?.value) } else { None };
-    let most_steps = reader.count("steps").map_or(MOST_STEPS_OF_PATH, |steps| steps.value);
+    let most_steps = reader.count("steps").map_or(MAX_STEPS_OF_PATH, |steps| steps.value);
     let branch = match reader.node("branch") {
         None => 0.0,
         Some(_) => reader.number("branch")?.value,
@@ -371,15 +371,15 @@ fn check_times(context: &Context<'_>, analysis: &Analysis, end: Span) {
 }
 
 /// A motion file of more frames fills a disk and is shown by nobody.
-const MOST_FRAMES: f64 = 100_000.0;
+const MAX_FRAMES: f64 = 100_000.0;
 
 fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
     let Some(rate) = analysis.frames_per_second else { return };
     let Some(node) = reader.node("frames_per_second") else { return };
     let duration = analysis.end - analysis.start;
-    if rate * duration > MOST_FRAMES {
+    if rate * duration > MAX_FRAMES {
         let message = format!("`frames_per_second` asks for {:.0} frames of motion", rate * duration);
-        let help = format!("at most {MOST_FRAMES} are recorded: choose at most {:e}", MOST_FRAMES / duration);
+        let help = format!("at most {MAX_FRAMES} are recorded: choose at most {:e}", MAX_FRAMES / duration);
         reader.context.fail::<()>(node.span, message, help);
     }
 }
@@ -422,7 +422,7 @@ fn scheme_parameters(
                 "it belongs to {}: leave it out, or choose that scheme",
                 crate::suggest::list(owners)
             );
-            reader.context.tell(problem.help(help));
+            reader.context.report(problem.help(help));
         }
     }
     for parameter in own.iter().filter(|parameter| parameter.required && !reader.has(parameter.name)) {

@@ -1,7 +1,7 @@
 //! The keys of `[analysis]`, by kind of analysis.
 
-use lissom_core::mechanisms::WORDS;
-use lissom_core::numbers;
+use lissom_core::solver_features::WORDS;
+use lissom_core::tuning;
 
 use super::tables::Variant;
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
@@ -49,11 +49,11 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
             ),
             optional(
                 "halved",
-                Shape::Choices(&numbers::WORDS),
+                Shape::Choices(&tuning::WORDS),
                 "",
                 "numbers of the search and of the choice of steps to be halved, for studies; default none",
             ),
-            optional("doubled", Shape::Choices(&numbers::WORDS), "", "the same to be doubled; default none"),
+            optional("doubled", Shape::Choices(&tuning::WORDS), "", "the same to be doubled; default none"),
             optional(
                 "output_every",
                 Shape::Count(1, 1_000_000_000),

@@ -112,7 +112,8 @@ pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located
     if context.top("assembly").is_none() {
         let message = format!("{} lies at one place on its base and at another on its tip", reader.what);
         let problem = Problem::error(node.span, message).label("apart from `at`");
-        context.tell(problem.help("add a table [assembly], which moves the parts until their joints close"));
+        context
+            .report(problem.help("add a table [assembly], which moves the parts until their joints close"));
     }
     let at = context.place(node, &reader.words("at_tip"))?.value;
     let value =

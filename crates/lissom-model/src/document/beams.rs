@@ -320,7 +320,7 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
                 _ => format!("`up` of beam `{}` is parallel to the beam", draft.name.value),
             };
             let problem = Problem::error(up.span, message).label("along the beam");
-            context.tell(
+            context.report(
                 problem.help("axis 3 leans to `up`: choose a direction across the beam, or leave it out"),
             );
             return None;

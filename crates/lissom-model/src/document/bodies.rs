@@ -80,12 +80,12 @@ fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surfa
         (None, Some(node)) => {
             let name = reader.text("mesh")?.value;
             let path = joined(context.sources.file(node.span), name);
-            let told = match context.library.surface(&path) {
+            let error = match context.library.surface(&path) {
                 Ok(surface) => return Some(surface),
-                Err(told) => told,
+                Err(error) => error,
             };
-            let problem = Problem::error(node.span, format!("{}: {}", reader.words("mesh"), told.message));
-            context.tell(problem.label("named here").maybe_help(told.help));
+            let problem = Problem::error(node.span, format!("{}: {}", reader.words("mesh"), error.message));
+            context.report(problem.label("named here").maybe_help(error.help));
             None
         }
         (Some(_), Some(node)) => {
@@ -161,7 +161,7 @@ fn warn_of_degrees(reader: &Reader<'_, '_>, node: &Node) {
     if angle > TAU * (1.0 + 1e-9) {
         let message = format!("{what} turns by {:.1} times a whole turn", angle / TAU);
         let help = "angles are in radians: write \"pi/2\" for 90 degrees";
-        reader.context.tell(Problem::warning(node.span, message).help(help));
+        reader.context.report(Problem::warning(node.span, message).help(help));
     }
 }
 

@@ -260,7 +260,7 @@ fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located
     if base.value == tip.value {
         let message = format!("{} leads from a node to the same node", reader.what);
         let problem = Problem::error(tip.span, message).label("the same").also(base.span, "base");
-        context.tell(problem.help("`base` and `tip` must be different nodes"));
+        context.report(problem.help("`base` and `tip` must be different nodes"));
         return None;
     }
     Some((base, tip))
@@ -291,7 +291,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                 let message = format!("the two axes of {} are parallel", reader.what);
                 let problem =
                     Problem::error(second.span, message).label("parallel").also(first.span, "first axis");
-                reader.context.tell(problem.help("give two directions that differ"));
+                reader.context.report(problem.help("give two directions that differ"));
                 return None;
             }
             let cosine = first.value.normalize().dot(&second.value.normalize());
@@ -306,7 +306,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                 let problem = Problem::error(second.span, message)
                     .label("not perpendicular")
                     .also(first.span, "first axis");
-                reader.context.tell(problem.help(format!(
+                reader.context.report(problem.help(format!(
                     "the nearest perpendicular direction is [{}, {}, {}]",
                     across.x, across.y, across.z
                 )));
@@ -338,6 +338,6 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);
     let problem = Problem::error(joint.span, message).label("no coordinate");
     let problem = problem.also(word.span, format!("a {kind} joint"));
-    context.tell(problem.help("name a joint with an axis, such as a revolute one"));
+    context.report(problem.help("name a joint with an axis, such as a revolute one"));
     None
 }

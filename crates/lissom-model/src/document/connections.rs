@@ -87,7 +87,7 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
             slider.name.value
         );
         let problem = Problem::warning(node.span, message).also(slider.name.span, "the slider");
-        context.tell(problem.help("read them farther away, or take more elements"));
+        context.report(problem.help("read them farther away, or take more elements"));
     }
 }
 
@@ -238,7 +238,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         } else if free && sizes.get(&root) == Some(&1) && parts.len() > 1 {
             let problem =
                 Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));
-            context.tell(
+            context.report(
                 problem.label("moves freely").help("add a joint, or ignore this if it is meant to fly"),
             );
         }
@@ -267,7 +267,7 @@ fn unused(context: &Context<'_>, document: &Document) {
     for name in document.sections.iter().map(|section| &section.name) {
         if !used.contains(name.value.as_str()) {
             let problem = Problem::warning(name.span, format!("no beam has the section `{}`", name.value));
-            context.tell(problem.label("not used").help("name it in a beam, or remove it"));
+            context.report(problem.label("not used").help("name it in a beam, or remove it"));
         }
     }
 }

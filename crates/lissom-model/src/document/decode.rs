@@ -134,7 +134,7 @@ fn version(context: &Context<'_>) -> Option<()> {
         let problem =
             Problem::error(Span::default(), "the file does not say which version of the format it has");
         let help = format!("write `lissom = {}` in the first line", tables::VERSION);
-        context.tell(problem.label("before this").help(help));
+        context.report(problem.label("before this").help(help));
         return None;
     };
     let found = match node.value {
@@ -158,7 +158,7 @@ fn check_words(context: &Context<'_>) {
         let Some(top) = tables::tops().find(|top| top.name == word) else {
             let help = suggest::help(word, tables::tops().map(|top| top.name));
             let problem = Problem::error(span, format!("`{word}` is not a word of a model file"));
-            context.tell(problem.label("unknown").maybe_help(help));
+            context.report(problem.label("unknown").maybe_help(help));
             continue;
         };
         if !matches!(top.holds, Holds::Value(_)) && node.table().is_none() {
@@ -172,7 +172,7 @@ fn check_words(context: &Context<'_>) {
         } else {
             format!("add it: {}", top.summary)
         };
-        context.tell(Problem::error(Span::default(), message).help(help));
+        context.report(Problem::error(Span::default(), message).help(help));
     }
     // Generalised coordinates move without a part.
     let is_free = |node: &Node| {
@@ -185,7 +185,7 @@ fn check_words(context: &Context<'_>) {
             Span::default(),
             "the model is empty: it has no beam, body, point mass or superelement",
         );
-        context.tell(problem.help("add for example a table [bodies.top] with mass and inertia"));
+        context.report(problem.help("add for example a table [bodies.top] with mass and inertia"));
     }
 }
 
@@ -224,8 +224,9 @@ fn check_names(context: &Context<'_>) {
             if let Some((first, other)) = parts.insert(name, (span, singular(table))) {
                 let message = format!("the {} `{name}` has the name of a {other}", singular(table));
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
-                context
-                    .tell(problem.help("beams, bodies, point masses and superelements need different names"));
+                context.report(
+                    problem.help("beams, bodies, point masses and superelements need different names"),
+                );
             }
             if context.instances.contains_key(name) {
                 let message = format!("the {} `{name}` has the name of a part", singular(table));

@@ -38,7 +38,7 @@ pub(super) fn read(reader: &Reader<'_, '_>) -> Option<Vec<DistributedForce>> {
                 let problem = Problem::error(place, format!("{what} cannot name `{}`", name.text));
                 let help = "it may name `s` from 0 to 1 along the beam, `t` and the parameters";
                 let near = suggest::help(&name.text, ["s", "t"]);
-                context.tell(problem.label("unknown here").help(help).maybe_help(near));
+                context.report(problem.label("unknown here").help(help).maybe_help(near));
                 return None;
             }
             components.push(formula);

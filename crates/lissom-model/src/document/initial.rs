@@ -39,7 +39,7 @@ pub(super) fn initial(context: &Context<'_>) -> (Option<InitialMotion>, BTreeMap
             if let Some((first, other)) = owners.insert(part.clone(), (span, motion_name)) {
                 let message = format!("`{part}` moves at the start as `{other}` and as `{motion_name}`");
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
-                context.tell(problem.help("name each part in one motion"));
+                context.report(problem.help("name each part in one motion"));
             }
             of_parts.insert(part, motion);
         }
@@ -97,7 +97,7 @@ pub(super) fn parts(reader: &Reader<'_, '_>, key: &str) -> Vec<(String, Span)> {
             let known = known.chain(context.instances.keys().map(String::as_str));
             let help = suggest::help(name, known);
             let first = "name bodies, point masses, beams, superelements or entries of [parts]";
-            context.tell(problem.label("no such part").help(first).maybe_help(help));
+            context.report(problem.label("no such part").help(first).maybe_help(help));
         }
         found.extend(meant.into_iter().map(|known| (known.to_owned(), entry.span)));
     }

@@ -37,7 +37,7 @@ fn warn_of_units(reader: &Reader<'_, '_>, young: &Located<f64>, density: f64) {
             square.sqrt()
         );
         let help = "write `E` in Pa, as 210e9 for 210 GPa, and `density` in kg/m³";
-        reader.context.tell(Problem::warning(young.span, message).help(help));
+        reader.context.report(Problem::warning(young.span, message).help(help));
     }
 }
 
@@ -118,7 +118,7 @@ fn homogeneous(
                 );
                 let problem = Problem::error(thickness.span, message).also(outer.span, "outer radius");
                 let help = "for a solid shaft write shape = \"circle\" with its radius";
-                reader.context.tell(problem.label("too thick").help(help));
+                reader.context.report(problem.label("too thick").help(help));
                 return None;
             }
             Shape::Tube { outer_radius: outer.value, thickness: thickness.value }
@@ -145,7 +145,7 @@ fn shear(reader: &Reader<'_, '_>) -> Option<Shear> {
         Value::Text(word) if word == "renton" => return Some(Shear::Theory(ShearTheory::Renton)),
         Value::Text(word) if suggest::nearest(word, ["cowper", "renton"]).is_some() => {
             let problem = Problem::error(node.span, format!("{what} names no theory"));
-            context.tell(problem.maybe_help(suggest::help(word, ["cowper", "renton"])));
+            context.report(problem.maybe_help(suggest::help(word, ["cowper", "renton"])));
             return None;
         }
         Value::List(_) => {
@@ -191,7 +191,7 @@ fn warn_of_moments(reader: &Reader<'_, '_>, node: &crate::text::Node, mass: &Mat
             moments.z
         );
         let help = "a slice has J11 = J22 + J33, density times the moments of area";
-        reader.context.tell(Problem::warning(node.span, message).help(help));
+        reader.context.report(Problem::warning(node.span, message).help(help));
     }
 }
 

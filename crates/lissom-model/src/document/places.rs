@@ -51,7 +51,7 @@ impl Context<'_> {
             let known = points.iter().map(|(name, _)| *name).chain(nodes.iter().map(String::as_str));
             let message = format!("{what} names `{name}`, which is neither a point nor a node");
             let help = suggest::help(name, known);
-            self.tell(Problem::error(node.span, message).label("unknown").maybe_help(help));
+            self.report(Problem::error(node.span, message).label("unknown").maybe_help(help));
             return None;
         }
         self.place(node, what).map(PlaceOrNode::Place)
@@ -140,7 +140,7 @@ impl Context<'_> {
                     Problem::error(span, format!("{what} names the node `{text}`, which does not exist"));
                 let other = "nodes are \"ground\", the names of bodies and point masses, and \"beam.start\", \
                              \"beam.end\", \"beam@0.5\", \"superelement.interface\"";
-                self.tell(problem.label("no such node").help(other).maybe_help(help));
+                self.report(problem.label("no such node").help(other).maybe_help(help));
                 None
             }
         }

@@ -63,7 +63,7 @@ pub(super) fn check_names(context: &Context<'_>) {
             } else if let Some((first, other)) = known.insert(name, (span, what)) {
                 let message = format!("the {what} `{name}` has the name of a {other}");
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
-                context.tell(problem.help("parameters, inputs, signals and states need different names"));
+                context.report(problem.help("parameters, inputs, signals and states need different names"));
             }
         }
     }

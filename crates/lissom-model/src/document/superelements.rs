@@ -65,7 +65,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
                         "the `geometric` matrices of {} are left out: an earlier form of their file counts loads twice",
                         reader.what
                     );
-                    context.tell(Problem::warning(span, message).help("reduce the part again by `lissom reduce`"));
+                    context.report(Problem::warning(span, message).help("reduce the part again by `lissom reduce`"));
                 }
                 read.flatten().map(Box::new)
             });
@@ -83,7 +83,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
             Err(error) => {
                 let span = reader.node(&error.parameter).map_or(reader.name, |node| node.span);
                 let problem = Problem::error(span, format!("{}: {error}", reader.what));
-                context.tell(problem.label("of these matrices"));
+                context.report(problem.label("of these matrices"));
                 return None;
             }
         };
@@ -146,7 +146,9 @@ fn interface_named(
         let help = suggest::help(named.value, interfaces.iter().map(|interface| interface.name.as_str()));
         let message =
             format!("{} names `{}`, which is none of its interfaces", reader.words("floating"), named.value);
-        reader.context.tell(Problem::error(named.span, message).label("no such interface").maybe_help(help));
+        reader
+            .context
+            .report(Problem::error(named.span, message).label("no such interface").maybe_help(help));
     }
     found
 }
@@ -193,7 +195,7 @@ fn matrix(reader: &Reader<'_, '_>, key: &str) -> Option<Option<DMatrix<f64>>> {
     let path = joined(context.sources.file(named.span), named.value);
     let fail = |message: String, help: Option<String>| {
         let problem = Problem::error(named.span, format!("{}: {message}", reader.words(key)));
-        context.tell(problem.label("named here").maybe_help(help));
+        context.report(problem.label("named here").maybe_help(help));
         None
     };
     let found = if own {

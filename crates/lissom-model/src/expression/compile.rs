@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::formula::Name;
 use super::token::{Placed, Token, tokens};
 use super::{ExpressionError, Function, Jet, STACK, Step, jet, run};
-use crate::{other_words, suggest};
+use crate::{suggest, synonyms};
 
 /// Nesting that is still read; deeper texts are machine-made.
 const DEPTH: usize = 100;
@@ -29,7 +29,7 @@ pub(super) fn compile(
         (Token::End, _) => {}
         (token, range) => {
             let unit = match &token {
-                Token::Name(name) => other_words::instead_of_unit(name),
+                Token::Name(name) => synonyms::instead_of_unit(name),
                 _ => None,
             };
             let help = unit.unwrap_or("write products with `*`, as in `2*t`").to_owned();
@@ -215,7 +215,7 @@ impl<'t> Reader<'t, '_, '_> {
             return Ok(());
         }
         let known = self.variable.into_iter().chain(["pi"]).chain(self.parameters.keys().map(String::as_str));
-        let unit = other_words::instead_of_unit(name).map(str::to_owned);
+        let unit = synonyms::instead_of_unit(name).map(str::to_owned);
         let help = unit.or_else(|| suggest::help(name, known));
         Err(ExpressionError { message: format!("unknown name `{name}`"), help, range })
     }

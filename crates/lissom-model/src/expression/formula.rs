@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use lissom_core::signals::SignalFunction;
 
+use super::breakpoints::{Course, Line};
 use super::compile::{compile, fold};
-use super::kinks::{Course, Line};
 use super::smoothness::{self, Kink};
-use super::{Expression, ExpressionError, Jet, Step, kinks, run, run_continued};
+use super::{Expression, ExpressionError, Jet, Step, breakpoints, run, run_continued};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,7 +70,7 @@ impl Formula {
     }
 
     /// Values of an argument at which it is known not to be smooth while other arguments are 0, in ascending order.
-    pub(crate) fn kinks_of(&self, argument: usize) -> Vec<f64> {
+    pub(crate) fn breakpoints_of(&self, argument: usize) -> Vec<f64> {
         let alone: Vec<Step> = (self.steps.iter())
             .map(|step| match *step {
                 Step::Argument(index) if index == argument => Step::Variable,
@@ -78,7 +78,7 @@ impl Formula {
                 other => other,
             })
             .collect();
-        kinks::of(&alone, &[]).kinks
+        breakpoints::of(&alone, &[]).breakpoints
     }
 
     /// Where value or gradient jump, if such an instant is found.
@@ -88,7 +88,7 @@ impl Formula {
 
     /// What is known of it over time, where arguments are these lines, one for each.
     pub(super) fn course(&self, arguments: &[Line]) -> Course {
-        kinks::of(&self.steps, arguments)
+        breakpoints::of(&self.steps, arguments)
     }
 
     /// Passes the values of its switching functions to `visit`, in their order.
@@ -132,7 +132,7 @@ impl SignalFunction for Formula {
     fn switch_count(&self) -> usize {
         let of = |step: &Step| match step {
             Step::Call(function) | Step::Call2(function) | Step::Call3(function) => {
-                kinks::switch_count(*function)
+                breakpoints::switch_count(*function)
             }
             _ => 0,
         };

@@ -4,10 +4,10 @@
 //! of steps on a small stack, run on second-order jets: no allocation in a call. Knows no files.
 
 mod bounds;
+mod breakpoints;
 mod compile;
 mod formula;
 mod jet;
-mod kinks;
 mod over_time;
 mod smoothness;
 mod token;
@@ -15,10 +15,10 @@ mod token;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+pub(crate) use breakpoints::Line;
 pub use formula::{Formula, Name};
 pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
-pub(crate) use kinks::Line;
 pub(crate) use over_time::OverTime;
 pub(crate) use smoothness::Kink;
 
@@ -87,8 +87,8 @@ impl Expression {
 
     /// Values of the variable at which the expression is not smooth, as far as they can be determined: where a function that is
     /// not smooth takes an argument that is a straight line of the variable. In ascending order.
-    pub fn kinks(&self) -> Vec<f64> {
-        kinks::of(&self.steps, &[]).kinks
+    pub fn breakpoints(&self) -> Vec<f64> {
+        breakpoints::of(&self.steps, &[]).breakpoints
     }
 
     /// A value of the variable at which value or slope jump, if one is found; NaN for functions with steps, such as `floor`.
@@ -123,10 +123,10 @@ fn run_continued(
 ) -> Jet {
     let mut next = 0;
     let mut continued = |function: Function, arguments: [Jet; 3]| {
-        kinks::switches(function, arguments.map(|argument| argument.value), &mut hand);
+        breakpoints::switches(function, arguments.map(|argument| argument.value), &mut hand);
         let first = next;
-        next += kinks::switch_count(function);
-        kinks::continued(function, sides.get(first..next).unwrap_or_default(), arguments)
+        next += breakpoints::switch_count(function);
+        breakpoints::continued(function, sides.get(first..next).unwrap_or_default(), arguments)
     };
     let mut stack = [Jet::constant(0.0); STACK];
     let mut top = 0;
@@ -270,7 +270,7 @@ mod tests {
             // The root of a curved argument is not looked for.
             ("abs(sin(t))", vec![]),
         ] {
-            let found = parse(text).unwrap().kinks();
+            let found = parse(text).unwrap().breakpoints();
             assert_eq!(found.len(), wanted.len(), "{text}: {found:?}");
             assert!(found.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-14), "{text}: {found:?}");
         }

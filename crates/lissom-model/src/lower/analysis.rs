@@ -76,8 +76,8 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         limits: Limits {
             tolerance: analysis.tolerance,
             max_iterations: analysis.max_iterations,
-            without: analysis.without,
-            numbers: analysis.numbers,
+            disabled: analysis.disabled,
+            tuning: analysis.tuning,
         },
         solver,
         threads: 1,

@@ -52,15 +52,15 @@ pub struct Assembly {
 }
 
 /// Most parts that are reported in words.
-const MOST_TOLD: usize = 4;
+const MAX_REPORTED: usize = 4;
 
 impl Assembly {
     /// One sentence for a person.
     pub fn words(&self) -> String {
         let some = |all: Vec<String>| {
-            let more = all.len().saturating_sub(MOST_TOLD);
+            let more = all.len().saturating_sub(MAX_REPORTED);
             let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-            all.into_iter().take(MOST_TOLD).collect::<Vec<_>>().join(", ") + &rest
+            all.into_iter().take(MAX_REPORTED).collect::<Vec<_>>().join(", ") + &rest
         };
         if self.moved.is_empty() {
             return "all joints close as drawn, nothing moved".to_owned();

@@ -6,7 +6,7 @@ use lissom_core::joints::Constraint as _;
 use lissom_core::joints::JointKind;
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::registry::Value;
-use lissom_core::relation::{MOST_COUPLED, Relation, RelationPoint};
+use lissom_core::relation::{MAX_COUPLED, Relation, RelationPoint};
 use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{Builder, State, System};
 
@@ -73,11 +73,11 @@ pub(super) fn add(
         }
         _ => return Err(Problem::error(component.name.span, format!("`{name}` relates no coordinates"))),
     };
-    if coordinates.is_empty() || coordinates.len() > MOST_COUPLED {
+    if coordinates.is_empty() || coordinates.len() > MAX_COUPLED {
         let span = component.span_of("equation");
         let message = format!("equation `{name}` names {} coordinates of joints", coordinates.len());
         return Err(Problem::error(span, message)
-            .help(format!("name at least one and at most {MOST_COUPLED}, such as `arm.angle`")));
+            .help(format!("name at least one and at most {MAX_COUPLED}, such as `arm.angle`")));
     }
     builder.add_coupling(name, kind, &coordinates, &parameters).map_err(fault)
 }

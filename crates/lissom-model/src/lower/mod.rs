@@ -3,18 +3,18 @@
 
 mod analysis;
 mod assembly;
-mod beginning;
 mod connections;
 mod couplings;
 mod distributed;
+mod initial_state;
 mod latches;
 mod measurements;
 mod order;
 mod parts;
 mod redundancy;
 pub mod registry;
+mod resource_limits;
 mod signals;
-mod size;
 mod sliders;
 mod superelements;
 
@@ -41,7 +41,7 @@ use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
 pub use assembly::{Assembly, Brought, MovedPart};
-pub use size::check_run;
+pub use resource_limits::check_run;
 
 /// A model ready to run. Copies share the system.
 #[derive(Clone)]
@@ -166,7 +166,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
 /// As [`lower`].
 pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
     let mut problems = Vec::new();
-    size::check(document, &mut problems);
+    resource_limits::check(document, &mut problems);
     stop_at(document, &mut problems)?;
     let mut builder = Builder::new();
     builder.set_gravity(document.gravity);
@@ -205,12 +205,12 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     }
     parts::velocities(document, &names, &system, &mut state.kinematics);
     if document.starts_in_steady_rotation() {
-        match beginning::steady_rotation(document, &system, &state, &settings) {
+        match initial_state::steady_rotation(document, &system, &state, &settings) {
             Ok(turning) => state = turning,
             Err(problem) => return Err(document.report(vec![problem])),
         }
     }
-    let mut warnings = beginning::drives(document, &system, &state, &mut problems);
+    let mut warnings = initial_state::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
     let (channels, accumulated) =
         output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);

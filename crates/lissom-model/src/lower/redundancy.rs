@@ -11,7 +11,7 @@ use crate::document::OutputKind;
 /// Changes below this part of the largest multiplier added are round-off.
 const ROUND_OFF: f64 = 1e-6;
 /// Columns named in a message.
-const MOST_NAMED: usize = 6;
+const MAX_LISTED: usize = 6;
 
 /// Names of the columns of `channels` that constraints leave undetermined at `state`, and a warning if there are any.
 pub(super) fn not_unique(
@@ -64,7 +64,7 @@ pub(super) fn not_unique(
 
 fn doubt(columns: &[String], repeated: &[String]) -> Option<Warning> {
     let named = |names: &[String]| {
-        let more = names.len().saturating_sub(MOST_NAMED);
+        let more = names.len().saturating_sub(MAX_LISTED);
         let first = names[..names.len() - more].join(", ");
         if more == 0 { first } else { format!("{first} and {more} more") }
     };

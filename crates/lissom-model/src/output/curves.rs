@@ -136,10 +136,10 @@ pub fn plots(
                 (Axis::column(&format!("{x}{unit}")), format!("-over-{}", file_name(x)), words)
             }
         };
-        let told =
+        let title =
             if title.is_empty() { format!("{name}{words}") } else { format!("{title}: {name}{words}") };
         let file = format!("plot-{}{suffix}", file_name(name));
-        plots.figures.push(Figure::of(&file, &told, axis, panels));
+        plots.figures.push(Figure::of(&file, &title, axis, panels));
     }
     Ok(plots)
 }
@@ -256,13 +256,13 @@ mod tests {
     }
 
     #[test]
-    fn a_spectrum_that_ends_before_its_rows_do_is_told_once() {
+    fn a_spectrum_that_ends_before_its_rows_do_is_reported_once() {
         let of = ["place".to_owned()];
-        for (rows, told) in [(500, 0), (8200, 1)] {
+        for (rows, expected) in [(500, 0), (8200, 1)] {
             let record = waves(rows);
             let sources = [Source { name: "", record: &record }];
             let found = plots(&sources, &of, Over::Frequency, "").expect("two spectra");
-            assert_eq!(found.left_out.len(), told, "{rows}: {:?}", found.left_out);
+            assert_eq!(found.left_out.len(), expected, "{rows}: {:?}", found.left_out);
             assert!(found.left_out.iter().all(|words| words.starts_with("the spectrum of `place` ends at ")));
         }
     }

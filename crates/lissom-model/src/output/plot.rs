@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn units_tell_the_quantities_of_one_output_apart() {
+    fn units_distinguish_the_quantities_of_one_output() {
         for (quantity, unit, words) in [
             ("relative", "rad", "relative rotation"),
             ("relative motion", "rad", "relative rotation"),

@@ -12,9 +12,9 @@
 use std::f64::consts::TAU;
 
 /// Most frequencies.
-const MOST_LINES: usize = 4000;
+const MAX_LINES: usize = 4000;
 /// Most products of rows and frequencies.
-const MOST_WORK: usize = 400_000_000;
+const MAX_WORK: usize = 400_000_000;
 
 /// Amplitudes at frequencies that are multiples of 1/T.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ impl Spectrum {
         let whole: f64 = weights.iter().sum();
         let mean = weights.iter().zip(values).map(|(weight, value)| weight * value).sum::<f64>() / whole;
         let nyquist = 0.5 * (rows - 1) as f64 / duration;
-        let count = ((rows - 1) / 2).min(MOST_LINES).min((MOST_WORK / rows).max(1));
+        let count = ((rows - 1) / 2).min(MAX_LINES).min((MAX_WORK / rows).max(1));
         let amplitude = |line: usize| {
             let (mut cosines, mut sines) = (0.0, 0.0);
             for ((time, value), weight) in times.iter().zip(values).zip(&weights) {
@@ -149,7 +149,7 @@ mod tests {
         let times: Vec<f64> = (0..8100).map(|k| 0.5 * f64::from(k)).collect();
         let values: Vec<f64> = times.iter().map(|time| (3.0 * time).sin()).collect();
         let spectrum = Spectrum::of(&times, &values).unwrap();
-        assert_eq!(spectrum.lines.len(), MOST_LINES);
+        assert_eq!(spectrum.lines.len(), MAX_LINES);
         assert!(spectrum.end() < 0.99 * spectrum.nyquist);
     }
 

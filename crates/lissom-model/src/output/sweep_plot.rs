@@ -5,9 +5,9 @@ use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 use super::FigureError;
 
 /// Most members that are drawn, evenly chosen.
-const MOST_MEMBERS: usize = 2000;
+const MAX_MEMBERS: usize = 2000;
 /// Most panels side by side, and one above the other.
-const MOST_PANELS: usize = 6;
+const MAX_PANELS: usize = 6;
 /// Size of a panel and of the parallel coordinates [pixels].
 const PANEL: (f64, f64) = (340.0, 260.0);
 const PARALLEL: (f64, f64) = (220.0, 460.0);
@@ -60,8 +60,8 @@ impl SweepPlot {
     /// If there are no members to draw.
     pub fn responses(&self) -> Result<SweepPicture, FigureError> {
         let members = self.members("responses")?;
-        let collected = &self.collected[..self.collected.len().min(MOST_PANELS)];
-        let varied = &self.varied[..self.varied.len().min(MOST_PANELS)];
+        let collected = &self.collected[..self.collected.len().min(MAX_PANELS)];
+        let varied = &self.varied[..self.varied.len().min(MAX_PANELS)];
         let mut panels = Vec::new();
         for (index, above) in collected.iter().enumerate() {
             for below in varied {
@@ -129,7 +129,7 @@ impl SweepPlot {
         if count == 0 || self.varied.is_empty() || self.collected.is_empty() {
             return Err(FigureError { figure: figure.to_owned(), reason: "no member is solved".to_owned() });
         }
-        let shown = count.min(MOST_MEMBERS);
+        let shown = count.min(MAX_MEMBERS);
         Ok((0..shown).map(|k| k * count / shown).collect())
     }
 

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Expanded, MOST_PARTS, Outside, PLACED_TABLES, Placement, ROOT, Scope, ScopeId, overrides};
+use super::{Expanded, MAX_PARTS, Outside, PLACED_TABLES, Placement, ROOT, Scope, ScopeId, overrides};
 use crate::document::part_tables;
 use crate::document::tables::{self, VERSION};
 use crate::library::{Library, joined};
@@ -38,7 +38,7 @@ pub(crate) fn expand(tree: Tree) -> Result<Expanded, (Vec<Problem>, Sources)> {
     if let Some(parts) = parts {
         match parts.node.table() {
             Some(table) => work.level(table, &Level { scope: ROOT, file: String::new(), chain: Vec::new() }),
-            None => work.tell(
+            None => work.report(
                 parts.node.span,
                 "`parts` must be a table",
                 "write [parts.leg] and below it what it is",
@@ -119,12 +119,12 @@ struct Expansion<'l> {
 }
 
 impl Expansion<'_> {
-    fn tell(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
+    fn report(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
         self.problems.push(Problem::error(span, message).help(help));
     }
 
     fn fail<T>(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) -> Option<T> {
-        self.tell(span, message, help);
+        self.report(span, message, help);
         None
     }
 
@@ -160,10 +160,10 @@ impl Expansion<'_> {
         let content = self.content((name, key, table), siblings, level, &mut Vec::new())?;
         let is_array = table.contains_key("count");
         for index in 1..=count {
-            if self.into.instances.len() >= MOST_PARTS {
+            if self.into.instances.len() >= MAX_PARTS {
                 return self.fail(
                     key,
-                    format!("the model has more than {MOST_PARTS} parts"),
+                    format!("the model has more than {MAX_PARTS} parts"),
                     "give a smaller `count`",
                 );
             }
@@ -177,12 +177,12 @@ impl Expansion<'_> {
     fn count(&mut self, name: &str, table: &Table) -> Option<usize> {
         let Some(entry) = table.get("count") else { return Some(1) };
         match entry.node.value {
-            Value::Number(count) if count.fract() == 0.0 && count >= 1.0 && count <= MOST_PARTS as f64 => {
+            Value::Number(count) if count.fract() == 0.0 && count >= 1.0 && count <= MAX_PARTS as f64 => {
                 Some(count as usize)
             }
             _ => {
                 let message =
-                    format!("`count` of part `{name}` must be a whole number from 1 to {MOST_PARTS}");
+                    format!("`count` of part `{name}` must be a whole number from 1 to {MAX_PARTS}");
                 self.fail(
                     entry.node.span,
                     message,
@@ -347,7 +347,7 @@ impl Expansion<'_> {
         }
         let start = self.into.sources.push_shared(&shown, text, None);
         for (key, message, help) in wrong {
-            self.tell(key.moved(Shift::of_text(length, start)), message, help);
+            self.report(key.moved(Shift::of_text(length, start)), message, help);
         }
         None
     }
@@ -475,7 +475,7 @@ impl Expansion<'_> {
                 continue;
             }
             let Value::Table(inner) = &entry.node.value else {
-                self.tell(
+                self.report(
                     entry.node.span,
                     format!("`{word}` must be a table"),
                     "write [name.entry] and below it its keys",

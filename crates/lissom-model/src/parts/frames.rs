@@ -100,7 +100,7 @@ impl Context<'_> {
                 let problem =
                     Problem::error(node.span, format!("{what} names `{text}`, which is no body and no part"));
                 let help = crate::suggest::help(&text, known);
-                self.tell(
+                self.report(
                     problem
                         .label("no such frame")
                         .help("name a body, a point mass or an entry of [parts]")

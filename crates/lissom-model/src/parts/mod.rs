@@ -23,7 +23,7 @@ pub(crate) type ScopeId = usize;
 pub(crate) const ROOT: ScopeId = 0;
 
 /// Most parts that a model may be made of: more is a mistake in a count.
-const MOST_PARTS: usize = 20_000;
+const MAX_PARTS: usize = 20_000;
 
 /// Tables whose entries may be placed relative to another part by `in`.
 const PLACED_TABLES: [&str; 8] =

@@ -50,7 +50,7 @@ impl Context<'_> {
                 }
                 Err(error) => {
                     let help = "`index` and `count` are known inside of parts with `count`";
-                    self.tell(
+                    self.report(
                         Problem::error(span, format!("{what} cannot be read: {error}"))
                             .help(help)
                             .maybe_help(error.help),

@@ -13,7 +13,7 @@ const SAMPLES: u32 = 240;
 /// Instants at which a force per length is sampled, less one.
 const FEW_SAMPLES: u32 = 60;
 /// Most places along a beam at which a force per length is sampled.
-const MOST_PLACES: usize = 13;
+const MAX_PLACES: usize = 13;
 
 /// A joint, or a drive of one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -143,7 +143,7 @@ pub(super) fn beam_loads(document: &Document, places: &Places<'_>) -> Vec<BeamLo
     let mut found = Vec::new();
     for beam in &document.beams {
         let Some(line) = places.lowered.names.lines.get(&beam.name.value) else { continue };
-        let step = line.nodes.len().div_ceil(MOST_PLACES).max(1);
+        let step = line.nodes.len().div_ceil(MAX_PLACES).max(1);
         let kept: Vec<usize> = (0..line.nodes.len()).step_by(step).collect();
         let anchor = |&k: &usize| Anchor { node: line.nodes[k], position: line.offsets[k].position.into() };
         for force in &beam.distributed {

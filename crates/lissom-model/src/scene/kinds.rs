@@ -217,12 +217,12 @@ mod tests {
         let mut seen: Vec<(String, &str)> = Vec::new();
         for kind in registry.joints {
             let Some(Drawn::Solids(solids) | Drawn::WithRod(solids)) = drawn(kind.name) else { continue };
-            let told = format!("{:?}", solids(&[axes, axes]));
-            if let Some((_, other)) = seen.iter().find(|(known, _)| *known == told) {
+            let text = format!("{:?}", solids(&[axes, axes]));
+            if let Some((_, other)) = seen.iter().find(|(known, _)| *known == text) {
                 // They lock the same motions, one with a coordinate and one without.
                 assert_eq!([*other, kind.name], ["inline", "point_on_line"]);
             }
-            seen.push((told, kind.name));
+            seen.push((text, kind.name));
         }
     }
 }

@@ -4,7 +4,7 @@
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector4};
 use serde_json::Value;
 
-use super::{MOST, SurfaceError, Triangle};
+use super::{MAX_TRIANGLES, SurfaceError, Triangle};
 
 /// Reads another file that a glTF file names by its path relative to it.
 pub(super) type Beside<'a> = dyn Fn(&str) -> Result<Vec<u8>, String> + 'a;
@@ -67,9 +67,9 @@ fn contents(buffer: &Value, own: Option<&[u8]>, beside: &Beside<'_>) -> Result<V
         return own.map(<[u8]>::to_vec).ok_or_else(|| wrong("a buffer is missing"));
     };
     match name.strip_prefix("data:") {
-        Some(told) => {
+        Some(uri) => {
             let (_, letters) =
-                told.split_once(";base64,").ok_or_else(|| wrong("a buffer is not in base64"))?;
+                uri.split_once(";base64,").ok_or_else(|| wrong("a buffer is not in base64"))?;
             base64(letters).ok_or_else(|| wrong("a buffer is not in base64"))
         }
         None => {
@@ -189,7 +189,7 @@ impl<'a> File<'a> {
             None => (0..points.len()).collect(),
         };
         let count = if mode == 4 { order.len() / 3 } else { order.len().saturating_sub(2) };
-        if self.triangles.len() + count > MOST {
+        if self.triangles.len() + count > MAX_TRIANGLES {
             return Err(SurfaceError::TooMany(self.triangles.len() + count));
         }
         // A mirror turns triangles over.
@@ -368,23 +368,29 @@ mod tests {
 
     #[test]
     fn files_that_cannot_be_drawn_say_why() {
-        let told = |change: &dyn Fn(&mut Value)| {
+        let problem = |change: &dyn Fn(&mut Value)| {
             let mut json = scene(None);
             change(&mut json);
             Surface::of_file(&binary(&json, &buffer()), &nothing_beside).unwrap_err().to_string()
         };
-        assert!(told(&|json| json["asset"]["version"] = json!("1.0")).contains("version 2"));
+        assert!(problem(&|json| json["asset"]["version"] = json!("1.0")).contains("version 2"));
         assert!(
-            told(&|json| json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]))
+            problem(&|json| json["extensionsRequired"] = json!(["KHR_draco_mesh_compression"]))
                 .contains("draco")
         );
-        assert!(told(&|json| json["nodes"][1]["skin"] = json!(0)).contains("skin"));
-        assert!(told(&|json| json["accessors"][1]["count"] = json!(13)).contains("beyond its buffer"));
-        assert!(told(&|json| json["accessors"][0]["componentType"] = json!(5123)).contains("another kind"));
-        assert!(told(&|json| json["nodes"][1]["children"] = json!([0])).contains("deep"));
-        assert!(told(&|json| json["bufferViews"][0]["byteLength"] = json!(30)).contains("beyond its buffer"));
-        assert!(told(&|json| json["scenes"][0]["nodes"] = json!([])).contains("no triangles"));
-        assert!(told(&|json| json["buffers"][0]["uri"] = json!("a.bin")).contains("`a.bin` cannot be read"));
+        assert!(problem(&|json| json["nodes"][1]["skin"] = json!(0)).contains("skin"));
+        assert!(problem(&|json| json["accessors"][1]["count"] = json!(13)).contains("beyond its buffer"));
+        assert!(
+            problem(&|json| json["accessors"][0]["componentType"] = json!(5123)).contains("another kind")
+        );
+        assert!(problem(&|json| json["nodes"][1]["children"] = json!([0])).contains("deep"));
+        assert!(
+            problem(&|json| json["bufferViews"][0]["byteLength"] = json!(30)).contains("beyond its buffer")
+        );
+        assert!(problem(&|json| json["scenes"][0]["nodes"] = json!([])).contains("no triangles"));
+        assert!(
+            problem(&|json| json["buffers"][0]["uri"] = json!("a.bin")).contains("`a.bin` cannot be read")
+        );
         let whole = binary(&scene(None), &buffer());
         for length in [5, 13, 100, whole.len() - 1] {
             assert!(Surface::of_file(&whole[..length], &nothing_beside).is_err(), "{length} bytes");

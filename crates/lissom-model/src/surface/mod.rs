@@ -16,7 +16,7 @@ type Triangle = [[f32; 3]; 3];
 /// Sides of what is round.
 const ROUND: usize = 32;
 /// Most triangles of a file.
-const MOST: usize = 500_000;
+const MAX_TRIANGLES: usize = 500_000;
 
 /// A surface of triangles in body axes. Seen from outside their points run counterclockwise.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -42,7 +42,7 @@ pub(crate) enum SurfaceError {
     #[error("it holds no triangles")]
     Empty,
     /// There are too many.
-    #[error("it holds {0} triangles, and {MOST} can be drawn")]
+    #[error("it holds {0} triangles, and {MAX_TRIANGLES} can be drawn")]
     TooMany(usize),
     /// A number is none.
     #[error("a corner of triangle {0} is not made of finite numbers")]
@@ -133,7 +133,7 @@ impl Surface {
         if corners.is_empty() {
             return Err(SurfaceError::Empty);
         }
-        if corners.len() > MOST {
+        if corners.len() > MAX_TRIANGLES {
             return Err(SurfaceError::TooMany(corners.len()));
         }
         let mut surface = Self::default();

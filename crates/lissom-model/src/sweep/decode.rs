@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::sampling::{Draw, SAMPLINGS, SamplingKind, WORDS};
 use super::statistic::{self, STATISTICS};
-use super::{Collected, MOST_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
+use super::{Collected, MAX_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
 use crate::context::Context;
 use crate::keys::{Key, Shape, choice, optional, required};
 use crate::parts::{Expanded, ROOT};
@@ -51,7 +51,7 @@ fn keys() -> Vec<Key> {
         required("lissom_sweep", Shape::Version, "", "version of the format of sweep files"),
         optional("model", Shape::Text, "", "path of the model file, relative to this file"),
         optional("sampling", choice(&WORDS), "", "how values are combined or drawn, default grid"),
-        optional("members", Shape::Count(1, MOST_MEMBERS), "", "number of members, where values are drawn"),
+        optional("members", Shape::Count(1, MAX_MEMBERS), "", "number of members, where values are drawn"),
         optional("seed", Shape::Count(0, 1 << 53), "", "start of the random numbers, default 0"),
         optional("set", Shape::Table, "", "paths of the model and the value each has in all members"),
         required("vary", Shape::Table, "", "paths of the model and the values each takes"),
@@ -201,7 +201,7 @@ fn variation(context: &Context<'_>, (path, span): (&str, Span), node: &Node) -> 
     let reader = open(vec![
         required("from", Shape::Number, "", "the first value"),
         required("to", Shape::Number, "", "the last value"),
-        optional("count", Shape::Count(2, MOST_MEMBERS), "", "how many, where values are not drawn"),
+        optional("count", Shape::Count(2, MAX_MEMBERS), "", "how many, where values are not drawn"),
         optional("spacing", choice(&["linear", "logarithmic"]), "", "default linear"),
     ])?;
     let (from, to) = (reader.number("from"), reader.number("to"));

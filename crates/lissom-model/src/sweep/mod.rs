@@ -33,7 +33,7 @@ pub use variation::{SweepValue, Variation};
 pub const VERSION: usize = 1;
 
 /// Most members of a sweep.
-pub const MOST_MEMBERS: usize = 10_000_000;
+pub const MAX_MEMBERS: usize = 10_000_000;
 
 /// A path of the model and the values it takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -47,35 +47,35 @@ impl Rainflow {
         self.reversals.push(value);
     }
 
-    /// Counts what the reversals close, and passes ranges and counts to `told`.
-    fn close(&mut self, told: &mut dyn FnMut(f64, f64)) {
+    /// Counts what the reversals close, and passes ranges and counts to `count_cycle`.
+    fn close(&mut self, count_cycle: &mut dyn FnMut(f64, f64)) {
         while let [.., a, b, c] = self.reversals[..] {
             let range = (b - a).abs();
             if (c - b).abs() < range {
                 break;
             }
             if self.reversals.len() == 3 {
-                self.count(range, 0.5, told);
+                self.count(range, 0.5, count_cycle);
                 self.reversals.remove(0);
             } else {
-                self.count(range, 1.0, told);
+                self.count(range, 1.0, count_cycle);
                 self.reversals.truncate(self.reversals.len() - 3);
                 self.reversals.push(c);
             }
         }
     }
 
-    fn count(&mut self, range: f64, count: f64, told: &mut dyn FnMut(f64, f64)) {
+    fn count(&mut self, range: f64, count: f64, count_cycle: &mut dyn FnMut(f64, f64)) {
         self.damage += count * range.powf(self.exponent);
-        told(range, count);
+        count_cycle(range, count);
     }
 
     /// Σ n S^m, with what is left counted half.
-    fn damage(&self, told: &mut dyn FnMut(f64, f64)) -> f64 {
+    fn damage(&self, count_cycle: &mut dyn FnMut(f64, f64)) -> f64 {
         let mut rest = self.clone();
-        rest.close(told);
+        rest.close(count_cycle);
         for pair in std::mem::take(&mut rest.reversals).windows(2) {
-            rest.count((pair[1] - pair[0]).abs(), 0.5, told);
+            rest.count((pair[1] - pair[0]).abs(), 0.5, count_cycle);
         }
         rest.damage
     }
@@ -93,7 +93,7 @@ mod tests {
     /// All cycles of a history: range and count, in ascending order, those of one range together.
     fn cycles(history: &[f64]) -> Vec<(f64, f64)> {
         let mut all: Vec<(f64, f64)> = Vec::new();
-        let mut told = |range: f64, count: f64| match all.iter_mut().find(|known| known.0 == range) {
+        let mut count_cycle = |range: f64, count: f64| match all.iter_mut().find(|known| known.0 == range) {
             Some(known) => known.1 += count,
             None => all.push((range, count)),
         };
@@ -105,11 +105,11 @@ mod tests {
                 [.., before, last] if (last > before) == (*value > last) => {
                     rainflow.reversals.pop();
                 }
-                _ => rainflow.close(&mut told),
+                _ => rainflow.close(&mut count_cycle),
             }
             rainflow.reversals.push(*value);
         }
-        let damage = rainflow.damage(&mut told);
+        let damage = rainflow.damage(&mut count_cycle);
         let mut added = Rainflow::new(1.0);
         for value in history {
             added.add(*value);

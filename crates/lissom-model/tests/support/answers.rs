@@ -23,9 +23,9 @@ pub(crate) fn of_model(text: &str, registry: &Registry) -> Answer {
         Ok(_) => Answer::Read,
         Err(report) if !report.has_errors() => Answer::Badly("refused without an error".to_owned()),
         Err(report) => {
-            let told = report.to_value();
+            let reported = report.to_value();
             let lines = text.lines().count().max(1) as u64 + 1;
-            match told.as_array() {
+            match reported.as_array() {
                 Some(problems)
                     if problems.iter().all(|problem| {
                         problem["line"].as_u64().is_some_and(|line| (1..=lines).contains(&line))
@@ -33,7 +33,7 @@ pub(crate) fn of_model(text: &str, registry: &Registry) -> Answer {
                 {
                     Answer::Refused
                 }
-                _ => Answer::Badly(format!("an error without a line: {told}")),
+                _ => Answer::Badly(format!("an error without a line: {reported}")),
             }
         }
     }
@@ -69,9 +69,9 @@ pub(crate) fn of_expression(text: &str, parameters: &BTreeMap<String, f64>) -> A
             Answer::Read
         }
         (Ok(formula), Ok(expression)) => {
-            let kinks = expression.kinks();
-            if !kinks.iter().all(|kink| kink.is_finite()) || !kinks.is_sorted() {
-                return Answer::Badly(format!("kinks at {kinks:?}"));
+            let breakpoints = expression.breakpoints();
+            if !breakpoints.iter().all(|kink| kink.is_finite()) || !breakpoints.is_sorted() {
+                return Answer::Badly(format!("kinks at {breakpoints:?}"));
             }
             for time in TIMES {
                 let jet = expression.jet(time);

@@ -17,7 +17,7 @@
 use std::ops::Range;
 
 use super::elimination_tree::{EliminationTree, NONE};
-use super::small::LARGEST;
+use super::small::MAX_SMALL;
 use super::subtrees;
 use super::supernodes::{Supernode, supernodes};
 use crate::ordering::{GroupGraph, minimum_degree_order};
@@ -67,7 +67,7 @@ impl Front {
             ..=16 => 16,
             17..=24 => 24,
             25..=32 => 32,
-            _ => 2 * LARGEST,
+            _ => 2 * MAX_SMALL,
         }
     }
     pub(super) fn square_stride(&self) -> usize {
@@ -308,7 +308,7 @@ impl Symbolic {
             stack: 0,
             contribution: 0,
             span: None,
-            small: self.has_small && pivots <= LARGEST && boundary <= LARGEST,
+            small: self.has_small && pivots <= MAX_SMALL && boundary <= MAX_SMALL,
         };
         for &child in children {
             self.add_child(&front, child);

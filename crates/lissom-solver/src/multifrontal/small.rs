@@ -17,7 +17,7 @@ use crate::report::{FactorError, Monitor};
 use crate::scalar::{Scalar, array, array_mut};
 
 /// Pivots and boundary unknowns of the largest front that is eliminated so. A multiple of [`PADDING`].
-pub(super) const LARGEST: usize = 24;
+pub(super) const MAX_SMALL: usize = 24;
 
 /// Whether small fronts are eliminated here. Complex ones are not on x86 processors without AVX2, but like large ones: hardly
 /// any is left, and the kernels take long to be compiled.
@@ -35,10 +35,10 @@ fn together(left: usize) -> usize {
     }
 }
 
-/// A column of the identity, from twice [`LARGEST`] less its number on.
-static UNIT: [f64; 4 * LARGEST] = {
-    let mut unit = [0.0; 4 * LARGEST];
-    unit[2 * LARGEST] = 1.0;
+/// A column of the identity, from twice [`MAX_SMALL`] less its number on.
+static UNIT: [f64; 4 * MAX_SMALL] = {
+    let mut unit = [0.0; 4 * MAX_SMALL];
+    unit[2 * MAX_SMALL] = 1.0;
     unit
 };
 
@@ -48,24 +48,24 @@ pub(super) struct Aligned<T>(pub(super) T);
 
 /// A front at work, columns one after the other, each padded.
 pub(super) struct SmallFront<S> {
-    pub(super) matrix: Box<Aligned<[S; 2 * LARGEST * (2 * LARGEST + 1)]>>,
+    pub(super) matrix: Box<Aligned<[S; 2 * MAX_SMALL * (2 * MAX_SMALL + 1)]>>,
     /// By pivots, the columns of L and the rows of U, both in the order of the front's rows.
-    lower: Box<Aligned<[S; 2 * LARGEST * LARGEST]>>,
-    upper: Box<Aligned<[S; 2 * LARGEST * LARGEST]>>,
-    reciprocals: [S; LARGEST],
+    lower: Box<Aligned<[S; 2 * MAX_SMALL * MAX_SMALL]>>,
+    upper: Box<Aligned<[S; 2 * MAX_SMALL * MAX_SMALL]>>,
+    reciprocals: [S; MAX_SMALL],
     /// For each row the sum of the magnitudes of what its diagonal has been made of.
-    pub(super) terms: [f64; 2 * LARGEST],
+    pub(super) terms: [f64; 2 * MAX_SMALL],
     largest: f64,
 }
 
 impl<S: Scalar> SmallFront<S> {
     pub(super) fn new() -> Self {
         SmallFront {
-            matrix: Box::new(Aligned([S::zero(); 2 * LARGEST * (2 * LARGEST + 1)])),
-            lower: Box::new(Aligned([S::zero(); 2 * LARGEST * LARGEST])),
-            upper: Box::new(Aligned([S::zero(); 2 * LARGEST * LARGEST])),
-            reciprocals: [S::zero(); LARGEST],
-            terms: [0.0; 2 * LARGEST],
+            matrix: Box::new(Aligned([S::zero(); 2 * MAX_SMALL * (2 * MAX_SMALL + 1)])),
+            lower: Box::new(Aligned([S::zero(); 2 * MAX_SMALL * MAX_SMALL])),
+            upper: Box::new(Aligned([S::zero(); 2 * MAX_SMALL * MAX_SMALL])),
+            reciprocals: [S::zero(); MAX_SMALL],
+            terms: [0.0; 2 * MAX_SMALL],
             largest: 0.0,
         }
     }
@@ -95,7 +95,7 @@ impl<S: Scalar> SmallFront<S> {
             16 => simd.vectorize(Elimination::<S, 16> { work: self, front }),
             24 => simd.vectorize(Elimination::<S, 24> { work: self, front }),
             32 => simd.vectorize(Elimination::<S, 32> { work: self, front }),
-            _ => simd.vectorize(Elimination::<S, { 2 * LARGEST }> { work: self, front }),
+            _ => simd.vectorize(Elimination::<S, { 2 * MAX_SMALL }> { work: self, front }),
         }
         simd.vectorize(Storage { work: self, front, pieces, contribution });
         let mut largest = self.largest;
@@ -143,7 +143,7 @@ impl<S: Scalar> SmallFront<S> {
             for before in 0..q {
                 subtract::<S, FUSED, ROWS>(&mut column, &factors[before], corner[q][before]);
             }
-            let unit: &[f64; ROWS] = array(&UNIT, 2 * LARGEST - first - q);
+            let unit: &[f64; ROWS] = array(&UNIT, 2 * MAX_SMALL - first - q);
             for i in 0..ROWS {
                 factors[q][i] = column[i] * (reciprocals[q] * S::from_real(1.0 - unit[i]));
             }
@@ -166,7 +166,7 @@ impl<S: Scalar> SmallFront<S> {
         }
         // What becomes of the columns of the identity.
         for q in 0..COUNT {
-            let unit: &[f64; ROWS] = array(&UNIT, 2 * LARGEST - first - q);
+            let unit: &[f64; ROWS] = array(&UNIT, 2 * MAX_SMALL - first - q);
             let mut column = [S::zero(); ROWS];
             for i in 0..ROWS {
                 column[i] = S::from_real(unit[i]) - factors[q][i];
@@ -308,7 +308,7 @@ fn copy_scaled<S: Scalar, const ROWS: usize>(
     to: &mut [S],
     (stride, columns): (usize, usize),
     (from, from_stride): (&[S], usize),
-    factors: &[S; LARGEST],
+    factors: &[S; MAX_SMALL],
 ) {
     let factors: [S; ROWS] = *array(factors, 0);
     for column in 0..columns {

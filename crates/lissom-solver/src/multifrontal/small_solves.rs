@@ -4,7 +4,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::{Front, PADDING, Part, Symbolic};
-use super::small::LARGEST;
+use super::small::MAX_SMALL;
 use super::triangular::{gather, subtract_dot};
 use crate::scalar::{Scalar, array, array_mut};
 
@@ -184,7 +184,7 @@ pub(super) fn backward_transposed<S: Scalar, const FUSED: bool>(
     x: &mut [S],
     boundary: &mut [S],
 ) {
-    let mut own = [S::zero(); LARGEST];
+    let mut own = [S::zero(); MAX_SMALL];
     let own = &mut own[..front.pivots];
     let steps = part.steps_of(front);
     for (value, column) in own.iter_mut().zip(square.chunks_exact(front.pivots.max(1))) {

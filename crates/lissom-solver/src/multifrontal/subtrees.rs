@@ -14,7 +14,7 @@ const WORTH_WHILE: f64 = 4e6;
 const THREADS: f64 = 4.0;
 
 /// The most fronts that are moved to the top in search of a better choice.
-const LARGEST_TOP: usize = 400;
+const MAX_TOP: usize = 400;
 
 /// The supernodes, those of each subtree together and those of the top last, and which are whose.
 pub(super) struct Subtrees {
@@ -81,7 +81,7 @@ fn subtree_roots(nodes: &[Supernode]) -> Vec<usize> {
         return best.1;
     }
     let mut top = 0.0;
-    for _ in 0..LARGEST_TOP {
+    for _ in 0..MAX_TOP {
         let Some(costliest) = (0..roots.len()).max_by(|&a, &b| times[roots[a]].total_cmp(&times[roots[b]]))
         else {
             break;

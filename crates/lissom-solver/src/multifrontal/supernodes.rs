@@ -2,7 +2,7 @@
 //! less time than two small ones, then walked in postorder. Knows sizes, never patterns of single unknowns.
 
 use super::elimination_tree::{EliminationTree, NONE};
-use super::small::LARGEST;
+use super::small::MAX_SMALL;
 
 /// Groups eliminated in one front.
 pub(super) struct Supernode {
@@ -42,7 +42,7 @@ mod cost {
 }
 
 fn time(pivots: f64, boundary: f64) -> f64 {
-    let largest = LARGEST as f64;
+    let largest = MAX_SMALL as f64;
     let vectors = |rows: f64| (rows / cost::LANES).ceil();
     let (factorisation, solve) = if pivots <= largest && boundary <= largest {
         let size = pivots + boundary;

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use lissom_mechanics::elements::initial_model::Coordinate;
-use lissom_mechanics::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
+use lissom_mechanics::joints::coupling::{Coupling, MAX_COUPLED, Relation, RelationPoint};
 use lissom_mechanics::joints::prescribed::Prescribed;
 use lissom_mechanics::joints::{Build, Drive, JointKind};
 use lissom_mechanics::kinematics::{CoordinateId, Quantity};
@@ -78,9 +78,9 @@ impl Builder {
             return Err(ParameterError::new("kind", "relates no coordinates"));
         };
         let count = coordinates.len();
-        if count == 0 || count > MOST_COUPLED {
+        if count == 0 || count > MAX_COUPLED {
             let problem =
-                format!("relates {count} coordinates of joints, but must relate 1 to {MOST_COUPLED}");
+                format!("relates {count} coordinates of joints, but must relate 1 to {MAX_COUPLED}");
             return Err(ParameterError::new("kind", problem));
         }
         if (1..count).any(|k| coordinates[..k].contains(&coordinates[k])) {

@@ -7,7 +7,7 @@ use lissom_mechanics::kinematics::CoordinateId;
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::Event;
 use lissom_mechanics::signals::measurement::Measurement;
-use lissom_mechanics::signals::{Argument, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
+use lissom_mechanics::signals::{Argument, HeldId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
 
 impl Builder {
     /// Adds a held value, an input or the last sample of a signal, with its value at the start.
@@ -45,8 +45,8 @@ impl Builder {
         if !signal.arguments.iter().all(is_there) {
             return Err(ParameterError::new(&signal.name, "names what is not there yet"));
         }
-        if signal.arguments.len() > MOST_ARGUMENTS {
-            let problem = format!("names more than {MOST_ARGUMENTS} quantities");
+        if signal.arguments.len() > MAX_ARGUMENTS {
+            let problem = format!("names more than {MAX_ARGUMENTS} quantities");
             return Err(ParameterError::new(&signal.name, problem));
         }
         self.graph.signals.push(signal);

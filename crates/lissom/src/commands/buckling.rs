@@ -68,13 +68,13 @@ pub(super) fn report(
         for warning in &found.warnings {
             terminal::complain(&format!("warning: {warning}\n"));
         }
-        terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
+        terminal::print(&render(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
     }
     Ok(Exit::Done)
 }
 
 /// A few lines for a person.
-fn told(heading: &str, found: &BucklingReport, folder: &Path) -> String {
+fn render(heading: &str, found: &BucklingReport, folder: &Path) -> String {
     let modes = &found.buckling.modes;
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.

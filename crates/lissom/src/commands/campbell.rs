@@ -88,14 +88,14 @@ impl Campbell {
             for warning in &found.warnings {
                 terminal::complain(&format!("warning: {warning}\n"));
             }
-            terminal::print(&told(heading, &found, &path));
+            terminal::print(&render(heading, &found, &path));
         }
         Ok(Exit::Done)
     }
 }
 
 /// A few lines for a person.
-fn told(heading: &str, found: &CampbellReport, folder: &Path) -> String {
+fn render(heading: &str, found: &CampbellReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.
     let _ = writeln!(

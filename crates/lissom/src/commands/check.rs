@@ -43,7 +43,7 @@ impl Check {
         let lowered = lower(&document)?;
         varied_number(&model, &self.model.set, &document)?;
         let freedom = mobility(&lowered.system, &lowered.state);
-        terminal::print(&told(model.name(), &document, &lowered, &freedom));
+        terminal::print(&render(model.name(), &document, &lowered, &freedom));
         for redundant in &freedom.redundant {
             terminal::complain(&warning(redundant));
         }
@@ -58,8 +58,8 @@ impl Check {
 
 impl Check {
     fn run_for_programs(&self) -> Result<Exit, Failure> {
-        let (told, exit) = self.facts()?;
-        terminal::print(&format!("{told:#}\n"));
+        let (facts, exit) = self.facts()?;
+        terminal::print(&format!("{facts:#}\n"));
         Ok(exit)
     }
 
@@ -108,10 +108,10 @@ impl Check {
         // What a run would refuse before its first step is refused here.
         let exit = match Session::start(lowered) {
             Ok(session) => {
-                let told =
+                let fact =
                     |warning: &Warning| json!({ "code": warning.code(), "message": warning.to_string() });
                 facts["ok"] = json!(true);
-                facts["warnings"] = session.warnings().map(told).collect();
+                facts["warnings"] = session.warnings().map(fact).collect();
                 Exit::Done
             }
             Err(error) => {
@@ -128,7 +128,7 @@ fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-fn told(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility) -> String {
+fn render(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility) -> String {
     let mut text = match &document.title {
         Some(title) => format!("{name}: {title}\n"),
         None => format!("{name}\n"),

@@ -58,7 +58,7 @@ impl Entry<'_> {
         self.name.to_lowercase().contains(&words.to_lowercase())
     }
 
-    fn told(&self) -> String {
+    fn render(&self) -> String {
         let Self { name, means, remedy } = self;
         if means.is_empty() {
             format!("{name}\n  {remedy}\n")
@@ -88,7 +88,7 @@ impl Explain {
         let (warnings, failures) = (table("Warnings"), table("Failures"));
         let words = self.what.join(" ");
         if words.is_empty() {
-            let all: String = warnings.iter().chain(&failures).map(Entry::told).collect();
+            let all: String = warnings.iter().chain(&failures).map(Entry::render).collect();
             terminal::print(&all);
             return Ok(Exit::Done);
         }
@@ -108,7 +108,7 @@ impl Explain {
                 format!("nothing is known of `{words}`; codes of warnings are {}", codes.join(", "));
             return Err(Failure::new(Exit::BadModel, format!("{message}; `lissom explain` prints all")));
         }
-        terminal::print(&found.iter().map(Entry::told).collect::<String>());
+        terminal::print(&found.iter().map(Entry::render).collect::<String>());
         Ok(Exit::Done)
     }
 }

@@ -75,7 +75,7 @@ impl Gradient {
         folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {
             let heading = document.title.as_deref().unwrap_or(model.name());
-            terminal::print(&told(heading, &self.of, &found, &path));
+            terminal::print(&render(heading, &self.of, &found, &path));
         }
         if let Some(words) = found.doubt() {
             terminal::complain(&format!("warning: {words}\n"));
@@ -85,7 +85,7 @@ impl Gradient {
 }
 
 /// A few lines for a person.
-fn told(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
+fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let time = found.time.map_or_else(String::new, |time| format!(" at t = {time} s"));
     // Writing to a string cannot fail.

@@ -41,14 +41,14 @@ impl Kinds {
         let parts =
             [("joints", &registry.joints), ("springs", &registry.springs), ("loads", &registry.loads)];
         for (table, kinds) in parts {
-            let told =
+            let entries =
                 kinds.iter().filter(|kind| kind.name.contains(wanted)).map(|kind| of_kind(table, kind));
-            section(&mut text, &format!("[{table}.*]  kind = \"…\""), told);
+            section(&mut text, &format!("[{table}.*]  kind = \"…\""), entries);
         }
         let choices = [("scheme", &registry.schemes), ("solver", &registry.solvers)];
         for (word, choices) in choices {
-            let told = choices.iter().filter(|choice| choice.name.contains(wanted)).map(of_choice);
-            section(&mut text, &format!("[analysis]  {word} = \"…\"  (the first is the default)"), told);
+            let entries = choices.iter().filter(|choice| choice.name.contains(wanted)).map(of_choice);
+            section(&mut text, &format!("[analysis]  {word} = \"…\"  (the first is the default)"), entries);
         }
         if let Some(topic) = topic(&registry, wanted) {
             text = if text.is_empty() { topic } else { format!("{text}\n{topic}") };

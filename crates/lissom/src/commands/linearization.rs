@@ -1,7 +1,7 @@
 //! What commands share that linearise a model about a state.
 
 use clap::Args;
-use lissom::modes::About;
+use lissom::modes::OperatingPoint;
 use lissom::response::FrequencyError;
 
 use super::{Exit, Failure};
@@ -17,7 +17,7 @@ pub(super) struct StateArgument {
         hide_default_value = true,
         allow_negative_numbers = true
     )]
-    pub(super) about: About,
+    pub(super) about: OperatingPoint,
 }
 
 /// An answer, or why there is none; an error of the model or of the question ends the command at once.

@@ -69,14 +69,14 @@ impl Linearize {
             for warning in &found.warnings {
                 terminal::complain(&format!("warning: {warning}\n"));
             }
-            terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, &path));
+            terminal::print(&render(document.title.as_deref().unwrap_or(model.name()), &found, &path));
         }
         Ok(Exit::Done)
     }
 }
 
 /// A few lines for a person.
-fn told(heading: &str, found: &LinearizeReport, folder: &Path) -> String {
+fn render(heading: &str, found: &LinearizeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;
     // Writing to a string cannot fail.

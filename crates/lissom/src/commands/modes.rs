@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lissom::core::kinematics::Kinematics;
 use lissom::core::linear::Completeness;
-use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
+use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes, of_request};
 use lissom::motion::{Motion, MotionRecorder};
 use lissom::picture::Picture;
 use lissom::{Document, Model, Override, ResultFolder};
@@ -18,7 +18,7 @@ use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
 /// Models of more nodes are not drawn: it would take longer than their modes.
-const MOST_DRAWN: usize = 2000;
+const MAX_DRAWN: usize = 2000;
 /// Modes listed on the terminal; the tables have all.
 const LISTED: usize = 20;
 
@@ -46,7 +46,7 @@ pub(super) struct Modes {
 
     /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file) or a time of the model's analysis [s].
     #[arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)]
-    about: Option<About>,
+    about: Option<OperatingPoint>,
 
     /// Seek the modes nearest to this frequency [default: the lowest ones].
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
@@ -104,7 +104,7 @@ pub(super) fn report(
         for warning in &found.warnings {
             terminal::complain(&format!("warning: {warning}\n"));
         }
-        terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
+        terminal::print(&render(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
     }
     Ok(Exit::Done)
 }
@@ -120,7 +120,7 @@ fn write_state(folder: &ResultFolder, document: &Document, found: &ModeReport) -
 
 /// Draws the first shapes on one sheet, `shapes.svg`.
 fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -> Result<(), Failure> {
-    if found.moved.is_empty() || found.state.nodes.len() > MOST_DRAWN {
+    if found.moved.is_empty() || found.state.nodes.len() > MAX_DRAWN {
         return Ok(());
     }
     let failed = |error: &dyn std::fmt::Display| Failure::new(Exit::Failed, error.to_string());
@@ -148,7 +148,7 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
 }
 
 /// A few lines for a person.
-fn told(heading: &str, found: &ModeReport, folder: &Path) -> String {
+fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;
     let number = found.modes.len();

@@ -46,12 +46,12 @@ impl New {
         let title = stem.replace('\\', "\\\\").replace('"', "\\\"");
         let text = TEMPLATE.replace("@title@", &title);
         files::write(&path, text.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
-        terminal::print(&told(&path));
+        terminal::print(&render(&path));
         Ok(Exit::Done)
     }
 }
 
-fn told(path: &Path) -> String {
+fn render(path: &Path) -> String {
     let path = path.display();
     format!(
         "{path} is written. Next:\n  lissom view {path} --open    simulate it and watch it move\n  \

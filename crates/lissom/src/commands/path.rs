@@ -68,7 +68,7 @@ pub(super) fn run(
     folder.write_summary(&session.summary(summary, &report)).map_err(|error| unwritable(error.into()))?;
     let title = document.title.as_deref().unwrap_or(model.name());
     if !wanted.quiet {
-        terminal::print(&told(title, &report, folder.path()));
+        terminal::print(&render(title, &report, folder.path()));
     }
     if wanted.plots {
         match folder.write_plots(&record, title) {
@@ -87,7 +87,7 @@ pub(super) fn run(
 }
 
 /// A few lines for a person.
-fn told(heading: &str, report: &PathReport, folder: &Path) -> String {
+fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.
     let _ = writeln!(

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lissom::modes::{About, ModesError};
+use lissom::modes::{ModesError, OperatingPoint};
 use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
 use lissom::summary;
 
@@ -49,7 +49,7 @@ pub(super) struct Reduce {
 
     /// State that is reduced: `static`, `undeformed` or a time of the model's analysis [s].
     #[arg(long, value_name = "STATE|TIME", default_value = "static", allow_negative_numbers = true)]
-    about: About,
+    about: OperatingPoint,
 
     /// Name of the superelement [default: that of the only part, or of the model file].
     #[arg(long, value_name = "NAME")]
@@ -105,14 +105,14 @@ impl Reduce {
                 terminal::complain(&format!("warning: {warning}\n"));
             }
             let heading = document.title.as_deref().unwrap_or(model.name());
-            terminal::print(&told(heading, &request.name, &found, &path));
+            terminal::print(&render(heading, &request.name, &found, &path));
         }
         Ok(Exit::Done)
     }
 }
 
 /// A few lines for a person.
-fn told(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> String {
+fn render(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [before, after] = found.unknowns;
     // Writing to a string cannot fail.

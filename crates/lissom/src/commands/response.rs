@@ -86,14 +86,14 @@ impl Response {
             for warning in &found.warnings {
                 terminal::complain(&format!("warning: {warning}\n"));
             }
-            terminal::print(&told(heading, &found, &path));
+            terminal::print(&render(heading, &found, &path));
         }
         Ok(Exit::Done)
     }
 }
 
 /// A few lines for a person.
-fn told(heading: &str, found: &ResponseReport, folder: &Path) -> String {
+fn render(heading: &str, found: &ResponseReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;
     // Writing to a string cannot fail.

@@ -199,7 +199,7 @@ impl Run {
         let kept = self.keep(&folder, (&summary, &session), (&record, task.plots), title);
         if !self.quiet {
             let heading = if title.is_empty() { task.model.name() } else { title };
-            terminal::print(&told((heading, assembly), &session, &report, folder.path()));
+            terminal::print(&render((heading, assembly), &session, &report, folder.path()));
         }
         kept?;
         noted.map_err(unwritable)?;
@@ -331,7 +331,7 @@ impl Task {
 }
 
 /// A few lines for a person.
-fn told(
+fn render(
     (heading, assembly): (&str, Option<String>),
     session: &Session,
     report: &RunReport,
@@ -385,7 +385,7 @@ fn told(
         let unknown = simulation.system().layout().name_of(row);
         line("solver", format!("a pivot vanished for the {unknown}: went on with the pivoting solver"));
     }
-    if let Some(row) = totals.yielded_at {
+    if let Some(row) = totals.regularized_at {
         let unknown = simulation.system().layout().name_of(row);
         let words = format!("repeat each other, seen at the {unknown}: least forces are given");
         line("redundant", format!("constraints {words}"));

@@ -10,8 +10,8 @@ use lissom_model::files;
 use lissom_model::output::animation;
 use lissom_model::scene::Scene;
 
+use super::initial_scene::{InitialScene, refuse_what_does_not_move};
 use super::run::Run;
-use super::still::{Still, refuse_what_does_not_move};
 use super::{Exit, Failure};
 use crate::terminal;
 
@@ -84,10 +84,10 @@ pub(super) struct Snapshot {
 }
 
 /// Longest moving picture [s], and pictures of it in a second.
-const MOST_SECONDS: f64 = 30.0;
+const MAX_SECONDS: f64 = 30.0;
 const PICTURES_PER_SECOND: f64 = 20.0;
 /// Most shapes of natural modes on a sheet.
-const MOST_SHAPES: usize = 20;
+const MAX_SHAPES: usize = 20;
 
 /// Directions of view on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -120,8 +120,8 @@ impl Snapshot {
         if self.animate.is_some() && self.out.is_some() && !is_png {
             return wrong("a moving picture is a PNG file: its name must end in .png".to_owned());
         }
-        if let Some(duration) = self.animate.filter(|duration| !(0.1..=MOST_SECONDS).contains(duration)) {
-            return wrong(format!("`--animate {duration}` must be from 0.1 to {MOST_SECONDS} seconds"));
+        if let Some(duration) = self.animate.filter(|duration| !(0.1..=MAX_SECONDS).contains(duration)) {
+            return wrong(format!("`--animate {duration}` must be from 0.1 to {MAX_SECONDS} seconds"));
         }
         if let Some(time) = self.at.iter().find(|time| !time.is_finite()) {
             return Err(Failure::new(Exit::BadModel, format!("`--at {time}` is no instant")));
@@ -138,7 +138,8 @@ impl Snapshot {
         }
         let folder = Path::new("out").join(self.what.file_stem().unwrap_or_default());
         if self.initial {
-            let Still { title, scene, motion, .. } = Still::of(&self.what, &self.set, self.quiet)?;
+            let InitialScene { title, scene, motion, .. } =
+                InitialScene::of(&self.what, &self.set, self.quiet)?;
             let motion = Motion::from_bytes(&motion).map_err(|error| Failure::new(Exit::Failed, error))?;
             return self.draw((&scene, &motion, &title), (&folder, is_png)).map(|()| Exit::Done);
         }
@@ -176,7 +177,7 @@ impl Snapshot {
                     "of natural modes `--at`, `--strip` and `--animate` show one: choose it with `--mode N`";
                 return Err(Failure::new(Exit::BadModel, message));
             }
-            let motion = modes.shapes(MOST_SHAPES);
+            let motion = modes.shapes(MAX_SHAPES);
             let picture = Picture { times: motion.times().to_vec(), labels, ..self.picture() };
             return self.write(&picture, (&modes.scene, &motion, &modes.title), (folder, is_png));
         };

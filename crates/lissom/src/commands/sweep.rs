@@ -146,7 +146,7 @@ impl SweepCommand {
             folder.write_plots(&plot).map_err(|error| Failure::folder(Exit::Failed, &error))?;
         }
         if !self.quiet {
-            terminal::print(&told(&sweep, &outcomes, (found, workers, seconds), &table));
+            terminal::print(&render(&sweep, &outcomes, (found, workers, seconds), &table));
         }
         exit(&outcomes, &table)
     }
@@ -237,7 +237,7 @@ fn summary(
 }
 
 /// A few lines for a person.
-fn told(
+fn render(
     sweep: &Sweep,
     outcomes: &[MemberOutcome],
     (found, workers, seconds): (usize, NonZero<usize>, f64),

@@ -8,8 +8,8 @@ use lissom::view::Results;
 use lissom::{FileError, Override, ResultFolder};
 use lissom_model::files;
 
+use super::initial_scene::{InitialScene, refuse_what_does_not_move};
 use super::run::Run;
-use super::still::{Still, refuse_what_does_not_move};
 use super::{Exit, Failure};
 use crate::terminal;
 
@@ -106,7 +106,8 @@ impl View {
 
     /// Writes the page of a model that has not moved yet.
     fn view_start(&self, folder: &Path) -> Result<Exit, Failure> {
-        let Still { name, title, scene, motion } = Still::of(&self.what, &self.set, self.quiet)?;
+        let InitialScene { name, title, scene, motion } =
+            InitialScene::of(&self.what, &self.set, self.quiet)?;
         let results = Results::new(&name)
             .with_title(&title)
             .with_scene(&scene, &motion)

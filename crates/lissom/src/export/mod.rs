@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn formats_are_told_apart() {
+    fn formats_are_distinguished() {
         for (k, format) in FORMATS.iter().enumerate() {
             assert!(!format.summary.is_empty());
             for other in &FORMATS[..k] {

@@ -8,9 +8,9 @@ use super::sweep::{Sweep, between};
 use crate::motion::Motion;
 
 /// Thinnest half of a section in a picture, relative to the model.
-const LEAST: f64 = 0.0045;
+const MIN_THICKNESS: f64 = 0.0045;
 /// The same where lengths are to be true: sections without extent have no surface.
-const LEAST_TRUE: f64 = 1e-4;
+const MIN_TRUE: f64 = 1e-4;
 /// Turns of the coil of a spring.
 const TURNS: f64 = 9.0;
 
@@ -162,7 +162,7 @@ impl Geometry {
         let (low, high) = bounds(scene, motion);
         let size = (high - low).norm();
         let mut geometry = Self { pieces: Vec::new(), low, high, size, up: scene.up() };
-        geometry.parts(scene, motion, if is_picture { LEAST * size } else { LEAST_TRUE * size });
+        geometry.parts(scene, motion, if is_picture { MIN_THICKNESS * size } else { MIN_TRUE * size });
         geometry.symbols(scene);
         geometry.springs(scene, motion);
         if is_picture {

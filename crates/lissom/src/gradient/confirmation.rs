@@ -14,7 +14,7 @@ use super::GradientError;
 /// Change of the number that contributes most, relative to the number.
 const CHANGE: f64 = 1e-4;
 /// The largest change of a number, likewise.
-const LARGEST: f64 = 1e-3;
+const MAX_CHANGE: f64 = 1e-3;
 /// How much nearer the last runs are.
 const NEARER: f64 = 0.125;
 /// Differences of runs may miss what the derivatives add up to by this part.
@@ -46,7 +46,7 @@ pub enum Confirmation {
 }
 
 /// A number, and the derivative by it.
-pub(super) struct Carried {
+pub(super) struct DirectDerivative {
     pub(super) number: f64,
     pub(super) derivative: f64,
 }
@@ -57,7 +57,7 @@ pub(super) struct Carried {
 /// # Errors
 /// If the runs know the derivatives, and know others.
 pub(super) fn confirm(
-    carried: &[Carried],
+    carried: &[DirectDerivative],
     (value, scale): (f64, f64),
     measure: &mut dyn FnMut(&[f64]) -> Result<f64, GradientError>,
 ) -> Result<Confirmation, GradientError> {
@@ -105,13 +105,13 @@ pub(super) fn confirm(
 
 /// Changes of the numbers, in the direction in which the measure grows. All contribute what the weakest can, if that is clearly
 /// above the round-off.
-fn changes(carried: &[Carried], round_off: f64) -> Vec<f64> {
-    let effect = |of: &Carried| (of.derivative * of.number).abs();
+fn changes(carried: &[DirectDerivative], round_off: f64) -> Vec<f64> {
+    let effect = |of: &DirectDerivative| (of.derivative * of.number).abs();
     let effects = || carried.iter().map(effect);
     let (least, most) = (effects().fold(f64::INFINITY, f64::min), effects().fold(0.0, f64::max));
-    let each = (LARGEST * least).max(CLEAR * round_off).min(CHANGE * most);
-    let change = |of: &Carried| {
-        let share = if effect(of) > 0.0 { (each / effect(of)).min(LARGEST) } else { LARGEST };
+    let each = (MAX_CHANGE * least).max(CLEAR * round_off).min(CHANGE * most);
+    let change = |of: &DirectDerivative| {
+        let share = if effect(of) > 0.0 { (each / effect(of)).min(MAX_CHANGE) } else { MAX_CHANGE };
         share * of.number.abs() * if of.derivative < 0.0 { -1.0 } else { 1.0 }
     };
     carried.iter().map(change).collect()
@@ -138,10 +138,10 @@ mod tests {
         derivatives: [f64; 3],
         of: impl Fn(&[f64; 3]) -> Option<f64>,
     ) -> Result<Confirmation, GradientError> {
-        let carried: Vec<Carried> = NUMBERS
+        let carried: Vec<DirectDerivative> = NUMBERS
             .iter()
             .zip(derivatives)
-            .map(|(&number, derivative)| Carried { number, derivative })
+            .map(|(&number, derivative)| DirectDerivative { number, derivative })
             .collect();
         confirm(&carried, (value(&NUMBERS), 10.0), &mut |changes| {
             let changed = std::array::from_fn(|k| NUMBERS[k] + changes[k]);
@@ -172,13 +172,13 @@ mod tests {
     }
 
     #[test]
-    fn what_is_below_round_off_or_fails_is_told_as_such() {
-        let untold = |found: Result<Confirmation, GradientError>| {
+    fn what_is_below_round_off_or_fails_is_reported_as_such() {
+        let unconfirmed = |found: Result<Confirmation, GradientError>| {
             assert!(matches!(found, Ok(Confirmation::Untold { .. })), "{found:?}");
         };
-        untold(asked([1e-12, 0.0, 0.0], |_| Some(value(&NUMBERS))));
-        untold(asked(derivatives(), |_| None));
+        unconfirmed(asked([1e-12, 0.0, 0.0], |_| Some(value(&NUMBERS))));
+        unconfirmed(asked(derivatives(), |_| None));
         // Differences of what is rough depend on the distance.
-        untold(asked(derivatives(), |at| Some(value(at) + 1e-4 * (1e9 * at[0] + 1.0).sin())));
+        unconfirmed(asked(derivatives(), |at| Some(value(at) + 1e-4 * (1e9 * at[0] + 1.0).sin())));
     }
 }

@@ -113,7 +113,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     for spring in &document.springs {
         resistance(spring, &mut robot);
     }
-    tell_the_rest(document, &mut robot);
+    report_omissions(document, &mut robot);
     let values = tree.values.into_iter().filter(|(_, value)| *value != 0.0).collect();
     Ok(ModelRobot { robot, values })
 }
@@ -286,7 +286,7 @@ fn resistance(spring: &Component, robot: &mut Robot) {
 }
 
 /// What acts on the bodies, and what is only looked at.
-fn tell_the_rest(document: &Document, robot: &mut Robot) {
+fn report_omissions(document: &Document, robot: &mut Robot) {
     if document.gravity != GRAVITY {
         let [x, y, z] = document.gravity.into();
         robot.unsupported.push(format!("gravity of ({x}, {y}, {z}) m/s², where (0, 0, -9.81) is understood"));

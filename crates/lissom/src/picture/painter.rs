@@ -88,7 +88,7 @@ fn seen(face: &Laid, shade: Shade) -> Seen {
 
 /// The faces of a surface that look towards the one who looks, and how bright they are. Surfaces are closed: what looks
 /// away is hidden.
-fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut told: impl FnMut(Laid, f64)) {
+fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut visit: impl FnMut(Laid, f64)) {
     for face in &mesh.faces {
         let points: Vec<Vector3> = face.iter().map(|k| mesh.points[*k as usize]).collect();
         let Some(normal) = normal(&points) else { continue };
@@ -99,7 +99,7 @@ fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut told
             let [right, above] = projection.flat(point);
             [right, above, projection.near(point)]
         };
-        told(points.iter().map(laid).collect(), projection.brightness(&normal, &geometry.up));
+        visit(points.iter().map(laid).collect(), projection.brightness(&normal, &geometry.up));
     }
 }
 

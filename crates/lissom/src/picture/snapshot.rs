@@ -20,13 +20,13 @@ const MARGIN: f64 = 14.0;
 const LINE: f64 = 22.0;
 const FOOT: f64 = 64.0;
 /// Widest and highest part of the sheet that panels share.
-const MOST: [f64; 2] = [1200.0, 900.0];
+const MAX_EXTENT: [f64; 2] = [1200.0, 900.0];
 /// Of a moving picture.
-const MOST_MOVING: [f64; 2] = [640.0, 480.0];
+const MAX_MOVING: [f64; 2] = [640.0, 480.0];
 /// Most panels.
-const MOST_PANELS: usize = 100;
+const MAX_PANELS: usize = 100;
 /// Most pictures of a moving one.
-const MOST_FRAMES: usize = 600;
+const MAX_FRAMES: usize = 600;
 
 /// A picture that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -79,8 +79,8 @@ pub fn instants(motion: &Motion, count: usize) -> Result<Vec<f64>, PictureError>
     let (Some(first), Some(last)) = (motion.times().first(), motion.times().last()) else {
         return Err(PictureError::Empty);
     };
-    if count > MOST_FRAMES {
-        return Err(PictureError::TooMany { count, most: MOST_FRAMES });
+    if count > MAX_FRAMES {
+        return Err(PictureError::TooMany { count, most: MAX_FRAMES });
     }
     let at = |k: usize| {
         if count < 2 || k + 1 == count {
@@ -127,8 +127,8 @@ impl Picture {
     /// # Errors
     /// If an instant lies outside of the motion, or there are none or too many.
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
-        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_PANELS)?;
-        let sheet = Sheet::of(frame, seen.len(), MOST);
+        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MAX_PANELS)?;
+        let sheet = Sheet::of(frame, seen.len(), MAX_EXTENT);
         Ok(sheet.drawn(&seen, &paths, &projection, (title, &self.labels(scene))))
     }
 
@@ -142,8 +142,8 @@ impl Picture {
         motion: &Motion,
         title: &str,
     ) -> Result<Vec<Drawing>, PictureError> {
-        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_FRAMES)?;
-        let sheet = Sheet::of(frame, 1, MOST_MOVING);
+        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MAX_FRAMES)?;
+        let sheet = Sheet::of(frame, 1, MAX_MOVING);
         let labels = self.labels(scene);
         let drawn = |(panel, label)| sheet.drawn(panel, &paths, &projection, (title, label));
         Ok(seen.chunks(1).zip(labels.chunks(1)).map(drawn).collect())
@@ -306,11 +306,11 @@ mod tests {
     #[test]
     fn sheets_have_the_columns_that_give_the_largest_panels() {
         let frame = |width, height| Frame { low: [0.0; 2], high: [width, height] };
-        let wide = Sheet::of(frame(4.0, 1.0), 6, MOST);
+        let wide = Sheet::of(frame(4.0, 1.0), 6, MAX_EXTENT);
         assert_eq!((wide.columns, wide.rows), (2, 3));
-        let high = Sheet::of(frame(1.0, 4.0), 6, MOST);
+        let high = Sheet::of(frame(1.0, 4.0), 6, MAX_EXTENT);
         assert_eq!((high.columns, high.rows), (6, 1));
-        assert_eq!(Sheet::of(frame(1.0, 1.0), 1, MOST).columns, 1);
+        assert_eq!(Sheet::of(frame(1.0, 1.0), 1, MAX_EXTENT).columns, 1);
     }
 
     #[test]

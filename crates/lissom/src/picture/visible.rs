@@ -74,7 +74,7 @@ impl ItemBuffer {
     }
 
     /// The points of the grid within a convex face, and how near it is there.
-    fn covered(&self, face: &Laid, mut told: impl FnMut(usize, f64)) {
+    fn covered(&self, face: &Laid, mut visit: impl FnMut(usize, f64)) {
         let Some(plane) = Plane::of(face) else { return };
         let range = |k: usize| {
             let of = |pick: fn(f64, f64) -> f64, least| face.iter().map(|point| point[k]).fold(least, pick);
@@ -96,7 +96,7 @@ impl ItemBuffer {
                     (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0.0
                 });
                 if is_inside {
-                    told(row * self.columns + column, plane.near(x, y));
+                    visit(row * self.columns + column, plane.near(x, y));
                 }
             }
         }

@@ -16,8 +16,8 @@ pub(crate) struct Observed {
 
 impl Observed {
     pub(super) fn new(simulation: &Simulation, channels: Vec<Channel>) -> Self {
-        let is_told = channels.iter().any(Channel::tells_rates);
-        let consistent_rates = is_told.then(|| ConsistentRates::of(simulation)).flatten().map(Mutex::new);
+        let is_reported = channels.iter().any(Channel::reports_rates);
+        let consistent_rates = is_reported.then(|| ConsistentRates::of(simulation)).flatten().map(Mutex::new);
         Self { system: simulation.shared_system(), channels, consistent_rates }
     }
 
@@ -35,7 +35,7 @@ impl Observed {
     /// The values of one of the channels.
     pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64) -> Vec<f64> {
         let mut values = Vec::new();
-        let consistent = channel.tells_rates().then(|| self.consistent(state, step)).flatten();
+        let consistent = channel.reports_rates().then(|| self.consistent(state, step)).flatten();
         self.evaluate(channel, (state, consistent.as_ref()), &mut values);
         values
     }
@@ -54,8 +54,8 @@ impl Observed {
     }
 
     fn evaluate(&self, channel: &Channel, (state, consistent): (&State, Option<&State>), out: &mut Vec<f64>) {
-        let told = consistent.filter(|_| channel.tells_rates());
-        channel.evaluate(&self.system, told.unwrap_or(state), out);
+        let state_of_rates = consistent.filter(|_| channel.reports_rates());
+        channel.evaluate(&self.system, state_of_rates.unwrap_or(state), out);
     }
 
     /// The state with rates, accelerations and forces of constraints that agree with its places.

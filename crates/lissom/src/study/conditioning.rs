@@ -11,7 +11,7 @@ use super::{StudyError, Watch, csv_line};
 use crate::model::{Model, Override};
 
 /// More steps than this are not taken: the run ends earlier.
-pub const MOST_STEPS: usize = 2_000_000;
+pub const MAX_STEPS: usize = 2_000_000;
 
 /// One of the scalings compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,7 +138,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
 fn steps_of(lowered: &Lowered) -> (usize, bool) {
     let plan = &lowered.plan;
     let whole = ((plan.end - plan.start) / lowered.settings.step_size).round().max(1.0);
-    if whole > MOST_STEPS as f64 { (MOST_STEPS, true) } else { (whole as usize, false) }
+    if whole > MAX_STEPS as f64 { (MAX_STEPS, true) } else { (whole as usize, false) }
 }
 
 fn measure(model: &Model, overrides: &[Override], effort: &Effort<'_>) -> Result<Measured, StudyError> {

@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn once_told_to_stop_all_stop() {
+    fn once_asked_to_stop_all_stop() {
         let watch = |done: usize, planned: usize| {
             assert!(done <= planned);
             if done >= 2 * OFTEN { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

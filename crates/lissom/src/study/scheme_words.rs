@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_words_tell_what_is_right() {
+    fn wrong_words_report_what_is_right() {
         for (word, hint) in [
             ("newmark", "radau-iia"),
             ("hht(-0.3", "`hht(-0.3)`"),
@@ -65,8 +65,8 @@ mod tests {
             ("radau-iia(3)", "no parameter"),
             ("", "radau-iia"),
         ] {
-            let told = scheme_of(word).unwrap_err().to_string();
-            assert!(told.contains(hint), "{word}: {told}");
+            let problem = scheme_of(word).unwrap_err().to_string();
+            assert!(problem.contains(hint), "{word}: {problem}");
         }
     }
 }

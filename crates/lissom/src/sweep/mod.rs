@@ -265,7 +265,7 @@ impl Sweep {
             drop(sender);
             let (mut done, mut outcome) = (0, Ok(ControlFlow::Continue(())));
             loop {
-                let mut told = ControlFlow::Continue(());
+                let mut flow = ControlFlow::Continue(());
                 match receiver.recv_timeout(PATIENCE) {
                     Ok(members) => {
                         for member in members {
@@ -273,12 +273,12 @@ impl Sweep {
                             if outcome.is_ok() {
                                 outcome = keep(member).map(|()| ControlFlow::Continue(()));
                             }
-                            if told.is_continue() {
-                                told = watch(done);
+                            if flow.is_continue() {
+                                flow = watch(done);
                             }
                         }
                     }
-                    Err(RecvTimeoutError::Timeout) => told = watch(done),
+                    Err(RecvTimeoutError::Timeout) => flow = watch(done),
                     Err(RecvTimeoutError::Disconnected) => {
                         return match outcome {
                             Ok(_) if done < members.len() => Ok(ControlFlow::Break(())),
@@ -286,7 +286,7 @@ impl Sweep {
                         };
                     }
                 }
-                if told.is_break() || outcome.is_err() {
+                if flow.is_break() || outcome.is_err() {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }

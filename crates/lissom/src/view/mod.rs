@@ -17,7 +17,7 @@ pub(crate) use packed::base64;
 /// The page without results, as `viewer/build.js` has made it.
 const PAGE: &str = include_str!("viewer.html");
 /// Most numbers of the table that go into a page; of longer ones rows are left out.
-const MOST_NUMBERS: usize = 1_500_000;
+const MAX_NUMBERS: usize = 1_500_000;
 
 /// Something the reader of a page must know about the results.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -145,7 +145,7 @@ impl Results {
         let column = |column: &Column| serde_json::json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
         self.columns = record.columns.iter().map(column).collect();
         let numbers = record.times.len() * (record.columns.len() + 1);
-        let stride = numbers.div_ceil(MOST_NUMBERS).max(1);
+        let stride = numbers.div_ceil(MAX_NUMBERS).max(1);
         if stride > 1 {
             let text = format!(
                 "The plots show every {stride}th row of the table, which is longer than a page should be."

@@ -33,7 +33,7 @@ step = 1e-3
 "#;
 
 #[test]
-fn what_an_assembly_moved_is_told_everywhere() {
+fn what_an_assembly_moved_is_reported_everywhere() {
     let folder = Folder::new("assembly");
     folder.write("rod.toml", ROD);
     let checked = lissom(&["check", "rod.toml"], folder.path());
@@ -43,11 +43,11 @@ fn what_an_assembly_moved_is_told_everywhere() {
     let ran = lissom(&["run", "rod.toml"], folder.path());
     assert!(ran.code == 0 && ran.output.contains(words), "{} {}", ran.output, ran.errors);
     let out = folder.path().join("out/rod");
-    let told = &summary(&out)["assembly"];
-    assert_eq!(told["moved"][0]["part"], "rod", "{told}");
-    assert!((told["moved"][0]["distance"].as_f64().unwrap() - 0.1).abs() < 1e-12, "{told}");
-    assert_eq!(told["closed"][0]["joint"], "pin", "{told}");
-    assert!(told["left"].as_f64().unwrap() < 1e-12, "{told}");
+    let reported = &summary(&out)["assembly"];
+    assert_eq!(reported["moved"][0]["part"], "rod", "{reported}");
+    assert!((reported["moved"][0]["distance"].as_f64().unwrap() - 0.1).abs() < 1e-12, "{reported}");
+    assert_eq!(reported["closed"][0]["joint"], "pin", "{reported}");
+    assert!(reported["left"].as_f64().unwrap() < 1e-12, "{reported}");
     // Displacements count from the assembled place; a point of the drawing stays on its part.
     let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
     let first: Vec<f64> =

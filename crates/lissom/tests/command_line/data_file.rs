@@ -52,9 +52,9 @@ fn a_law_is_read_from_a_file_beside_the_model() {
         folder.write("models/slider.toml", &model(name));
         let ended = lissom(&["run", "models/slider.toml", "--out", "other"], folder.path());
         assert_eq!(ended.code, 2, "{name}");
-        let told = ended.errors.split_whitespace().collect::<Vec<_>>().join(" ");
+        let reported = ended.errors.split_whitespace().collect::<Vec<_>>().join(" ");
         for words in words {
-            assert!(told.contains(words), "{told}");
+            assert!(reported.contains(words), "{reported}");
         }
     }
 }

@@ -28,8 +28,8 @@ impl Live {
     }
 }
 
-fn version(told: &Value) -> u64 {
-    told["version"].as_u64().unwrap()
+fn version(reported: &Value) -> u64 {
+    reported["version"].as_u64().unwrap()
 }
 
 /// Puts another file in the place of the model, as editors do.
@@ -45,7 +45,7 @@ fn model() -> String {
 }
 
 #[test]
-fn a_model_is_simulated_again_when_it_is_saved_and_mistakes_are_told_meanwhile() {
+fn a_model_is_simulated_again_when_it_is_saved_and_mistakes_are_reported_meanwhile() {
     let folder = Folder::new("live-save");
     folder.write("bar.toml", &model());
     let live = Live::start("bar.toml", folder.path());
@@ -189,12 +189,12 @@ fn many_saves_leave_nothing_behind() {
     let folder = Folder::new("live-many");
     folder.write("bar.toml", &model());
     let live = Live::start("bar.toml", folder.path());
-    let mut told = live.after(0);
+    let mut reported = live.after(0);
     let mut sizes = Vec::new();
     for round in 0..1000 {
         save(&folder, &format!("{}\n# {}", model(), "x".repeat(1 + round % 7)));
-        told = live.after(version(&told));
-        assert_eq!(told["notice"], Value::Null);
+        reported = live.after(version(&reported));
+        assert_eq!(reported["notice"], Value::Null);
         if round == 99 || round == 999 {
             sizes.extend(held(live.program.id()));
         }
@@ -232,7 +232,7 @@ fn paths_are_followed_and_what_does_not_move_is_refused() {
 }
 
 #[test]
-fn a_model_that_is_not_there_is_told() {
+fn a_model_that_is_not_there_is_reported() {
     let folder = Folder::new("live-missing");
     let ended = crate::support::lissom(&["live", "nothing.toml"], folder.path());
     assert_eq!(ended.code, 2);

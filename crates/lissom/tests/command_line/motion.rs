@@ -125,7 +125,7 @@ fn no_motion_is_left_from_a_former_run() {
 }
 
 #[test]
-fn files_that_are_cut_or_foreign_are_told() {
+fn files_that_are_cut_or_foreign_are_reported() {
     let folder = Folder::new("motion-cut");
     folder.write("cantilever.toml", CANTILEVER);
     let (motion, _, _) = run(&folder, "cantilever.toml", &[]);

@@ -82,9 +82,9 @@ fn an_imported_robot_of_mujoco_runs_as_it_is() {
         "{}",
         refused.errors
     );
-    let told = lissom(&["import", "held.xml", "--without", "unsupported"], folder.path());
-    assert_eq!(told.code, 0, "{}", told.errors);
-    assert!(told.output.contains("left out: the tendon `rope`"), "{}", told.output);
+    let reported = lissom(&["import", "held.xml", "--without", "unsupported"], folder.path());
+    assert_eq!(reported.code, 0, "{}", reported.errors);
+    assert!(reported.output.contains("left out: the tendon `rope`"), "{}", reported.output);
 }
 
 /// A model as URDF, and the model that comes back of it.
@@ -130,9 +130,13 @@ fn a_model_goes_to_urdf_and_back() {
         "{}",
         refused.errors
     );
-    let told =
+    let reported =
         lissom(&["export", "spring.toml", "--format", "urdf", "--without", "unsupported"], folder.path());
-    assert!(told.code == 0 && told.output.contains("left out: the spring `s`"), "{}", told.output);
+    assert!(
+        reported.code == 0 && reported.output.contains("left out: the spring `s`"),
+        "{}",
+        reported.output
+    );
 }
 
 #[test]

@@ -168,8 +168,8 @@ fn the_summary_has_statistics_of_every_column() {
     assert_eq!(facts["statistics"].as_object().unwrap().len(), record.columns.len());
     let times = &record.times;
     for (column, values) in record.columns.iter().zip(&record.values) {
-        let told = &facts["statistics"][column.name()];
-        let number = |name: &str| told[name].as_f64().unwrap();
+        let reported = &facts["statistics"][column.name()];
+        let number = |name: &str| reported[name].as_f64().unwrap();
         let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let at = times[values.iter().position(|value| *value == most).unwrap()];
         assert_eq!((number("max"), number("time_of_max")), (most, at), "{}", column.name());
@@ -209,7 +209,7 @@ fn means_are_over_time_whatever_the_distances_of_records() {
 }
 
 #[test]
-fn mistakes_in_outputs_and_starts_are_told() {
+fn mistakes_in_outputs_and_starts_are_reported() {
     for (from, to, wanted) in [
         ("seen.x^2", "seen.a^2", "`seen` has no component `a`"),
         ("seen.x^2", "sen.x^2", "there is no `sen.x`"),
@@ -406,7 +406,7 @@ fn powers_are_what_the_kinetic_energy_grows_by() {
 }
 
 #[test]
-fn what_has_no_power_is_told_with_what_has() {
+fn what_has_no_power_is_reported_with_what_has() {
     let elbow = POWERS.replace("of = \"shoulder\"\n[outputs.drive]", "of = \"elbow\"\n[outputs.drive]");
     let words = |text: &str| match Model::from_text("powers.toml", text).session(&[]) {
         Err(SessionError::Model(report)) => report.render(false),

@@ -76,7 +76,7 @@ fn paths_spectra_and_several_results_are_drawn() {
 }
 
 #[test]
-fn what_was_told_is_explained() {
+fn what_was_reported_is_explained() {
     let folder = Folder::new("explain");
     let all = lissom(&["explain"], folder.path());
     assert_eq!(all.code, 0);
@@ -96,8 +96,8 @@ fn what_was_told_is_explained() {
     let model = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/command_line/silent/column-beyond-euler.toml");
     let run = lissom(&["run", model, "--out", "column", "-q"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
-    let told = summary(&folder.path().join("column"))["warnings"].to_string();
-    assert!(told.contains("unstable-equilibrium"), "{told}");
+    let reported = summary(&folder.path().join("column"))["warnings"].to_string();
+    assert!(reported.contains("unstable-equilibrium"), "{reported}");
     let of_run = lissom(&["explain", "column"], folder.path());
     assert!(
         of_run.code == 0 && of_run.output.contains("disturb it, or hold what is free"),

@@ -93,7 +93,7 @@ fn warning<'a>(facts: &'a serde_json::Value, code: &str) -> Option<&'a str> {
 }
 
 #[test]
-fn repeated_directions_are_told_in_words_and_reactions_flagged() {
+fn repeated_directions_are_reported_in_words_and_reactions_flagged() {
     let folder = Folder::new("redundancy-words");
     let (_, facts) = run(&folder, &["analysis.end=0.01"]);
     let checked = lissom(&["check", "parallelogram.toml"], folder.path());
@@ -109,16 +109,16 @@ fn repeated_directions_are_told_in_words_and_reactions_flagged() {
         .map(|column| column["name"].as_str().unwrap())
         .collect();
     assert_eq!(doubtful, ["forces.f3", "forces.m1", "forces.m2"]);
-    let told = warning(&facts, "reactions-not-unique").unwrap();
+    let reported = warning(&facts, "reactions-not-unique").unwrap();
     for words in
         ["forces.f3, forces.m1, forces.m2 are", "`D` repeats rotation about y, given by `A`, `B`, `C`"]
     {
-        assert!(told.contains(words), "{told}");
+        assert!(reported.contains(words), "{reported}");
     }
 }
 
 #[test]
-fn a_direction_aslant_is_told_by_its_components() {
+fn a_direction_aslant_is_reported_by_its_components() {
     let folder = Folder::new("redundancy-aslant");
     let text = PARALLELOGRAM.replace("axis = [0, 0, 1]", "axis = [0, 0.6, 0.8]");
     // All hinges in the plane of their axes: the loop is one of bars turned about x.
@@ -134,7 +134,7 @@ fn a_direction_aslant_is_told_by_its_components() {
 }
 
 #[test]
-fn a_dead_position_is_told_with_its_time_and_joints() {
+fn a_dead_position_is_reported_with_its_time_and_joints() {
     let folder = Folder::new("singular");
     // The bars lie in one line at a turn of π.
     let dead = (std::f64::consts::PI - 1.0) / 6.0;
@@ -147,10 +147,11 @@ fn a_dead_position_is_told_with_its_time_and_joints() {
     ] {
         let set = [format!("analysis.scheme={scheme}"), format!("analysis.step={step}")];
         let (run, facts) = run(&folder, &set.each_ref().map(String::as_str));
-        let told = warning(&facts, "singular-position").unwrap_or_else(|| panic!("{scheme}: {}", run.errors));
+        let reported =
+            warning(&facts, "singular-position").unwrap_or_else(|| panic!("{scheme}: {}", run.errors));
         assert!(run.errors.contains("singular position"), "{}", run.errors);
-        assert!(told.contains("`A`, `B`, `C`, `D`"), "{told}");
-        let time = told.split("t = ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+        assert!(reported.contains("`A`, `B`, `C`, `D`"), "{reported}");
+        let time = reported.split("t = ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
         let time: f64 = time.parse().unwrap();
         assert!((time - dead).abs() < 2e-3, "{scheme}: {time} instead of {dead}");
     }
@@ -160,15 +161,15 @@ fn a_dead_position_is_told_with_its_time_and_joints() {
 }
 
 #[test]
-fn a_start_in_a_dead_position_is_told() {
+fn a_start_in_a_dead_position_is_reported() {
     let folder = Folder::new("singular-start");
     let (_, facts) = run(&folder, &["parameters.a0=3.141592653589793", "analysis.end=0.2"]);
-    let told = warning(&facts, "singular-position").unwrap();
-    assert!(told.contains("at t = 0.0"), "{told}");
+    let reported = warning(&facts, "singular-position").unwrap();
+    assert!(reported.contains("at t = 0.0"), "{reported}");
 }
 
 #[test]
-fn loops_that_only_come_near_are_not_told() {
+fn loops_that_only_come_near_are_not_reported() {
     let folder = Folder::new("singular-not");
     for model in ["four-bar", "slider-crank-3500rpm", "delta-robot"] {
         let run = lissom(&["run", &example(model), "--no-plots", "--out", model], folder.path());

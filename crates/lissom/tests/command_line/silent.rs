@@ -70,7 +70,7 @@ fn last_row(folder: &Folder) -> Vec<f64> {
 }
 
 #[test]
-fn what_is_hardly_meant_is_told_in_quiet_runs_too() {
+fn what_is_hardly_meant_is_reported_in_quiet_runs_too() {
     let folder = Folder::new("inertia-of-no-body");
     let run = run("inertia-of-no-body", &folder);
     assert_eq!(run.code, 0, "{}", run.errors);
@@ -114,7 +114,7 @@ fn drives_start_where_their_joints_are() {
 }
 
 #[test]
-fn given_velocities_that_are_replaced_are_told() {
+fn given_velocities_that_are_replaced_are_reported() {
     warned(
         "given-velocity-replaced",
         "velocity-replaced",
@@ -132,15 +132,15 @@ fn beams_that_turn_too_far_within_an_element_fail() {
 }
 
 #[test]
-fn energy_from_nowhere_is_told_or_fails() {
+fn energy_from_nowhere_is_reported_or_fails() {
     // The motion is chaos: how much energy the steps make, and so whether the run fails, depends on the last digits.
     let folder = Folder::new("mass-ratio-energy");
-    let told = run("mass-ratio-energy", &folder);
-    assert!(told.code == 3 || told.code == 0, "{}", told.errors);
+    let reported = run("mass-ratio-energy", &folder);
+    assert!(reported.code == 3 || reported.code == 0, "{}", reported.errors);
     for word in ["more energy than anything put in", "relative_tolerance"] {
-        assert!(told.errors.contains(word), "{word}: {}", told.errors);
+        assert!(reported.errors.contains(word), "{word}: {}", reported.errors);
     }
-    if told.code == 0 {
+    if reported.code == 0 {
         let warnings = &summary(&folder.path().join("out"))["warnings"];
         assert!(warnings.to_string().contains("energy-surplus: "), "{warnings}");
     }
@@ -172,11 +172,12 @@ fn steps_that_are_all_divided_are_judged_too() {
     for scheme in ["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] {
         for step in ["0.011", "0.02", "0.04"] {
             let [scheme, step] = [format!("analysis.scheme={scheme}"), format!("analysis.step={step}")];
-            let told = lissom(&["run", top, "--no-plots", "--set", &scheme, "--set", &step], folder.path());
+            let reported =
+                lissom(&["run", top, "--no-plots", "--set", &scheme, "--set", &step], folder.path());
             assert!(
-                told.errors.contains("the steps are too long for the motion"),
+                reported.errors.contains("the steps are too long for the motion"),
                 "{scheme} {step}: {}",
-                told.errors
+                reported.errors
             );
         }
     }
@@ -190,7 +191,7 @@ fn the_angle_of_many_turns_is_right() {
 }
 
 #[test]
-fn unstable_equilibria_and_jumps_are_told() {
+fn unstable_equilibria_and_jumps_are_reported() {
     warned("equilibrium-upside-down", "unstable-equilibrium", &["1 direction"]);
     warned("column-beyond-euler", "unstable-equilibrium", &["t = 1.5", "the one at t = 1.0", "buckling"]);
     fails("limit-point-jump", &["limit point", "kind = \"path\""]);
@@ -239,7 +240,7 @@ fn weight_of_statics_is_applied_in_steps() {
 }
 
 #[test]
-fn speeds_that_jump_are_told() {
+fn speeds_that_jump_are_reported() {
     warned("linear-table-drive-rings", "model", &["`d`", "t = 0.5 s", "spline"]);
     // No false alarm where the speed is zero on both sides.
     right("drive-comes-to-rest");
@@ -301,7 +302,7 @@ fn a_step_that_has_no_solution_costs_little() {
 }
 
 #[test]
-fn plots_of_names_that_files_do_not_tell_apart_are_all_there() {
+fn plots_of_names_that_files_do_not_distinguish_are_all_there() {
     let folder = Folder::new("names");
     let run = lissom(&["run", &model("plot-names-collide"), "--out", "out", "--quiet"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
@@ -340,7 +341,7 @@ fn plots_of_a_former_run_do_not_stay_beside_new_results() {
 }
 
 #[test]
-fn constraints_that_yield_are_told() {
+fn constraints_that_yield_are_reported() {
     warned(
         "redundant-joints-yield",
         "constraints-yield",
@@ -349,7 +350,7 @@ fn constraints_that_yield_are_told() {
 }
 
 #[test]
-fn steps_too_long_for_the_motion_are_told_and_short_ones_are_not() {
+fn steps_too_long_for_the_motion_are_reported_and_short_ones_are_not() {
     for name in ["unresolved-universal", "unresolved-vibration", "unresolved-spin"] {
         warned(name, "unresolved-motion", &["the steps are too long", "% in the end", "node `b"]);
         let folder = Folder::new(&format!("{name}-fine"));
@@ -366,14 +367,14 @@ fn steps_too_long_for_the_motion_are_told_and_short_ones_are_not() {
 
 /// Places that a drive prescribes are right with any step: what tells that steps are too long are the rates of the joints.
 #[test]
-fn steps_too_long_for_velocities_are_told_and_short_ones_are_not() {
+fn steps_too_long_for_velocities_are_reported_and_short_ones_are_not() {
     let folder = Folder::new("rates");
     // x = r cos φ + √(ℓ² - r² sin² φ), φ = 6 t, r = 0.1, ℓ = 0.35.
     let velocity = |time: f64| {
         let (sine, cosine) = (6.0 * time).sin_cos();
         -6.0 * 0.1 * sine * (1.0 + 0.1 * cosine / (0.35_f64.powi(2) - (0.1 * sine).powi(2)).sqrt())
     };
-    for (scheme, step, is_told) in [
+    for (scheme, step, is_reported) in [
         ("generalized-alpha", "0.15", true),
         ("hht", "0.15", true),
         // What is recorded of drives then follows from the places.
@@ -395,8 +396,8 @@ fn steps_too_long_for_velocities_are_told_and_short_ones_are_not() {
             (row.next().unwrap() - velocity(time)).abs() / 0.63
         });
         let worst = missed.fold(0.0_f64, f64::max);
-        let tells = run.errors.contains("the steps are too long for velocities and forces");
-        assert_eq!(tells, is_told, "{scheme}, {step}: {worst}: {}", run.errors);
-        assert!(if is_told { worst > 0.02 } else { worst < 0.01 }, "{scheme}, {step}: {worst}");
+        let reports = run.errors.contains("the steps are too long for velocities and forces");
+        assert_eq!(reports, is_reported, "{scheme}, {step}: {worst}: {}", run.errors);
+        assert!(if is_reported { worst > 0.02 } else { worst < 0.01 }, "{scheme}, {step}: {worst}");
     }
 }

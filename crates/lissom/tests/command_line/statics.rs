@@ -53,15 +53,18 @@ steps = 20
 "#;
 
 #[test]
-fn the_stability_of_every_equilibrium_is_told() {
+fn the_stability_of_every_equilibrium_is_reported() {
     let folder = Folder::new("statics-stability");
     folder.write("column.toml", COLUMN);
     let run = lissom(&["run", "column.toml", "--out", "out", "--no-plots"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
     let facts = summary(&folder.path().join("out"));
-    let told = facts["stability"].as_array().unwrap();
-    assert_eq!(told.len(), 2, "{told:?}");
-    assert_eq!((told[0]["time"].as_f64().unwrap(), told[0]["unstable_directions"].as_u64()), (0.05, Some(0)));
-    assert!((told[1]["time"].as_f64().unwrap() - 0.65).abs() < 1e-9, "{told:?}");
-    assert_eq!(told[1]["unstable_directions"], 1);
+    let reported = facts["stability"].as_array().unwrap();
+    assert_eq!(reported.len(), 2, "{reported:?}");
+    assert_eq!(
+        (reported[0]["time"].as_f64().unwrap(), reported[0]["unstable_directions"].as_u64()),
+        (0.05, Some(0))
+    );
+    assert!((reported[1]["time"].as_f64().unwrap() - 0.65).abs() < 1e-9, "{reported:?}");
+    assert_eq!(reported[1]["unstable_directions"], 1);
 }

@@ -63,7 +63,7 @@ fn convergence_leaves_table_and_plot() {
 }
 
 #[test]
-fn a_run_that_fails_is_told_in_its_row() {
+fn a_run_that_fails_is_reported_in_its_row() {
     let folder = Folder::new("convergence-failure");
     // Two iterations are enough for small steps only, and not for the parts of a large one.
     let mut arguments = vec!["study".to_owned(), "convergence".to_owned(), example("pendulum")];
@@ -130,7 +130,7 @@ fn mistakes_have_their_exit_codes() {
 }
 
 #[test]
-fn every_run_tells_how_well_its_tangent_is_conditioned() {
+fn every_run_reports_how_well_its_tangent_is_conditioned() {
     let folder = Folder::new("telemetry");
     let condition = |name: &str, scaling: &str| {
         let set = format!("analysis.scaling={scaling}");

@@ -111,7 +111,7 @@ fn tables_do_not_depend_on_the_number_of_workers() {
 
 /// Members whose values are wrong, and members without a solution, have their rows; the exit code tells.
 #[test]
-fn members_that_fail_are_told_and_the_others_are_there() {
+fn members_that_fail_are_reported_and_the_others_are_there() {
     let folder = Folder::new("sweep-fail");
     sweep_file(
         &folder,

@@ -172,7 +172,7 @@ fn a_model_at_the_start_is_shown_without_being_simulated() {
 }
 
 #[test]
-fn what_is_missing_or_went_wrong_is_told_in_the_page() {
+fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     let folder = Folder::new("view-failed");
     folder.write("bar.toml", CANTILEVER);
     let notices =
@@ -182,16 +182,16 @@ fn what_is_missing_or_went_wrong_is_told_in_the_page() {
         ["view", "bar.toml", "--set", "loads.tip.scale=1e9*t", "--set", "analysis.max_iterations=3", "-q"];
     let view = lissom(&args, folder.path());
     assert_eq!(view.code, 3, "{}", view.errors);
-    let told = notices("out/bar/view.html");
-    assert_eq!(told[0]["kind"], "error");
-    assert!(told[0]["text"].as_str().unwrap().contains("failed"), "{told}");
+    let reported = notices("out/bar/view.html");
+    assert_eq!(reported[0]["kind"], "error");
+    assert!(reported[0]["text"].as_str().unwrap().contains("failed"), "{reported}");
     // Without motion the plots are left.
     let run = lissom(&["run", "bar.toml", "--no-plots", "-q"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(!folder.path().join("out/bar/view.html").exists(), "a page of a former run would lie");
     assert_eq!(lissom(&["view", "out/bar", "-q"], folder.path()).code, 0);
-    let told = notices("out/bar/view.html");
-    assert!(told[0]["text"].as_str().unwrap().contains("--no-plots"), "{told}");
+    let reported = notices("out/bar/view.html");
+    assert!(reported[0]["text"].as_str().unwrap().contains("--no-plots"), "{reported}");
     let buckling = CANTILEVER.replace("kind = \"statics\"\nsteps = 4", "kind = \"buckling\"");
     folder.write("buckling.toml", &buckling.replace("scale = \"3*t\"\n", ""));
     for (args, words) in [

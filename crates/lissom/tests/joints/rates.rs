@@ -220,7 +220,7 @@ fn turned_views(record: &Record, part: &str, [frame, axes]: [&str; 2]) {
         ("angular_velocity", ["w1", "w2", "w3"]),
     ] {
         let of = |view: &str| columns(record, &format!("{kind}_{view}_{part}"), names);
-        let [plain, relative, turned, told] = ["plain", "relative", "turned", "told"].map(of);
+        let [plain, relative, turned, reported] = ["plain", "relative", "turned", "told"].map(of);
         for row in 0..record.times.len() {
             let [frame, axes] = [frame, axes].map(|name| rotation(record, name, row));
             let near = |found: Vector3, wanted: Vector3| {
@@ -229,7 +229,7 @@ fn turned_views(record: &Record, part: &str, [frame, axes]: [&str; 2]) {
                     "{kind} {part}: {found} {wanted}"
                 );
             };
-            near(vector(&told, row), axes.apply_inverse(&vector(&plain, row)));
+            near(vector(&reported, row), axes.apply_inverse(&vector(&plain, row)));
             near(vector(&turned, row), axes.apply_inverse(&frame.apply(&vector(&relative, row))));
         }
     }

@@ -236,7 +236,7 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
 }
 
 #[test]
-fn wrong_descriptions_are_told() {
+fn wrong_descriptions_are_reported() {
     let said = |text: &str| match from_urdf(text) {
         Ok(robot) => model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string(),
         Err(error) => error.to_string(),

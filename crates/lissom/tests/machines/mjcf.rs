@@ -310,7 +310,7 @@ fn joints_that_follow_others_do() {
 }
 
 #[test]
-fn what_cannot_be_said_is_told() {
+fn what_cannot_be_said_is_reported() {
     let said = |text: &str| match from_description(text) {
         Ok(robot) => model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string(),
         Err(error) => error.to_string(),

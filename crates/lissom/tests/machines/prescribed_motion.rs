@@ -1,6 +1,6 @@
 //! Motions prescribed in space: where the body is, and what it takes.
 
-use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, run, set, told};
+use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, reported, run, set};
 use lissom_motion::{Rotation, Vector3};
 
 /// A body that is shaken and turned about its centre, and a pendulum on it that is not in the way.
@@ -50,7 +50,7 @@ fn rz(time: f64) -> f64 {
 }
 
 #[test]
-fn a_platform_is_where_it_is_told_to_be_and_its_reaction_carries_it() {
+fn a_platform_follows_its_prescribed_motion_and_its_reaction_carries_it() {
     for scheme in SCHEMES {
         let record = run(PLATFORM, &[set("analysis.scheme", scheme)]);
         let end = record.times.len() - 1;
@@ -138,13 +138,13 @@ step = 5e-4
 
 #[test]
 fn motions_that_begin_elsewhere_or_name_nothing_are_refused() {
-    let said = told(&PLATFORM.replace("x = \"0.1*sin(3*t)^2\"", "x = \"0.1*cos(3*t)\""));
+    let said = reported(&PLATFORM.replace("x = \"0.1*sin(3*t)^2\"", "x = \"0.1*cos(3*t)\""));
     assert!(said.contains("starts at 0.1 m"), "{said}");
     let nothing = PLATFORM
         .lines()
         .filter(|line| !["x =", "z =", "rx =", "ry =", "rz ="].iter().any(|key| line.starts_with(key)))
         .collect::<Vec<_>>()
         .join("\n");
-    let said = told(&nothing);
+    let said = reported(&nothing);
     assert!(said.contains("at least one of x, y, z, rx, ry, rz"), "{said}");
 }

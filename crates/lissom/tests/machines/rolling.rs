@@ -1,6 +1,6 @@
 //! Wheels, discs and balls that roll, against closed forms.
 
-use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
+use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, last, reported, run, set};
 
 /// Lagrange's steady precession of a thin disc: its axis leans by α from the vertical and turns about it at Ω, and it spins
 /// by n about its axis, with 6 r Ω n sin α - r Ω² sin α cos α + 4 g cos α = 0. Its centre runs around a circle of radius
@@ -215,7 +215,7 @@ step = 2e-3
 #[test]
 fn a_wheel_that_does_not_touch_is_refused() {
     let model = Precession::new(0.2, 1.1, 3.0).model("step = 1e-3");
-    let said = told(&model.replace("radius = 0.2", "radius = 0.21"));
+    let said = reported(&model.replace("radius = 0.2", "radius = 0.21"));
     assert!(said.contains("from the plane"), "{said}");
     let statics =
         model.replace("kind = \"dynamics\"", "kind = \"statics\"").replace("step = 1e-3", "steps = 4");
@@ -231,7 +231,7 @@ fn a_wheel_that_lies_flat_is_refused() {
     let model = Precession::new(0.2, 1.1, 3.0).model("step = 1e-3");
     let axis = model.lines().find(|line| line.starts_with("wheel_axis")).expect("a wheel");
     let flat = model.replace(axis, "wheel_axis = [0, 0, 1]");
-    let said = told(&flat.replace("radius = 0.2", ""));
+    let said = reported(&flat.replace("radius = 0.2", ""));
     assert!(said.contains("lies flat"), "{said}");
     let leaning = format!("wheel_axis = [{}, 0, 1]", 2e-3);
     let session = |model: &str| lissom::Model::from_text("wheel.toml", model).session(&[]).map(|_| ());
@@ -243,7 +243,7 @@ fn a_wheel_that_lies_flat_is_refused() {
 
 /// A disc that needs more friction than there is, and one that the plane would have to hold down, are told.
 #[test]
-fn a_wheel_that_would_slide_or_lift_is_told() {
+fn a_wheel_that_would_slide_or_lift_is_reported() {
     let warnings = |model: &str| {
         let mut session = lissom::Model::from_text("wheel.toml", model).session(&[]).expect("a model");
         let (_, report) = session.record();
@@ -261,7 +261,7 @@ fn a_wheel_that_would_slide_or_lift_is_told() {
 /// A disc that lies nearly flat and precesses steadily turns at 3 rad/s, but its point of contact runs round at 62 rad/s: steps of
 /// 10 ms resolve the one and not the other, and say so; shorter ones and chosen ones have nothing to tell.
 #[test]
-fn a_point_of_contact_that_runs_round_in_few_steps_is_told() {
+fn a_point_of_contact_that_runs_round_in_few_steps_is_reported() {
     let disc = Precession::new(0.2, 0.05, 62.0);
     let warnings = |analysis: &str| {
         let mut session =
@@ -270,8 +270,8 @@ fn a_point_of_contact_that_runs_round_in_few_steps_is_told() {
         assert!(report.is_complete());
         session.warnings().map(|warning| (warning.code().to_owned(), warning.to_string())).collect::<Vec<_>>()
     };
-    let told = warnings("step = 1e-2");
-    let (_, words) = told.iter().find(|(code, _)| code == "contact-runs-round").expect("a warning");
+    let reported = warnings("step = 1e-2");
+    let (_, words) = reported.iter().find(|(code, _)| code == "contact-runs-round").expect("a warning");
     assert!(words.contains("`floor`") && words.contains(" 0.6"), "{words}");
     for quiet in ["step = 1e-3", "step = 1e-2\nrelative_tolerance = 1e-5"] {
         assert!(warnings(quiet).iter().all(|(code, _)| code != "contact-runs-round"), "{quiet}");

@@ -298,7 +298,7 @@ fn a_run_goes_on_from_the_middle_to_the_last_bit() {
 
 /// The end of the beam ends the run, with the time and the joint; a step before it an event can do so in order.
 #[test]
-fn the_end_of_the_beam_is_told() {
+fn the_end_of_the_beam_is_reported() {
     let text = TURNING.replace("ORDER", "2").replace("end = 0.9", "end = 2");
     for set in [vec![], vec![("analysis.relative_tolerance", "1e-5")]] {
         let (record, report) = session(&text, &set).record();

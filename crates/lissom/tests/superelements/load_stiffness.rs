@@ -40,7 +40,7 @@ fn spinning_models(damped: &str, report: &ReduceReport) -> (Model, Model) {
 
 /// Spinning beam of a hub and a tip, over speeds: an error of 1 % of the deflection causes a warning, and one of 0.1 % does not.
 #[test]
-fn stiffness_that_rotation_changes_is_told() {
+fn stiffness_that_rotation_changes_is_reported() {
     let damped = beam(MODES).replace("[beams.bar]", "damping = 0.01\n[beams.bar]");
     let report = bare(&reduced(&damped, &["bar.start", "bar.end"], 4));
     let (exact, own) = spinning_models(&damped, &report);
@@ -117,7 +117,7 @@ fn frequencies_in_rotation_are_those_of_the_beam() {
             )
         };
         for speed in [10.0, 25.0, 49.0] {
-            let request = ModeRequest { count: Some(4), about: Some(About::Rotation), shift: None };
+            let request = ModeRequest { count: Some(4), about: Some(OperatingPoint::Rotation), shift: None };
             let of = |model: &Model| -> Vec<f64> {
                 let found = modes(model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
                 found.modes.iter().map(|mode| mode.frequency).collect()

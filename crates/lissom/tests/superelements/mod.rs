@@ -9,7 +9,7 @@ mod outputs;
 use std::collections::BTreeMap;
 
 use lissom::Model;
-use lissom::modes::{About, ModeRequest, modes};
+use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
@@ -58,7 +58,7 @@ fn request(interfaces: &[&str], modes: usize) -> ReduceRequest {
         interfaces: interfaces.iter().map(|name| (*name).to_owned()).collect(),
         modes,
         corrections: true,
-        about: About::Static,
+        about: OperatingPoint::Static,
         name: "part".to_owned(),
     }
 }
@@ -81,7 +81,7 @@ fn using(report: &ReduceReport, rest: &str) -> Model {
 }
 
 fn frequencies(model: &Model, count: usize) -> Vec<f64> {
-    let request = ModeRequest { count: Some(count), about: Some(About::Static), shift: None };
+    let request = ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), shift: None };
     let found = modes(model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
     found.modes.iter().map(|mode| mode.frequency).collect()
 }
@@ -346,7 +346,7 @@ fn a_reduced_part_can_be_reduced_again() {
         interfaces: vec!["part.bar_start".to_owned()],
         modes: 10,
         corrections: true,
-        about: About::Static,
+        about: OperatingPoint::Static,
         name: "again".to_owned(),
     };
     let again = reduce(&using(&first, MODES), &[], &request).unwrap_or_else(|error| panic!("{error}"));
@@ -533,7 +533,7 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
         interfaces: ["rod.start", "rod@0.5", "rod.end"].map(str::to_owned).to_vec(),
         modes: 4,
         corrections: false,
-        about: About::Static,
+        about: OperatingPoint::Static,
         name: "rod".to_owned(),
     };
     let rod = Model::read(&path("connecting-rod.toml")).expect("a text");

@@ -34,7 +34,7 @@ pub(crate) fn last(record: &Record, output: &str, component: &str) -> f64 {
 }
 
 /// The message about a wrong model.
-pub(crate) fn told(text: &str) -> String {
+pub(crate) fn reported(text: &str) -> String {
     match Model::from_text("wrong.toml", text).session(&[]) {
         Err(SessionError::Model(report)) => report.render(false),
         Err(error) => panic!("{error}"),

@@ -14,17 +14,17 @@ use lissom_solver::{LinearSolver, Pattern, Structure};
 
 use super::columns::Columns;
 use super::groups::Groups;
-use super::{Gap, WORTH_TELLING, gap};
+use super::{Gap, MIN_REPORTED, gap};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::system::System;
 
-const MOST_ITERATIONS: usize = 200;
+const MAX_ITERATIONS: usize = 200;
 /// Coordinates of joints follow the parts: their weight only makes them unique.
 const WEIGHT_OF_COORDINATE: f64 = 1e-8;
 /// Largest displacement of a step, relative to the model's size.
-const LARGEST_SHIFT: f64 = 0.25;
+const MAX_SHIFT: f64 = 0.25;
 /// Largest rotation of a step [rad].
-const LARGEST_TURN: f64 = 0.3;
+const MAX_TURN: f64 = 0.3;
 /// Damping μ at the start, where it gives up, and that of constraints that repeat each other.
 const DAMPING: [f64; 3] = [1e-6, 1e8, 1e-10];
 /// Joints are closed to this part of the tolerance, as round-off allows.
@@ -81,7 +81,7 @@ impl<'a> Closing<'a> {
     }
 
     /// The pose as drawn, with coordinates as they are at `at`.
-    pub(super) fn drawn(&self, at: &Kinematics) -> Pose {
+    pub(super) fn as_modelled(&self, at: &Kinematics) -> Pose {
         Pose {
             frames: self.groups.all.iter().map(|group| group.frame).collect(),
             coordinates: at.coordinates.iter().map(|own| own.value).collect(),
@@ -142,7 +142,7 @@ impl<'a> Closing<'a> {
         }
         found.sort_by(|a, b| b.0.total_cmp(&a.0));
         let widest = found.first().map_or(0.0, |(size, _)| *size);
-        found.into_iter().filter(|(size, _)| *size >= WORTH_TELLING * widest).map(|(_, gap)| gap).collect()
+        found.into_iter().filter(|(size, _)| *size >= MIN_REPORTED * widest).map(|(_, gap)| gap).collect()
     }
 
     /// The step δ, then the multipliers; none where the matrix cannot be factored.
@@ -193,7 +193,7 @@ impl<'a> Closing<'a> {
         };
         let longest = (0..self.groups.all.len())
             .map(of_group)
-            .map(|(shift, turn)| (shift.norm() / (LARGEST_SHIFT * length)).max(turn.norm() / LARGEST_TURN))
+            .map(|(shift, turn)| (shift.norm() / (MAX_SHIFT * length)).max(turn.norm() / MAX_TURN))
             .fold(1.0, f64::max);
         let mut moved = pose.clone();
         for (index, frame) in moved.frames.iter_mut().enumerate() {
@@ -216,7 +216,7 @@ impl<'a> Closing<'a> {
         let [mut damping, most, least] = DAMPING;
         let still = vec![0.0; self.columns.count[0]];
         let mut slow = 0;
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             if largest(&violations) <= BEYOND * tolerance || damping > most || slow > SLOW.1 {
                 break;
             }
@@ -238,7 +238,7 @@ impl<'a> Closing<'a> {
     /// The closed pose nearest to `drawn`, from one that is closed; none where it is not found.
     pub(super) fn nearest(&mut self, start: Pose, drawn: &Pose, tolerance: f64) -> Option<Pose> {
         let mut pose = start;
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let change = self.change(&pose, drawn);
             let violations = self.violations(&pose);
             let step = self.solve(&pose, (&change, &violations), DAMPING[2])?;

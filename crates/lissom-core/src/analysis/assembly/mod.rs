@@ -19,7 +19,7 @@ use self::closing::{Closing, Pose};
 use self::groups::Groups;
 use self::tree::Tree;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::{Own, Relative};
+use crate::joints::{JointCoordinates, Relative};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::system::System;
 
@@ -30,9 +30,9 @@ const SHIFT: f64 = 0.05;
 /// Most changes of held coordinates on the way to their values.
 const MOST_STAGES: f64 = 1000.0;
 /// Gaps below this part of the largest gap are not reported.
-const WORTH_TELLING: f64 = 0.05;
+const MIN_REPORTED: f64 = 0.05;
 /// Most joints that an error names.
-const MOST_NAMED: usize = 6;
+const MAX_LISTED: usize = 6;
 
 /// What is asked of an assembly.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,8 +102,8 @@ pub enum AssemblyError {
 }
 
 fn in_words(gaps: &[Gap]) -> String {
-    let named: Vec<String> = gaps.iter().take(MOST_NAMED).map(Gap::to_string).collect();
-    let more = gaps.len().saturating_sub(MOST_NAMED);
+    let named: Vec<String> = gaps.iter().take(MAX_LISTED).map(Gap::to_string).collect();
+    let more = gaps.len().saturating_sub(MAX_LISTED);
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
     named.join(", ") + &rest
 }
@@ -122,7 +122,7 @@ pub fn assemble(
     let held: Vec<CoordinateId> = values.iter().map(|&(coordinate, _)| coordinate).collect();
     let drawn = at.clone();
     let mut closing = Closing::new(system, at, &groups, &held);
-    let drawn_pose = closing.drawn(at);
+    let drawn_pose = closing.as_modelled(at);
     let gaps = closing.gaps(&drawn_pose, request.tolerance);
     let mut pose = closing.close(drawn_pose.clone(), request.tolerance);
     let mut is_least = false;
@@ -201,7 +201,7 @@ fn stages(system: &System, pose: &Pose, values: &[(CoordinateId, f64)], length: 
 /// A joint whose equations for angles hold only because sines of half a turn vanish: their gradient has lost its rank.
 fn upside_down(system: &System, at: &Kinematics) -> Option<String> {
     const LOST: f64 = 1e-3;
-    let least = |joint: &AttachedJoint, configuration: &(Relative, Own)| {
+    let least = |joint: &AttachedJoint, configuration: &(Relative, JointCoordinates)| {
         let gradient = joint.own_gradient(configuration).relative;
         let is_angle = |&equation: &usize| joint.joint().equation_quantity(equation) == Quantity::Angle;
         let angles: Vec<usize> = (0..joint.equations()).filter(is_angle).collect();
@@ -209,7 +209,8 @@ fn upside_down(system: &System, at: &Kinematics) -> Option<String> {
         (!angles.is_empty()).then(|| rows.singular_values().min())
     };
     let is_lost = |joint: &&AttachedJoint| {
-        let [found, built] = [joint.outright(at), joint.as_built()].map(|place| least(joint, &place));
+        let [found, built] =
+            [joint.evaluate_absolute(at), joint.as_built()].map(|place| least(joint, &place));
         found.zip(built).is_some_and(|(found, built)| found < LOST * built)
     };
     system.joints().iter().find(is_lost).map(|joint| joint.name.clone())

@@ -7,12 +7,12 @@ use nalgebra::{DMatrix, DVector};
 use super::closing::Pose;
 use super::groups::Groups;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::{Own, Relative};
+use crate::joints::{JointCoordinates, Relative};
 use crate::kinematics::{CoordinateId, Quantity};
 use crate::system::System;
 
 /// Iterations that put a single joint into place; a joint that needs more is closed with all others.
-const MOST_ITERATIONS: usize = 30;
+const MAX_ITERATIONS: usize = 30;
 
 /// A tree of rigid groups.
 pub(super) struct Tree<'a> {
@@ -100,7 +100,7 @@ impl<'a> Tree<'a> {
             let (group, place) = self.groups.of_node[frame.node];
             pose.frames[group] * self.groups.all[group].nodes[place].1 * frame.offset
         });
-        let mut own = Own::default();
+        let mut own = JointCoordinates::default();
         for (k, &coordinate) in joint.coordinates.iter().enumerate() {
             own.value[k] = pose.coordinates[coordinate];
         }
@@ -117,11 +117,11 @@ impl<'a> Tree<'a> {
 }
 
 /// The relative motion nearest to `start` that satisfies the equations of a joint with its coordinates at `own`.
-fn in_place(joint: &AttachedJoint, start: Motion, own: &Own, length: f64) -> Option<Motion> {
+fn in_place(joint: &AttachedJoint, start: Motion, own: &JointCoordinates, length: f64) -> Option<Motion> {
     let equations = joint.equations();
     let unit = |k: usize| if k < 3 { length } else { 1.0 };
     let mut relative = start;
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         let configuration = (Relative::at_start(&relative), *own);
         let scale = |equation: usize| match joint.joint().equation_quantity(equation) {
             Quantity::Angle => 1.0,

@@ -22,7 +22,7 @@ use crate::analysis::simulation::Simulation;
 use crate::joints::evaluation_point::Augmentation;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::scaling::{StageIncrements, StageMotion, UnitStart};
+use crate::scaling::{StageIncrements, StageMotion, UnitStepState};
 use crate::schemes::Tableau;
 use crate::system::{State, StepPoint, System};
 
@@ -51,7 +51,7 @@ pub(super) struct Neighbour {
 pub(super) struct IntegratedStep {
     tableau: Tableau,
     start: State,
-    unit: UnitStart,
+    unit: UnitStepState,
     joints: JointStarts,
     increments: Vec<Vec<f64>>,
     multipliers: Vec<Vec<f64>>,
@@ -71,7 +71,7 @@ impl IntegratedStep {
         Some(Self {
             tableau: base.settings.scheme.tableau?,
             start: base.state.clone(),
-            unit: UnitStart::new(layout, &base.settings.scheme),
+            unit: UnitStepState::new(layout, &base.settings.scheme),
             joints: JointStarts::default(),
             increments: work.increments.clone(),
             multipliers: work.multipliers.clone(),
@@ -129,7 +129,7 @@ impl IntegratedStep {
     /// Motions at the stages and at the end, from the start and the increments.
     fn move_stages(&mut self, base: &Simulation) {
         let (layout, scheme, scaled) = (base.system.layout(), &base.settings.scheme, &base.scaled);
-        scaled.enter(layout, scheme, &self.start, &mut self.unit);
+        scaled.to_unit_step(layout, scheme, &self.start, &mut self.unit);
         for stage in 0..scheme.stages.len() {
             let increments = StageIncrements { all: &self.increments, stage };
             scaled.stage_motion(

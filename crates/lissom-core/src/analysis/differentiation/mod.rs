@@ -28,7 +28,7 @@ use super::StepError;
 use super::simulation::Simulation;
 use crate::kinematics::Quantity;
 use crate::schemes::Tableau;
-use crate::system::{Reach, State};
+use crate::system::{ParameterDifference, State};
 use integrated::Neighbour;
 use stages::{Stages, largest_found};
 use variation::Variation;
@@ -46,7 +46,7 @@ const ROUND_OFF: f64 = 1e-7;
 /// Increments below this part of how far the state moves are rounded by it.
 const ROUNDED: f64 = 1e-3;
 /// Most corrections.
-const MOST: usize = 40;
+const MAX_CORRECTIONS: usize = 40;
 
 /// Derivatives of the state of a simulation by numbers of its model.
 pub struct Sensitivities {
@@ -64,7 +64,7 @@ pub struct Sensitivities {
 
 /// What a number of the model changes where nothing moves otherwise.
 struct Number {
-    reach: Reach,
+    difference: ParameterDifference,
     /// The neighbouring models themselves.
     neighbours: Vec<Neighbour>,
 }
@@ -92,7 +92,7 @@ impl Sensitivities {
             numbers: Vec::new(),
             variations: Vec::new(),
             stages: Stages::new(base),
-            remembered: base.method_memory.is_some().then(|| base.scaled.step_size()),
+            remembered: base.integrator_history.is_some().then(|| base.scaled.step_size()),
             steps: 0,
             is_exact: true,
             corrections: 0,
@@ -105,7 +105,7 @@ impl Sensitivities {
         let layout = base.system.layout();
         let lane = self.numbers.len() % WIDTH;
         let systems = neighbours.iter().map(|(of, weight)| (Arc::clone(&of.system), *weight)).collect();
-        let Some(reach) = Reach::of(systems) else { return false };
+        let Some(difference) = ParameterDifference::of(systems) else { return false };
         let stages = base.settings().scheme.stages.len();
         if lane == 0 {
             self.variations.push(Lanes {
@@ -128,7 +128,7 @@ impl Sensitivities {
             weight: *weight,
             length: of.representative.length,
         };
-        self.numbers.push(Number { reach, neighbours: neighbours.iter().map(neighbour).collect() });
+        self.numbers.push(Number { difference, neighbours: neighbours.iter().map(neighbour).collect() });
         true
     }
 
@@ -222,7 +222,7 @@ fn step(
         if (0..WIDTH).all(is_done) {
             break;
         }
-        if sizes.iter().any(|size| !size.is_finite()) || made >= MOST {
+        if sizes.iter().any(|size| !size.is_finite()) || made >= MAX_CORRECTIONS {
             return Err(StepError::NotConverged {
                 time: base.state.kinematics.time,
                 iterations: made,

@@ -128,7 +128,7 @@ impl Stages {
             explicit.fill(NOTHING);
             for (lane, number) in numbers.iter().enumerate() {
                 own.fill(0.0);
-                number.reach.add(&work.motions[index].at, &work.multipliers[index], scratch, own);
+                number.difference.add(&work.motions[index].at, &work.multipliers[index], scratch, own);
                 for (block, value) in explicit.iter_mut().zip(&*own) {
                     block[lane] = *value;
                 }
@@ -191,7 +191,7 @@ impl Stages {
                 }
             }
         }
-        if let Some((compliance, _)) = &work.yielding {
+        if let Some((regularization, _)) = &work.regularization {
             let [room, violations] = &mut self.scratch;
             let scale = factor * base.scaled.scale();
             for (residual, multipliers) in self.residuals.iter_mut().zip(&lanes.multipliers) {
@@ -201,7 +201,7 @@ impl Stages {
                     let own = violations.iter_mut().zip(&residual[count..]);
                     own.for_each(|(value, block)| *value = block[lane]);
                     let rows = layout.multiplier_rows().len();
-                    compliance.relax(scale, &room[..rows], &mut violations[..rows]);
+                    regularization.relax(scale, &room[..rows], &mut violations[..rows]);
                     let back = residual[count..].iter_mut().zip(&*violations);
                     back.for_each(|(block, value)| block[lane] = *value);
                 }

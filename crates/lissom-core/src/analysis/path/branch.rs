@@ -13,7 +13,7 @@ const DISTANCES: [f64; 6] = [0.02, 0.05, 0.01, 0.1, 0.005, 0.2];
 /// Distances beside the bifurcation, over the step, at which the mode is found.
 const ASIDE: [f64; 8] = [0.0, -1e-7, 1e-7, -1e-6, 1e-6, -1e-5, -1e-4, -1e-3];
 /// The part of a step that goes on along the path that was followed is at most this.
-const MOST_STRAIGHT_ON: f64 = 0.9;
+const MAX_STRAIGHT_ON: f64 = 0.9;
 
 /// Which branch is to be followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -116,7 +116,7 @@ impl EquilibriumPath {
                     report.iterations += found.iterations;
                     let length = self.work.length_of_last();
                     let straight_on = self.work.inner(self.work.total(), &departure.along).abs();
-                    if straight_on > MOST_STRAIGHT_ON * length {
+                    if straight_on > MAX_STRAIGHT_ON * length {
                         report.rejected += 1;
                         continue;
                     }

@@ -9,14 +9,14 @@ use crate::analysis::StepError;
 use crate::system::State;
 
 /// Most evaluations of a search.
-const MOST_TRIALS: usize = 60;
+const MAX_TRIALS: usize = 60;
 /// A search ends when it knows the distance to this part of the step.
 const NARROW: f64 = 1e-10;
 /// A search ends when the rate is this part of what it is at the ends of the step.
 const FLAT: f64 = 1e-11;
 
 /// Trials in a row that may fail.
-const MOST_FAILURES: usize = 2;
+const MAX_FAILURES: usize = 2;
 /// Over this part of the step the signature is straight: the square of it is what its zero errs by.
 const STRAIGHT: f64 = 1e-4;
 
@@ -179,7 +179,7 @@ impl EquilibriumPath {
         let scale = first.rate.abs().max(last.rate.abs());
         let mut weights = [1.0, 1.0];
         let mut best = if low.rate.abs() < high.rate.abs() { low } else { high };
-        for _ in 0..MOST_TRIALS {
+        for _ in 0..MAX_TRIALS {
             let (a, b) = (weights[0] * low.rate, weights[1] * high.rate);
             let distance = low.distance - a * (high.distance - low.distance) / (b - a);
             // At the limit itself the stiffness has no factors.
@@ -211,7 +211,7 @@ impl EquilibriumPath {
     ) -> ChangeOfCount {
         let (mut low, mut high) = (first, last);
         let mut failures = 0;
-        for trial in 0..MOST_TRIALS {
+        for trial in 0..MAX_TRIALS {
             let width = high.distance - low.distance;
             if width <= NARROW * last.distance {
                 break;
@@ -230,7 +230,7 @@ impl EquilibriumPath {
             };
             let Ok(next) = self.trial(start, low.distance + part * width, iterations) else {
                 failures += 1;
-                if failures > MOST_FAILURES {
+                if failures > MAX_FAILURES {
                     break;
                 }
                 continue;

@@ -7,7 +7,7 @@ use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern};
 
 use super::super::StepError;
-use super::super::compliance::{Compliance, Refinement};
+use super::super::regularization::{Refinement, Regularization};
 use super::super::step_error::{NO_STEP_HELPS, pivot_hint};
 use super::super::workspace::sizes;
 use super::systems::PathSystems;
@@ -16,13 +16,13 @@ use crate::equilibration::Equilibration;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
 use crate::newton::{Correction, Equations, Failure};
-use crate::numbers::{Number, Numbers};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Scratch, State, Sum, System, TangentAssembler};
+use crate::tuning::{Tuning, TuningParameter};
 
 /// Corrections larger than this are cut short [-, rad].
-const LARGEST_CORRECTION: f64 = 0.5;
+const MAX_CORRECTION: f64 = 0.5;
 /// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
 const INVERSE_ITERATIONS: usize = 4;
 
@@ -55,7 +55,7 @@ pub(super) struct PathWork {
     scaled: Scaled,
     solver: Box<dyn LinearSolver<f64>>,
     equilibration: Equilibration,
-    compliance: Option<Compliance>,
+    regularization: Option<Regularization>,
     refinement: Refinement<f64>,
     /// Whether the tangent factored last is symmetric: without that its negative pivots count nothing but the sign of its determinant.
     is_symmetric: bool,
@@ -111,7 +111,7 @@ impl PathWork {
             scaled: Scaled::new(&settings.scaling, &representative, 1.0),
             solver: (settings.solver.real)(loaded.structure()),
             equilibration: Equilibration::new(size, count),
-            compliance: None,
+            regularization: None,
             refinement: Refinement::new(),
             is_symmetric: true,
             values: vec![0.0; entries],
@@ -365,19 +365,19 @@ impl PathEquations<'_> {
         let pattern = &system.structure().pattern;
         work.equilibration.apply(pattern, &mut work.values);
         work.is_symmetric = is_symmetric(pattern, &work.values, count);
-        if let Some(compliance) = &mut work.compliance {
+        if let Some(regularization) = &mut work.regularization {
             work.refinement.start(&work.values);
-            compliance.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
+            regularization.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
         }
         let mut result = work.solver.factor(&work.values);
         if let Err(FactorError::ZeroPivot { unknown, .. }) = result
             && unknown >= count
-            && work.compliance.is_none()
+            && work.regularization.is_none()
         {
-            let mut compliance = Compliance::new(pattern, count);
+            let mut regularization = Regularization::new(pattern, count);
             work.refinement.start(&work.values);
-            compliance.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
-            work.compliance = Some(compliance);
+            regularization.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
+            work.regularization = Some(regularization);
             result = work.solver.factor(&work.values);
         }
         work.report = Some(result?);
@@ -517,11 +517,11 @@ impl Equations for PathEquations<'_> {
         rows.copy_from_slice(&self.work.residual);
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
-        if let Some(compliance) = &work.compliance {
+        if let Some(regularization) = &work.regularization {
             // The compliance is in the factors alone, and violations are corrected whole. What cannot be corrected, because
             // constraints repeat each other, is round-off, and would accumulate in the multipliers.
             let factor = work.scaled.multiplier_factor() * work.scaled.scale();
-            let allowances = compliance.allowances(factor, &work.multipliers);
+            let allowances = regularization.allowances(factor, &work.multipliers);
             for ((value, unit), allowance) in
                 rows[count..].iter_mut().zip(&work.violation_sizes).zip(allowances)
             {
@@ -557,8 +557,8 @@ impl Equations for PathEquations<'_> {
             self.note_nothing();
             return Correction { size: f64::NAN, reference: 0.0 };
         }
-        if size > LARGEST_CORRECTION {
-            let cut = LARGEST_CORRECTION / size;
+        if size > MAX_CORRECTION {
+            let cut = MAX_CORRECTION / size;
             for value in &mut change.rows {
                 *value *= cut;
             }
@@ -577,7 +577,7 @@ impl Equations for PathEquations<'_> {
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         // The stresses of an iterate far from equilibrium are no guide.
-        let is_far = self.work.correction > Numbers::default().of(Number::Far);
+        let is_far = self.work.correction > Tuning::default().of(TuningParameter::Far);
         self.factor(is_far)
     }
 

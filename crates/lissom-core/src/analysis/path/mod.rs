@@ -17,7 +17,7 @@ use lissom_solver::SolverKind;
 
 use super::StepError;
 use crate::kinematics::Kinematics;
-use crate::newton::{self, Limits, Memory};
+use crate::newton::{self, JacobianState, Limits};
 use crate::scaling::ScalingChoice;
 use crate::stepping::ArcControl;
 use crate::system::{State, System};
@@ -572,8 +572,8 @@ impl EquilibriumPath {
             work: &mut self.work,
         };
         equations.begin();
-        let mut memory = Memory::default();
-        let outcome = newton::solve(&mut equations, &self.settings.limits, &mut memory)
+        let mut jacobian = JacobianState::default();
+        let outcome = newton::solve(&mut equations, &self.settings.limits, &mut jacobian)
             .map_err(|failure| equations.describe(&failure))?;
         equations.finish(outcome.iterations)
     }

@@ -42,22 +42,22 @@ struct StationBlock<const N: usize> {
 }
 
 /// Most nodes of a beam.
-const MOST_NODES: usize = 4;
+const MAX_NODES: usize = 4;
 
 /// Node motions and forces of one block.
 struct Scratch {
-    frames: [Frames; MOST_NODES],
-    twists: [Screws; MOST_NODES],
-    results: [Screws; MOST_NODES],
+    frames: [Frames; MAX_NODES],
+    twists: [Screws; MAX_NODES],
+    results: [Screws; MAX_NODES],
 }
 
 thread_local! {
     /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
     static SCRATCH: RefCell<Scratch> = const {
         RefCell::new(Scratch {
-            frames: [[[0.0; WIDTH]; 7]; MOST_NODES],
-            twists: [[[0.0; WIDTH]; 6]; MOST_NODES],
-            results: [[[0.0; WIDTH]; 6]; MOST_NODES],
+            frames: [[[0.0; WIDTH]; 7]; MAX_NODES],
+            twists: [[[0.0; WIDTH]; 6]; MAX_NODES],
+            results: [[[0.0; WIDTH]; 6]; MAX_NODES],
         })
     };
 }

@@ -378,7 +378,7 @@ impl<const N: usize> Element for Beam<N> {
         (0..N).map(rate).reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
-    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+    fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         // With unit quaternions of the two frames, their scalar product is the cosine of half the angle between them.
         let quaternion = |i: usize| {
             let rotation = at.nodes[self.nodes[i]].frame.rotation;

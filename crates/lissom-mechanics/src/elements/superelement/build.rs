@@ -5,14 +5,14 @@ use nalgebra::DMatrix;
 
 use super::deformation::Deformation;
 use super::matrices::{Damping, rigid_motion};
-use super::{LARGEST_SPIN, LARGEST_SPIN_KNOWN, ReducedMatrices, Superelement};
+use super::{MAX_SPIN, MAX_SPIN_KNOWN, ReducedMatrices, Superelement};
 use crate::elements::contribution::Contribution;
 use crate::elements::initial_model::InitialModel;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use crate::registry::ParameterError;
 
 /// Most unknowns of a superelement.
-const MOST: usize = 255;
+const MAX_UNKNOWNS: usize = 255;
 
 /// An interface of a superelement.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,9 +49,10 @@ pub fn superelement(
 ) -> Result<(Contribution, Deformation), ParameterError> {
     let SuperelementDescription { name, frame, interfaces, floating, matrices } = description;
     let (size, first) = (matrices.mass.nrows(), 6 * interfaces.len());
-    if size > MOST {
-        let words =
-            format!("has {size} rows: a superelement has at most {MOST}; leave out interfaces or modes");
+    if size > MAX_UNKNOWNS {
+        let words = format!(
+            "has {size} rows: a superelement has at most {MAX_UNKNOWNS}; leave out interfaces or modes"
+        );
         return Err(ParameterError::new("mass", words));
     }
     let mut contribution = Contribution::to(model);
@@ -82,7 +83,7 @@ pub fn superelement(
         preload,
         geometric: matrices.geometric.as_ref().map(|own| Box::new(own.scaled(factor))),
     };
-    let most = if matrices.geometric.is_some() { LARGEST_SPIN_KNOWN } else { LARGEST_SPIN };
+    let most = if matrices.geometric.is_some() { MAX_SPIN_KNOWN } else { MAX_SPIN };
     let gravity = model.gravity.clone();
     let spin = matrices.first_frequency_held(*floating).map(|rate| most * rate);
     let element =

@@ -190,31 +190,31 @@ impl Centre {
     }
 
     /// Adds the derivatives of the forces.
-    pub(super) fn add_tangents(&self, of: &Part, room: &mut Derivatives, out: &mut Tangents) {
+    pub(super) fn add_tangents(&self, of: &Part, scratch: &mut Derivatives, out: &mut Tangents) {
         self.add_mass(of.total, &mut out.mass);
-        self.differentiate(of, room);
+        self.differentiate(of, scratch);
         let size = self.gradient.len();
         for (i, row) in self.gradient.iter().enumerate() {
             for j in 0..size {
-                out.stiffness[i * size + j] += of.total * row.dot(&room.by_place.column(j));
-                out.damping[i * size + j] += of.total * row.dot(&room.by_twist.column(j));
+                out.stiffness[i * size + j] += of.total * row.dot(&scratch.by_place.column(j));
+                out.damping[i * size + j] += of.total * row.dot(&scratch.by_twist.column(j));
             }
         }
         self.add_geometric(of, out);
     }
 
     /// ∂(a_c - R_fᵀ g) by places and twists.
-    fn differentiate(&self, of: &Part, room: &mut Derivatives) {
-        room.clear(of.size());
+    fn differentiate(&self, of: &Part, scratch: &mut Derivatives) {
+        scratch.clear(of.size());
         let frame = 6 * of.frame;
         let spin = skew(&self.spin);
         let centrifugal = skew(&self.spin_rate) + spin * spin;
         // δ(R_fᵀ g) = (R_fᵀ g)~ θ_f.
-        add(&mut room.by_place, frame + 3, &-skew(&self.gravity));
-        add(&mut room.by_twist, frame, &spin);
+        add(&mut scratch.by_place, frame + 3, &-skew(&self.gravity));
+        add(&mut scratch.by_twist, frame, &spin);
         let whirling = -skew(&self.spin.cross(&self.place)) - spin * skew(&self.place);
         let of_spin = -skew(&self.velocity) + whirling - 2.0 * skew(&self.rate);
-        add(&mut room.by_twist, frame + 3, &of_spin);
+        add(&mut scratch.by_twist, frame + 3, &of_spin);
         for (i, seen) in self.seen.iter().enumerate() {
             let Some(seen) = seen else { continue };
             let (y, z) = (translation_part(&seen.twist), rotation_part(&seen.twist));
@@ -247,17 +247,17 @@ impl Centre {
                 + map * acceleration_by_place
                 + second_by_twist * twist_by_place;
             let by_place = centrifugal * map + 2.0 * spin * rate_by_place + second_by_place;
-            add_six(&mut room.by_place, 6 * i, &by_place);
-            add_six(&mut room.by_place, frame, &(-by_place * seen.to_own));
+            add_six(&mut scratch.by_place, 6 * i, &by_place);
+            add_six(&mut scratch.by_place, frame, &(-by_place * seen.to_own));
             // By twists: δ(y, z) = δV - A δV_f, and its rate has -[A V_f, ·] of that and [(y, z), A δV_f].
             let by_relative = 2.0 * spin * map + second_by_twist - map * carried;
-            add_six(&mut room.by_twist, 6 * i, &by_relative);
-            add_six(&mut room.by_twist, frame, &((map * own - by_relative) * seen.to_own));
+            add_six(&mut scratch.by_twist, 6 * i, &by_relative);
+            add_six(&mut scratch.by_twist, frame, &((map * own - by_relative) * seen.to_own));
         }
         for k in 6 * of.nodes.len()..of.size() {
             let column = self.gradient[k];
-            room.by_place.set_column(k, &(centrifugal * column));
-            room.by_twist.set_column(k, &(2.0 * spin * column));
+            scratch.by_place.set_column(k, &(centrifugal * column));
+            scratch.by_twist.set_column(k, &(2.0 * spin * column));
         }
     }
 

@@ -23,9 +23,9 @@ use super::vectors::three;
 use crate::kinematics::Kinematics;
 
 /// Error of forces, as a share of the largest inertial or elastic force of the element, from which on a warning is given.
-pub(super) const LARGEST_ERROR: f64 = 0.05;
+pub(super) const MAX_ERROR: f64 = 0.05;
 /// Share of the mass that makes a mode count.
-const LEAST: f64 = 0.01;
+const MIN_MASS_FRACTION: f64 = 0.01;
 
 /// Maps of accelerations ÿ to errors of forces [kg].
 #[derive(Clone, Debug)]
@@ -53,7 +53,7 @@ impl LeftOut {
         let mut error = Matrix3xX::zeros(element.size());
         for axis in 0..3 {
             let shares = momenta.row(axis).map(|own| own * own / element.total);
-            let counts = (0..rows.len()).filter(|&mode| shares[mode] > LEAST);
+            let counts = (0..rows.len()).filter(|&mode| shares[mode] > MIN_MASS_FRACTION);
             let Some(last) = counts.max_by(|&a, &b| eigenvalues[a].total_cmp(&eigenvalues[b])) else {
                 continue;
             };

@@ -7,8 +7,8 @@ use lissom_motion::{
 };
 use nalgebra::{DMatrix, Matrix3x6};
 
+use super::element_scratch::ElementScratch;
 use super::part::Part;
-use super::room::Room;
 use super::vectors::three;
 use crate::elements::{Tangents, add_block};
 
@@ -135,9 +135,9 @@ fn rotations(of: impl Fn(&Vector6, &Vector6) -> Matrix6, angles: &Vector3, other
 }
 
 impl Maps {
-    fn fill(&mut self, of: &Part, room: &Room) {
+    fn fill(&mut self, of: &Part, scratch: &ElementScratch) {
         let zero = Matrix3::zeros();
-        let spin = skew(&room.twist[1]);
+        let spin = skew(&scratch.twist[1]);
         self.displacement.begin(true);
         self.rate.begin(false);
         self.velocity.begin(true);
@@ -145,22 +145,22 @@ impl Maps {
         self.acceleration_by_twist.begin(false);
         self.acceleration_by_place.begin(false);
         for i in 0..of.nodes.len() {
-            let turn = room.turns[i];
-            let [v, w] = [0, 3].map(|part| turn.tr_mul(&three(&room.velocity, 6 * i + part)));
+            let turn = scratch.turns[i];
+            let [v, w] = [0, 3].map(|part| turn.tr_mul(&three(&scratch.velocity, 6 * i + part)));
             let (speed, turning) =
-                (skew(&three(&room.velocity, 6 * i)), skew(&three(&room.velocity, 6 * i + 3)));
+                (skew(&three(&scratch.velocity, 6 * i)), skew(&three(&scratch.velocity, 6 * i + 3)));
             if i == of.frame {
                 self.displacement.push(&Matrix6::zeros(), &Matrix6::zeros());
                 self.rate.push(&Matrix6::zeros(), &Matrix6::zeros());
             } else {
-                let inverse = room.inverse_tangents[i];
-                let angles = three(&room.displacement, 6 * i + 3);
-                let arm = skew(&room.arms[i]);
+                let inverse = scratch.inverse_tangents[i];
+                let angles = three(&scratch.displacement, 6 * i + 3);
+                let arm = skew(&scratch.arms[i]);
                 let own = blocks((turn, zero), (zero, inverse));
                 let by_frame = blocks((-Matrix3::identity(), arm), (zero, -inverse * turn.transpose()));
                 // ∂u̇: of r by v̂ and by r; of log E by the angles, and by what is seen of ω_f.
-                let bent = rotations(inverse_tangent_derivative, &angles, &room.relative_spins[i]);
-                let seen = turn.tr_mul(&room.twist[1]);
+                let bent = rotations(inverse_tangent_derivative, &angles, &scratch.relative_spins[i]);
+                let seen = turn.tr_mul(&scratch.twist[1]);
                 let rate_own =
                     blocks((-spin * turn, -turn * skew(&v)), (zero, bent * inverse - inverse * skew(&seen)));
                 let rate_frame = blocks(
@@ -178,7 +178,7 @@ impl Maps {
                 &blocks((turn * skew(&w) - spin * turn, turned.0), (zero, -spin * turn)),
                 &blocks((zero, speed), (zero, turning)),
             );
-            let [linear, angular] = room.own_accelerations[i].map(|own| skew(&own));
+            let [linear, angular] = scratch.own_accelerations[i].map(|own| skew(&own));
             // E ã = (E a)~ E.
             self.acceleration_by_place.push(
                 &blocks((zero, -linear * turn - spin * turned.0), (zero, -angular * turn - spin * turned.1)),
@@ -188,10 +188,10 @@ impl Maps {
     }
 
     /// The mass matrix, row after row.
-    pub(super) fn mass(&mut self, of: &Part, room: &Room, out: &mut Vec<f64>) {
+    pub(super) fn mass(&mut self, of: &Part, scratch: &ElementScratch, out: &mut Vec<f64>) {
         self.velocity.begin(true);
         let zero = Matrix3::zeros();
-        for turn in &room.turns {
+        for turn in &scratch.turns {
             self.velocity.push(&blocks((*turn, zero), (zero, *turn)), &Matrix6::zeros());
         }
         out.clear();
@@ -201,8 +201,8 @@ impl Maps {
     }
 
     /// Adds the derivatives of elastic and viscous forces; the room holds motion and stress.
-    pub(super) fn add_elastic_tangents(&mut self, of: &Part, room: &Room, out: &mut Tangents) {
-        self.fill(of, room);
+    pub(super) fn add_elastic_tangents(&mut self, of: &Part, scratch: &ElementScratch, out: &mut Tangents) {
+        self.fill(of, scratch);
         let frame = of.frame;
         // Elastic and viscous.
         self.displacement.after(&of.stiffness, frame, &mut self.first);
@@ -213,34 +213,34 @@ impl Maps {
             self.first += &self.second;
         }
         self.displacement.add_before(&self.first, frame, &mut out.stiffness);
-        geometric(of, room, &mut out.stiffness);
+        geometric(of, scratch, &mut out.stiffness);
     }
 
     /// Adds the derivatives of inertial forces, after those of elastic ones; the room holds motion and momenta.
-    pub(super) fn add_inertial_tangents(&mut self, of: &Part, room: &Room, out: &mut Tangents) {
+    pub(super) fn add_inertial_tangents(&mut self, of: &Part, scratch: &ElementScratch, out: &mut Tangents) {
         let frame = of.frame;
         self.velocity.after(&of.mass, frame, &mut self.first);
         self.velocity.add_before(&self.first, frame, &mut out.mass);
         self.acceleration_by_twist.after(&of.mass, frame, &mut self.second);
-        self.add_momenta(of, room, false, &mut out.damping);
+        self.add_momenta(of, scratch, false, &mut out.damping);
         self.velocity_by_place.after(&of.mass, frame, &mut self.first);
         self.acceleration_by_place.after(&of.mass, frame, &mut self.second);
-        self.add_momenta(of, room, true, &mut out.stiffness);
+        self.add_momenta(of, scratch, true, &mut out.stiffness);
     }
 
     /// Adds the derivatives of the inertial forces: `first` holds those of p, `second` those of ṗ.
-    fn add_momenta(&mut self, of: &Part, room: &Room, by_place: bool, out: &mut [f64]) {
+    fn add_momenta(&mut self, of: &Part, scratch: &ElementScratch, by_place: bool, out: &mut [f64]) {
         let size = of.size();
         let frame = of.frame;
-        let spin = skew(&room.twist[1]);
+        let spin = skew(&scratch.twist[1]);
         make_room(&mut self.on_frame, 3, size);
         make_room(&mut self.six, 6, size);
         for i in 0..of.nodes.len() {
-            let turn = room.turns[i];
-            let p = skew(&three(&room.momentum, 6 * i));
-            let l = skew(&three(&room.momentum, 6 * i + 3));
-            let speed = skew(&three(&room.velocity, 6 * i));
-            let turning = skew(&three(&room.velocity, 6 * i + 3));
+            let turn = scratch.turns[i];
+            let p = skew(&three(&scratch.momentum, 6 * i));
+            let l = skew(&three(&scratch.momentum, 6 * i + 3));
+            let speed = skew(&three(&scratch.velocity, 6 * i));
+            let turning = skew(&three(&scratch.velocity, 6 * i + 3));
             self.six.copy_from(&self.first.rows(6 * i, 6));
             add_three(&mut self.second, 6 * i, &spin, &self.six, 0);
             add_three(&mut self.second, 6 * i + 3, &(spin - turning), &self.six, 3);
@@ -254,7 +254,7 @@ impl Maps {
                 add_to(&mut self.second, (6 * i + 3, columns), &angular);
                 add_to(&mut self.on_frame, (0, columns), &(linear - angular));
             }
-            let [force, moment] = room.inertial(i);
+            let [force, moment] = scratch.inertial(i);
             if by_place {
                 for (part, own) in [(0, force), (3, moment)] {
                     // δ(Eᵀ s) = (Eᵀ s)~ θ_i - Eᵀ s̃ θ_f.
@@ -287,12 +287,12 @@ fn add_to<const R: usize, const C: usize>(
 }
 
 /// Adds what the forces conjugate to u do while their directions turn.
-fn geometric(of: &Part, room: &Room, out: &mut [f64]) {
+fn geometric(of: &Part, scratch: &ElementScratch, out: &mut [f64]) {
     let size = of.size();
     let rotation = 6 * of.frame + 3;
     for i in (0..of.nodes.len()).filter(|&i| i != of.frame) {
-        let (turn, inverse) = (room.turns[i], room.inverse_tangents[i]);
-        let (force, moment) = (three(&room.stress, 6 * i), three(&room.stress, 6 * i + 3));
+        let (turn, inverse) = (scratch.turns[i], scratch.inverse_tangents[i]);
+        let (force, moment) = (three(&scratch.stress, 6 * i), three(&scratch.stress, 6 * i + 3));
         let own = 6 * i + 3;
         // Eᵀ f.
         add_block(out, size, (6 * i, own), &skew(&turn.tr_mul(&force)));
@@ -301,10 +301,10 @@ fn geometric(of: &Part, room: &Room, out: &mut [f64]) {
         let force = skew(&force);
         add_block(out, size, (rotation, 6 * i), &(force * turn));
         add_block(out, size, (rotation, 6 * of.frame), &-force);
-        add_block(out, size, (rotation, rotation), &(force * skew(&room.arms[i])));
+        add_block(out, size, (rotation, rotation), &(force * skew(&scratch.arms[i])));
         // T⁻ᵀ m, and on the frame what balances it.
         let local = inverse.tr_mul(&moment);
-        let angles = three(&room.displacement, own);
+        let angles = three(&scratch.displacement, own);
         let bent = rotations(inverse_tangent_transpose_derivative, &angles, &moment) * inverse;
         let seen = bent * turn.transpose();
         add_block(out, size, (own, own), &bent);

@@ -31,7 +31,7 @@ use super::part::Part;
 use super::vectors::three;
 
 /// Share of the stiffness from which on a warning reports it.
-pub(super) const LARGEST_SHARE: f64 = 0.005;
+pub(super) const MAX_SHARE: f64 = 0.005;
 /// Bending below this part of the size of the element, and of its elongation, is nothing to be right about.
 const NO_BENDING: [f64; 2] = [1e-7, 1.0];
 /// Eigenvalues below this part of the largest are those of mechanisms.

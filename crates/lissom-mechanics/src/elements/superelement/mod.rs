@@ -28,6 +28,7 @@
 mod build;
 mod centre;
 mod deformation;
+mod element_scratch;
 mod forces;
 mod geometric;
 mod left_out;
@@ -36,7 +37,6 @@ mod load_stiffness;
 mod matrices;
 mod part;
 mod relative;
-mod room;
 mod second_order;
 mod step_stages;
 mod turning;
@@ -49,16 +49,16 @@ use lissom_motion::Vector3;
 pub use self::build::{InterfacePlace, SuperelementDescription, superelement};
 use self::centre::{Centre, Derivatives};
 pub use self::deformation::Deformation;
+use self::element_scratch::ElementScratch;
 pub use self::geometric::PAIRS;
 pub use self::geometric::{GeometricMatrices, Shortening, TurningMatrices};
-use self::left_out::{LARGEST_ERROR, LeftOut};
+use self::left_out::{LeftOut, MAX_ERROR};
 use self::linearize::Maps;
 pub use self::load_stiffness::flexibility;
-use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
+use self::load_stiffness::{LoadStiffness, MAX_SHARE};
 pub use self::matrices::rigid_column;
 pub use self::matrices::{Damping, ReducedMatrices};
 use self::part::Part;
-use self::room::Room;
 use self::second_order::{Deformed, SecondOrder};
 use self::vectors::{product, three};
 use super::inertia::Gravity;
@@ -68,15 +68,15 @@ use crate::kinematics::{CoordinateId, Kinematics, NodeId, split};
 
 /// Elastic rotation of an interface against the floating frame from which on a warning reports it [rad]: forces that grow by the square
 /// of the rotation are a few hundredths of the others.
-pub const LARGEST_ROTATION: f64 = 0.2;
+pub const MAX_ROTATION: f64 = 0.2;
 /// Elastic displacement of an interface from which on it does, as part of its distance from the floating frame.
-pub const LARGEST_DISPLACEMENT: f64 = 0.15;
+pub const MAX_DISPLACEMENT: f64 = 0.15;
 
 /// Rate of rotation from which on the stiffness by centrifugal forces is missed, over the first natural frequency with the
 /// floating interface held: its square is the part of the stiffness.
-pub const LARGEST_SPIN: f64 = 0.25;
+pub const MAX_SPIN: f64 = 0.25;
 /// The same with matrices that know it, to first order in the square.
-pub const LARGEST_SPIN_KNOWN: f64 = 1.0;
+pub const MAX_SPIN_KNOWN: f64 = 1.0;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
@@ -94,9 +94,9 @@ pub struct Superelement {
 
 /// Room of this thread, so that nothing is allocated once it is large enough.
 #[derive(Default)]
-struct Rooms {
-    own: Room,
-    stages: [Room; STAGES],
+struct ThreadScratch {
+    own: ElementScratch,
+    stages: [ElementScratch; STAGES],
     centre: Centre,
     maps: Maps,
     derivatives: Derivatives,
@@ -105,7 +105,7 @@ struct Rooms {
 }
 
 thread_local! {
-    static ROOMS: RefCell<Rooms> = RefCell::default();
+    static SCRATCH: RefCell<ThreadScratch> = RefCell::default();
 }
 
 impl Superelement {
@@ -165,20 +165,20 @@ impl Element for Superelement {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
-            room.enter(&self.part, at);
-            self.part.stress(room);
-            self.part.add_conjugate(room, &room.stress, out);
+        SCRATCH.with_borrow_mut(|ThreadScratch { own: scratch, centre, second, .. }| {
+            scratch.enter(&self.part, at);
+            self.part.stress(scratch);
+            self.part.add_conjugate(scratch, &scratch.stress, out);
             if let Some(law) = &self.second_order {
                 second.add_forces(&self.part, law, at, out);
             } else {
-                self.part.add_inertia(at, room, centre, out);
+                self.part.add_inertia(at, scratch, centre, out);
             }
         });
     }
 
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages, centre, second, .. }| {
+        SCRATCH.with_borrow_mut(|ThreadScratch { own, stages, centre, second, .. }| {
             let has_inertia = self.second_order.is_none();
             self.part.add_stage_forces(step, (own, stages, centre), has_inertia, out);
             if let Some(law) = &self.second_order {
@@ -194,8 +194,8 @@ impl Element for Superelement {
     }
 
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        ROOMS.with_borrow_mut(
-            |Rooms { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
+        SCRATCH.with_borrow_mut(
+            |ThreadScratch { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
                 other.enter(&self.part, stressed);
                 self.part.stress(other);
                 own.enter(&self.part, at);
@@ -214,7 +214,7 @@ impl Element for Superelement {
     }
 
     fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        ROOMS.with_borrow_mut(|Rooms { own, centre, maps, second, .. }| {
+        SCRATCH.with_borrow_mut(|ThreadScratch { own, centre, maps, second, .. }| {
             if let Some(law) = &self.second_order {
                 out.clear();
                 out.resize(self.part.size() * self.part.size(), 0.0);
@@ -233,28 +233,28 @@ impl Element for Superelement {
         if self.second_order.is_none() {
             return true;
         }
-        let mut matrix = ROOMS.with_borrow_mut(|rooms| std::mem::take(&mut rooms.mass));
+        let mut matrix = SCRATCH.with_borrow_mut(|scratch| std::mem::take(&mut scratch.mass));
         self.mass(at, &mut matrix);
         let is_positive = is_positive_definite(&mut matrix, self.part.size());
-        ROOMS.with_borrow_mut(|rooms| rooms.mass = matrix);
+        SCRATCH.with_borrow_mut(|scratch| scratch.mass = matrix);
         is_positive
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
-        ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
-            room.enter(&self.part, at);
+        SCRATCH.with_borrow_mut(|ThreadScratch { own: scratch, centre, second, .. }| {
+            scratch.enter(&self.part, at);
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            product(&self.part.stiffness, &room.displacement, &mut room.stress);
-            let strain = 0.5 * dot(&room.stress, &room.displacement)
-                + dot(self.part.preload.as_slice(), &room.displacement);
+            product(&self.part.stiffness, &scratch.displacement, &mut scratch.stress);
+            let strain = 0.5 * dot(&scratch.stress, &scratch.displacement)
+                + dot(self.part.preload.as_slice(), &scratch.displacement);
             if let Some(law) = &self.second_order {
                 let own = second.energy(&self.part, law, at);
                 return Energy { strain: strain + own.strain, ..own };
             }
             centre.enter(&self.part, at);
-            self.part.momenta(room);
+            self.part.momenta(scratch);
             let of_centre = self.part.total * centre.velocity().norm_squared();
-            let kinetic = 0.5 * (dot(&room.velocity, &room.momentum) + of_centre);
+            let kinetic = 0.5 * (dot(&scratch.velocity, &scratch.momentum) + of_centre);
             let node = &at.nodes[self.part.nodes[self.part.frame]].frame;
             let place = node.position + node.rotation.apply(&centre.place());
             let potential = -self.part.total * self.part.gravity.acceleration.dot(&place);
@@ -264,10 +264,10 @@ impl Element for Superelement {
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
         let reach = self.part.reach();
-        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
-            room.enter(&self.part, at);
+        SCRATCH.with_borrow_mut(|ThreadScratch { own: scratch, .. }| {
+            scratch.enter(&self.part, at);
             let rate = |i: usize| {
-                let (linear, angular) = (three(&room.rate, 6 * i), three(&room.rate, 6 * i + 3));
+                let (linear, angular) = (three(&scratch.rate, 6 * i), three(&scratch.rate, 6 * i + 3));
                 let linear = if reach > 0.0 { linear.norm() / reach } else { 0.0 };
                 (linear + angular.norm(), self.part.nodes[i])
             };
@@ -277,7 +277,7 @@ impl Element for Superelement {
         })
     }
 
-    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+    fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         let quaternion = |node: NodeId| at.nodes[node].frame.rotation.quaternion();
         let frame = self.part.nodes[self.part.frame];
         let base = quaternion(frame);
@@ -296,32 +296,34 @@ impl Element for Superelement {
         if limit == LinearLimit::Spin {
             return self.largest_spin.map(|most| LinearRange { part: spin.norm() / most, node: frame });
         }
-        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
-            room.enter(&self.part, at);
+        SCRATCH.with_borrow_mut(|ThreadScratch { own: scratch, .. }| {
+            scratch.enter(&self.part, at);
             if limit == LinearLimit::LeftOut {
                 let estimate = self.left_out.as_ref()?;
-                product(&self.part.stiffness, &room.displacement, &mut room.stress);
-                let share = estimate.share(&self.part, at, &room.stress)?;
-                return Some(LinearRange { part: share / LARGEST_ERROR, node: frame });
+                product(&self.part.stiffness, &scratch.displacement, &mut scratch.stress);
+                let share = estimate.share(&self.part, at, &scratch.stress)?;
+                return Some(LinearRange { part: share / MAX_ERROR, node: frame });
             }
             if limit != LinearLimit::Deformation {
                 let estimate = self.load_stiffness.as_ref()?;
-                product(&self.part.stiffness, &room.displacement, &mut room.stress);
+                product(&self.part.stiffness, &scratch.displacement, &mut scratch.stress);
                 let share = match limit {
                     LinearLimit::Moment => {
-                        estimate.share_of_moments(&self.part, (&room.displacement, &room.stress))?
+                        estimate.share_of_moments(&self.part, (&scratch.displacement, &scratch.stress))?
                     }
                     // Matrices of second order know it.
                     _ if self.second_order.is_some() => return None,
-                    _ => estimate.share(&self.part, (&room.displacement, &room.stress, &spin))?,
+                    _ => estimate.share(&self.part, (&scratch.displacement, &scratch.stress, &spin))?,
                 };
-                return Some(LinearRange { part: share / LARGEST_SHARE, node: frame });
+                return Some(LinearRange { part: share / MAX_SHARE, node: frame });
             }
             let deformed = |i: usize| {
-                let (linear, angular) =
-                    (three(&room.displacement, 6 * i).norm(), three(&room.displacement, 6 * i + 3).norm());
-                let by_length = if reach > 0.0 { linear / (LARGEST_DISPLACEMENT * reach) } else { 0.0 };
-                let part = by_length.max(angular / LARGEST_ROTATION);
+                let (linear, angular) = (
+                    three(&scratch.displacement, 6 * i).norm(),
+                    three(&scratch.displacement, 6 * i + 3).norm(),
+                );
+                let by_length = if reach > 0.0 { linear / (MAX_DISPLACEMENT * reach) } else { 0.0 };
+                let part = by_length.max(angular / MAX_ROTATION);
                 LinearRange { part, node: self.part.nodes[i] }
             };
             (0..self.part.nodes.len())

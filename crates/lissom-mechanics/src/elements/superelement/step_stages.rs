@@ -5,8 +5,8 @@
 use lissom_motion::{Vector3, rotation_inverse_tangent, rotation_part};
 
 use super::centre::Centre;
+use super::element_scratch::ElementScratch;
 use super::part::Part;
-use super::room::Room;
 use super::vectors::{product, three};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 
@@ -20,12 +20,12 @@ impl Part {
     pub(super) fn add_stage_forces(
         &self,
         step: &StepStages<'_>,
-        (start, stages, centre): (&mut Room, &mut [Room; STAGES], &mut Centre),
+        (start, stages, centre): (&mut ElementScratch, &mut [ElementScratch; STAGES], &mut Centre),
         has_inertia: bool,
         out: &mut [&mut [f64]; STAGES],
     ) {
-        for (room, at) in stages.iter_mut().zip(step.stages) {
-            room.enter(self, at);
+        for (scratch, at) in stages.iter_mut().zip(step.stages) {
+            scratch.enter(self, at);
         }
         start.enter(self, step.start);
         self.missed(step, start, stages);
@@ -41,33 +41,33 @@ impl Part {
         for row in 0..self.size() {
             let rates = [0, 1].map(|j| stages[j].rate[row] + shares[j] * start.stress[row]);
             let values = step.at_stages(start.displacement[row], rates);
-            for (room, value) in stages.iter_mut().zip(values) {
-                room.displacement[row] = value;
+            for (scratch, value) in stages.iter_mut().zip(values) {
+                scratch.displacement[row] = value;
             }
             (start.velocity[row], start.acceleration[row]) = (rates[0], rates[1]);
         }
         let rates = [&start.velocity, &start.acceleration];
-        for (((room, rates), at), out) in stages.iter_mut().zip(rates).zip(step.stages).zip(out) {
-            room.stress.copy_from_slice(self.preload.as_slice());
-            product(&self.stiffness, &room.displacement, &mut room.stress);
+        for (((scratch, rates), at), out) in stages.iter_mut().zip(rates).zip(step.stages).zip(out) {
+            scratch.stress.copy_from_slice(self.preload.as_slice());
+            product(&self.stiffness, &scratch.displacement, &mut scratch.stress);
             if let Some(damping) = &self.damping {
-                product(damping, rates, &mut room.stress);
+                product(damping, rates, &mut scratch.stress);
             }
             let work: f64 =
-                room.stress.iter().zip(&start.stress).map(|(stress, missed)| stress * missed).sum();
+                scratch.stress.iter().zip(&start.stress).map(|(stress, missed)| stress * missed).sum();
             let factor = inverse * work;
-            for (stress, weighted) in room.stress.iter_mut().zip(self.weighted(&room.rate)) {
+            for (stress, weighted) in scratch.stress.iter_mut().zip(self.weighted(&scratch.rate)) {
                 *stress += factor * weighted;
             }
-            self.add_conjugate(room, &room.stress, out);
+            self.add_conjugate(scratch, &scratch.stress, out);
             if has_inertia {
-                self.add_inertia(at, room, centre, out);
+                self.add_inertia(at, scratch, centre, out);
             }
         }
     }
 
     /// Leaves in the stress of the start what the rates at the stages miss of the change of u over the step.
-    fn missed(&self, step: &StepStages<'_>, start: &mut Room, stages: &[Room; STAGES]) {
+    fn missed(&self, step: &StepStages<'_>, start: &mut ElementScratch, stages: &[ElementScratch; STAGES]) {
         let frame = self.nodes[self.frame];
         let base = step.start.nodes[frame].frame;
         let (first, last) = (step.start, step.end);
@@ -111,7 +111,7 @@ impl Part {
     }
 
     /// How far the element comes over a step, in both directions [m].
-    fn way(&self, step: &StepStages<'_>, stages: &[Room; STAGES]) -> f64 {
+    fn way(&self, step: &StepStages<'_>, stages: &[ElementScratch; STAGES]) -> f64 {
         let of = |j: usize| {
             let square: f64 =
                 self.weighted(&stages[j].velocity).zip(&stages[j].velocity).map(|(w, v)| w * v).sum();
@@ -173,9 +173,9 @@ mod tests {
                 reached: [0.0; STAGES],
                 length: 1.0,
             };
-            let mut stages = [Room::default(), Room::default()];
-            for (room, at) in stages.iter_mut().zip(step.stages) {
-                room.enter(&element, at);
+            let mut stages = [ElementScratch::default(), ElementScratch::default()];
+            for (scratch, at) in stages.iter_mut().zip(step.stages) {
+                scratch.enter(&element, at);
             }
             let wanted = (by_stage[0] * lasting[0].abs()).max(by_stage[1] * lasting[1].abs());
             let found = element.way(&step, &stages);
@@ -239,11 +239,11 @@ mod tests {
                 reached: [0.0; STAGES],
                 length: 1.0,
             };
-            let mut stages = [Room::default(), Room::default()];
-            for (room, at) in stages.iter_mut().zip(step.stages) {
-                room.enter(&element, at);
+            let mut stages = [ElementScratch::default(), ElementScratch::default()];
+            for (scratch, at) in stages.iter_mut().zip(step.stages) {
+                scratch.enter(&element, at);
             }
-            let (mut own, mut last) = (Room::default(), Room::default());
+            let (mut own, mut last) = (ElementScratch::default(), ElementScratch::default());
             own.enter(&element, &start);
             last.enter(&element, &end);
             element.missed(&step, &mut own, &stages);

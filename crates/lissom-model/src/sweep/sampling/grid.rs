@@ -1,7 +1,7 @@
 //! All combinations of the values; the last path varies fastest.
 
 use super::{Draw, SamplingKind};
-use crate::sweep::MOST_MEMBERS;
+use crate::sweep::MAX_MEMBERS;
 
 pub(super) const KIND: SamplingKind = SamplingKind {
     name: "grid",
@@ -12,8 +12,8 @@ pub(super) const KIND: SamplingKind = SamplingKind {
 fn indices(counts: &[usize]) -> Result<Vec<usize>, String> {
     let product = counts.iter().try_fold(1_usize, |product, count| product.checked_mul(*count));
     let members = product
-        .filter(|members| *members <= MOST_MEMBERS)
-        .ok_or_else(|| format!("the grid has more than {MOST_MEMBERS} members"))?;
+        .filter(|members| *members <= MAX_MEMBERS)
+        .ok_or_else(|| format!("the grid has more than {MAX_MEMBERS} members"))?;
     let mut all = vec![0; members * counts.len()];
     for member in 0..members {
         let mut rest = member;

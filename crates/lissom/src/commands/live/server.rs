@@ -91,7 +91,7 @@ impl Site {
             ("GET", "/result") => {
                 let after = query.strip_prefix("after=").and_then(|number| number.parse().ok()).unwrap_or(0);
                 match shared.wait_after(after, PATIENCE) {
-                    Some(told) => answer(stream, 200, "application/json", &told),
+                    Some(published) => answer(stream, 200, "application/json", &published),
                     None => answer(stream, 204, "application/json", ""),
                 }
             }

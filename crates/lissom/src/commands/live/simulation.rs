@@ -39,7 +39,7 @@ struct State {
     /// Counts what is reported; zero before there is anything.
     version: u64,
     /// As JSON.
-    told: Arc<str>,
+    published: Arc<str>,
     /// Values of sliders.
     parameters: BTreeMap<String, f64>,
     /// Counts changes of the sliders.
@@ -57,7 +57,7 @@ impl Shared {
         let is_old = |state: &mut State| state.version == version || state.version == 0;
         let waited = self.changed.wait_timeout_while(self.lock(), patience, is_old);
         let (state, timeout) = waited.unwrap_or_else(PoisonError::into_inner);
-        (!timeout.timed_out()).then(|| Arc::clone(&state.told))
+        (!timeout.timed_out()).then(|| Arc::clone(&state.published))
     }
 
     /// Takes values of sliders; those that are left out go back to the file's.
@@ -68,11 +68,11 @@ impl Shared {
         self.changed.notify_all();
     }
 
-    fn tell(&self, mut message: Message) {
+    fn publish(&self, mut message: Message) {
         let mut state = self.lock();
         state.version += 1;
         message.version = state.version;
-        state.told = message.to_json().into();
+        state.published = message.to_json().into();
         self.changed.notify_all();
     }
 }
@@ -125,7 +125,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             }
             // What was overtaken by a change is not sent.
             if let Some(message) = message.filter(|_| is_current()) {
-                shared.tell(message);
+                shared.publish(message);
             }
             last = Some(now);
         }

@@ -70,7 +70,7 @@ impl Conditioning {
         let path = super::table_path(self.out.as_ref(), "conditioning", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
-        terminal::print(&told(&title, &table));
+        terminal::print(&render(&title, &table));
         let drawn = super::draw(&table.figure(&title), &path)?;
         terminal::print(&format!("results in {}{drawn}\n", path.display()));
         let failed = table.rows.iter().any(|row| row.outcome.is_err());
@@ -86,7 +86,7 @@ impl Conditioning {
     }
 }
 
-fn told(title: &str, table: &Table) -> String {
+fn render(title: &str, table: &Table) -> String {
     let measured: Vec<&Measured> = table.rows.iter().filter_map(|row| row.outcome.as_ref().ok()).collect();
     let mut text = format!("{title}\n");
     if let Some(first) = measured.first() {
@@ -115,7 +115,7 @@ fn told(title: &str, table: &Table) -> String {
                         "step_size {}: ended at {:e} s, after {} steps",
                         row.step,
                         measured.end,
-                        lissom::study::conditioning::MOST_STEPS
+                        lissom::study::conditioning::MAX_STEPS
                     );
                 }
             }

@@ -80,7 +80,7 @@ impl Convergence {
         let path = super::table_path(self.out.as_ref(), "convergence", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
-        terminal::print(&told(&title, &request, &table));
+        terminal::print(&render(&title, &request, &table));
         let mut exit = Exit::Done;
         for row in &table.rows {
             if let Err(error) = &row.outcome {
@@ -108,7 +108,7 @@ impl Convergence {
     }
 }
 
-fn told(title: &str, request: &Request, table: &Table) -> String {
+fn render(title: &str, request: &Request, table: &Table) -> String {
     let mut text = format!("{title}\n");
     let (scheme, step) = &request.reference;
     // Writing to a string cannot fail.

@@ -44,13 +44,13 @@ impl Factorization {
         let path = super::table_path(self.out.as_ref(), "factorization", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.as_deref().unwrap_or(model.name());
-        terminal::print(&told(title, &table));
+        terminal::print(&render(title, &table));
         terminal::print(&format!("results in {}\n", path.display()));
         Ok(Exit::Done)
     }
 }
 
-fn told(title: &str, table: &Table) -> String {
+fn render(title: &str, table: &Table) -> String {
     let mut text = format!("{title}\n");
     // Writing to a string cannot fail.
     let _ = writeln!(

@@ -61,7 +61,7 @@ impl Roundoff {
         let path = super::table_path(self.out.as_ref(), "roundoff", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
-        terminal::print(&told(&title, &request, &table));
+        terminal::print(&render(&title, &request, &table));
         let mut exit = Exit::Done;
         for row in &table.rows {
             if let Err(error) = &row.outcome {
@@ -75,7 +75,7 @@ impl Roundoff {
     }
 }
 
-fn told(title: &str, request: &Request, table: &Table) -> String {
+fn render(title: &str, request: &Request, table: &Table) -> String {
     let mut text = format!("{title}\n");
     // Writing to a string cannot fail.
     let _ = writeln!(

@@ -3,13 +3,13 @@
 
 use crate::kinematics::Kinematics;
 
-/// Where the sides of an element's switches are held; nowhere until the system is built.
+/// Location of the frozen states of an element's switches; none until the system is built.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sides {
+pub struct SwitchStates {
     held: Option<(usize, usize)>,
 }
 
-impl Sides {
+impl SwitchStates {
     /// `count` sides from the held value `first` on.
     pub(crate) fn held_at(first: usize, count: usize) -> Self {
         Self { held: Some((first, count)) }
@@ -22,8 +22,8 @@ impl Sides {
     }
 }
 
-/// Whether a switch of this value is taken to be above zero, given its side if that is known.
-pub fn is_above(side: Option<&f64>, value: f64) -> bool {
+/// Whether a switch of this value is on its upper branch, given its frozen state if there is one.
+pub fn is_on_upper_branch(side: Option<&f64>, value: f64) -> bool {
     match side {
         Some(side) if *side != 0.0 => *side > 0.0,
         _ => value > 0.0,

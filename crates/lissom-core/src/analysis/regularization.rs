@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use crate::equilibration::Equilibration;
 
 /// δ: violations stay below what is solved for; multipliers keep the digits that round-off of violations over δ leaves.
-const YIELD: f64 = 1e-8;
+const COMPLIANCE: f64 = 1e-8;
 
 /// Corrections of a solution whose factors have the compliance of redundant constraints, at most …
 const MAX_REFINEMENTS: usize = 40;
@@ -96,14 +96,14 @@ impl<S: Scalar> Refinement<S> {
 
 /// The compliance of all constraints.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Compliance {
+pub(crate) struct Regularization {
     /// Positions of the multipliers' diagonal entries.
     diagonals: Vec<usize>,
     /// Compliance of each multiplier's scaled equation.
     of: Vec<f64>,
 }
 
-impl Compliance {
+impl Regularization {
     /// Of the multipliers in the rows from `first` on.
     pub(crate) fn new(pattern: &Pattern, first: usize) -> Self {
         let diagonals: Vec<usize> =
@@ -121,8 +121,8 @@ impl Compliance {
         let first = equilibration.map_or(0, |found| found.factors().len() - self.of.len());
         for (k, (&position, of)) in self.diagonals.iter().zip(&mut self.of).enumerate() {
             let (own, square) = match equilibration {
-                Some(found) => (YIELD, found.factors()[first + k].powi(2)),
-                None => (YIELD * scale, 1.0),
+                Some(found) => (COMPLIANCE, found.factors()[first + k].powi(2)),
+                None => (COMPLIANCE * scale, 1.0),
             };
             values[position] -= S::from_parts(own, 0.0);
             *of = own / square;

@@ -4,7 +4,7 @@ use super::Measure;
 use crate::session::Session;
 
 /// Times, values, and derivatives by number of a column.
-pub(super) struct Course {
+pub(super) struct OutputHistory {
     measure: Measure,
     times: Vec<f64>,
     values: Vec<f64>,
@@ -13,7 +13,7 @@ pub(super) struct Course {
     largest: usize,
 }
 
-impl Course {
+impl OutputHistory {
     pub(super) fn new(measure: Measure) -> Self {
         Self { measure, times: Vec::new(), values: Vec::new(), derivatives: Vec::new(), largest: 0 }
     }

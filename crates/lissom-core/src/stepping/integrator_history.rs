@@ -15,18 +15,18 @@
 use lissom_solver::SolverKind;
 
 use crate::analysis::InitialError;
-use crate::analysis::initial::Initial;
+use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::kinematics::LOCKED;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
 /// Where the step grows by more than this at once, as after one that ended at an event, what is known of ȧ and v_B may be
 /// round-off of a short step, which would grow by r² from step to step: a stays, and velocities are made consistent.
-const LARGEST_RATIO: f64 = 2.0;
+const MAX_RATIO: f64 = 2.0;
 
 /// Changes the memory of a state in place.
-pub(crate) struct MethodMemory {
-    initial: Initial,
+pub(crate) struct IntegratorHistory {
+    initial: ConsistentInitialConditions,
     /// Step size that the memory belongs to [s].
     step: f64,
     /// ȧ by row; v_B for the present step size by row.
@@ -37,7 +37,7 @@ pub(crate) struct MethodMemory {
     has_constraints: bool,
 }
 
-impl MethodMemory {
+impl IntegratorHistory {
     pub(crate) fn new(
         system: &System,
         state: &State,
@@ -47,7 +47,7 @@ impl MethodMemory {
     ) -> Self {
         let rows = system.layout().coordinate_count();
         Self {
-            initial: Initial::new(system, state, representative, solver),
+            initial: ConsistentInitialConditions::new(system, state, representative, solver),
             step,
             slope: vec![0.0; rows],
             across: vec![0.0; rows],
@@ -91,7 +91,7 @@ impl MethodMemory {
             self.is_known = true;
         }
         let ratio = step / self.step;
-        let is_known = ratio <= LARGEST_RATIO;
+        let is_known = ratio <= MAX_RATIO;
         if is_known {
             for (value, slope) in state.algorithmic.iter_mut().zip(&self.slope) {
                 *value += delay * (step - self.step) * slope;

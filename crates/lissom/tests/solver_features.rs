@@ -1,9 +1,9 @@
-//! Mechanisms of the search for a step's solution change what it costs, not what is found.
+//! Optional features of the nonlinear solver change what it costs, not what is found.
 
-use lissom::core::mechanisms::WORDS;
+use lissom::core::solver_features::WORDS;
 use lissom::{Model, SessionError};
 
-/// A driven double pendulum with a soft beam at its end: stiff and nonlinear enough for every mechanism to act.
+/// A driven double pendulum with a soft beam at its end: stiff and nonlinear enough for every feature to act.
 const MODEL: &str = r#"
 lissom = 1
 gravity = [0, -9.81, 0]

@@ -1,10 +1,10 @@
-//! The numbers that the search for a step's solution and the choice of steps go by. Each can be halved and doubled, so that a
+//! Parameters of the nonlinear solver and of step-size control. Each can be halved and doubled, so that a
 //! command can show what depends on it. Bounds of round-off and sizes of memories stand where they are used.
 
-/// Something that is decided by a number.
+/// A parameter of the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Number {
+pub enum TuningParameter {
     /// What a new tangent costs, in iterations: some seven of soft-beam-64 and beam-net-4 take as long. It is renewed within
     /// a solution that would need more of them, and when solutions with it have become dearer than a new one.
     TangentCost,
@@ -35,10 +35,10 @@ pub enum Number {
     /// Iterates whose last correction is larger than this are far from equilibrium [-].
     Far,
     /// Corrections of rotations larger than this are cut short [rad].
-    LargestCorrection,
+    MaxCorrection,
     /// Departures from going straight on below this are not resolved for their own sake where states are measured beside
     /// places [-].
-    LeastDeparture,
+    MinDeparture,
     /// A step is chosen this much smaller than its estimated error allows, so that few are rejected.
     Safety,
     /// A step grows by this factor at most.
@@ -51,52 +51,57 @@ pub enum Number {
     /// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
     ShareOfFirst,
     /// After so many parts of a planned step in a row the next one is twice as long.
-    PartsToGrow,
+    StepsToGrow,
 }
 
-/// Every number with its word, its value and where it counts.
-pub const NUMBERS: [(Number, &str, f64, &str); 20] = [
-    (Number::TangentCost, "tangent-cost", 8.0, "iterations that a new tangent costs"),
-    (Number::Novelty, "novelty", 0.05, "weight of the last solution in the cost of solutions"),
-    (Number::Unseen, "unseen", 0.02, "part of the tolerance for solutions whose contraction is not seen"),
-    (Number::Contraction, "contraction", 0.05, "best contraction believed of a kept tangent"),
-    (Number::Stalled, "stalled", 0.5, "contraction of corrections that are round-off"),
-    (Number::Small, "small", 1e-6, "corrections that may be round-off"),
-    (Number::SecantIndependence, "secant-independence", 3e-4, "independence of secants"),
-    (Number::SecantReach, "secant-reach", 10.0, "corrections over the secants used for them"),
-    (Number::SecantCredible, "secant-credible", 0.7, "what a tangent may have missed of a secant"),
+/// Every parameter with its word, its value and where it counts.
+pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 20] = [
+    (TuningParameter::TangentCost, "tangent-cost", 8.0, "iterations that a new tangent costs"),
+    (TuningParameter::Novelty, "novelty", 0.05, "weight of the last solution in the cost of solutions"),
     (
-        Number::PredictionFading,
+        TuningParameter::Unseen,
+        "unseen",
+        0.02,
+        "part of the tolerance for solutions whose contraction is not seen",
+    ),
+    (TuningParameter::Contraction, "contraction", 0.05, "best contraction believed of a kept tangent"),
+    (TuningParameter::Stalled, "stalled", 0.5, "contraction of corrections that are round-off"),
+    (TuningParameter::Small, "small", 1e-6, "corrections that may be round-off"),
+    (TuningParameter::SecantIndependence, "secant-independence", 3e-4, "independence of secants"),
+    (TuningParameter::SecantReach, "secant-reach", 10.0, "corrections over the secants used for them"),
+    (TuningParameter::SecantCredible, "secant-credible", 0.7, "what a tangent may have missed of a secant"),
+    (
+        TuningParameter::PredictionFading,
         "prediction-fading",
         0.5,
         "weight of a step after the next one in predictions",
     ),
     (
-        Number::PredictionCredible,
+        TuningParameter::PredictionCredible,
         "prediction-credible",
         0.5,
         "what a prediction may leave of what was missed",
     ),
-    (Number::Far, "far", 1e-3, "corrections that are far from equilibrium"),
-    (Number::LargestCorrection, "largest-correction", 1.0, "largest correction of a rotation"),
-    (Number::LeastDeparture, "least-departure", 1e-5, "departures resolved beside states"),
-    (Number::Safety, "safety", 0.8, "part of the step that the estimated error allows"),
-    (Number::Growth, "growth", 5.0, "largest growth of a step"),
-    (Number::Kept, "kept", 1.2, "changes of steps that are left out"),
-    (Number::ShareOfStep, "share-of-step", 0.5, "part of the tolerance that a step may err"),
-    (Number::ShareOfFirst, "share-of-first", 0.1, "the same of a first step"),
-    (Number::PartsToGrow, "parts-to-grow", 3.0, "parts of a step until they are doubled"),
+    (TuningParameter::Far, "far", 1e-3, "corrections that are far from equilibrium"),
+    (TuningParameter::MaxCorrection, "largest-correction", 1.0, "largest correction of a rotation"),
+    (TuningParameter::MinDeparture, "least-departure", 1e-5, "departures resolved beside states"),
+    (TuningParameter::Safety, "safety", 0.8, "part of the step that the estimated error allows"),
+    (TuningParameter::Growth, "growth", 5.0, "largest growth of a step"),
+    (TuningParameter::Kept, "kept", 1.2, "changes of steps that are left out"),
+    (TuningParameter::ShareOfStep, "share-of-step", 0.5, "part of the tolerance that a step may err"),
+    (TuningParameter::ShareOfFirst, "share-of-first", 0.1, "the same of a first step"),
+    (TuningParameter::StepsToGrow, "parts-to-grow", 3.0, "parts of a step until they are doubled"),
 ];
 
 /// A planned step, a load step and a correction are halved so often at most.
-pub(crate) const MOST_HALVINGS: u32 = 12;
+pub(crate) const MAX_HALVINGS: u32 = 12;
 
 /// Their words.
-pub const WORDS: [&str; NUMBERS.len()] = {
-    let mut words = [""; NUMBERS.len()];
+pub const WORDS: [&str; TUNING_PARAMETERS.len()] = {
+    let mut words = [""; TUNING_PARAMETERS.len()];
     let mut index = 0;
     while index < words.len() {
-        words[index] = NUMBERS[index].1;
+        words[index] = TUNING_PARAMETERS[index].1;
         index += 1;
     }
     words
@@ -104,25 +109,25 @@ pub const WORDS: [&str; NUMBERS.len()] = {
 
 /// The values in use.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numbers([f64; NUMBERS.len()]);
+pub struct Tuning([f64; TUNING_PARAMETERS.len()]);
 
-impl Default for Numbers {
+impl Default for Tuning {
     fn default() -> Self {
-        Self(std::array::from_fn(|index| NUMBERS[index].2))
+        Self(std::array::from_fn(|index| TUNING_PARAMETERS[index].2))
     }
 }
 
-impl Numbers {
+impl Tuning {
     /// The value of one.
-    pub fn of(&self, number: Number) -> f64 {
-        self.0[number as usize]
+    pub fn of(&self, parameter: TuningParameter) -> f64 {
+        self.0[parameter as usize]
     }
 
-    /// With those of these words `factor` times as large; none where a word means nothing.
+    /// With the parameters of these words `factor` times as large; none where a word means nothing.
     pub fn times<'a>(mut self, words: impl IntoIterator<Item = &'a str>, factor: f64) -> Option<Self> {
         for word in words {
-            let (number, ..) = NUMBERS.iter().find(|(_, name, ..)| *name == word)?;
-            self.0[*number as usize] *= factor;
+            let (parameter, ..) = TUNING_PARAMETERS.iter().find(|(_, name, ..)| *name == word)?;
+            self.0[*parameter as usize] *= factor;
         }
         Some(self)
     }
@@ -134,13 +139,13 @@ mod tests {
 
     #[test]
     fn words_change_what_they_name_and_nothing_else() {
-        for (index, (number, word, value, _)) in NUMBERS.into_iter().enumerate() {
-            assert_eq!(number as usize, index, "{word} stands at its place");
-            let changed = Numbers::default().times([word], 2.0).expect("a word of the table");
-            for (other, _, whole, _) in NUMBERS {
-                assert_eq!(changed.of(other), if other == number { 2.0 * value } else { whole });
+        for (index, (parameter, word, value, _)) in TUNING_PARAMETERS.into_iter().enumerate() {
+            assert_eq!(parameter as usize, index, "{word} stands at its place");
+            let changed = Tuning::default().times([word], 2.0).expect("a word of the table");
+            for (other, _, whole, _) in TUNING_PARAMETERS {
+                assert_eq!(changed.of(other), if other == parameter { 2.0 * value } else { whole });
             }
         }
-        assert_eq!(Numbers::default().times(["pivoting"], 2.0), None);
+        assert_eq!(Tuning::default().times(["pivoting"], 2.0), None);
     }
 }

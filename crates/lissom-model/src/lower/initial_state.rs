@@ -115,7 +115,7 @@ fn jumps(component: &Component, drive: &Drive, (start, end): (f64, f64)) -> Opti
     // A speed that begins or ends at zero has no size of its own: its change is measured against the largest one.
     let speeds = (0..=INSTANTS)
         .map(|index| start + (end - start) * f64::from(index) / f64::from(INSTANTS))
-        .chain(function.kinks().into_iter().flat_map(|kink| [kink - aside, kink + aside]))
+        .chain(function.breakpoints().into_iter().flat_map(|kink| [kink - aside, kink + aside]))
         .filter(|time| (start..=end).contains(time))
         .map(|time| function.first_derivative(time).abs());
     let fastest = speeds.filter(|speed| speed.is_finite()).fold(0.0, f64::max);
@@ -127,7 +127,7 @@ fn jumps(component: &Component, drive: &Drive, (start, end): (f64, f64)) -> Opti
             || (way - aside * (before + after)).abs() > smooth + SAME_PLACE
     };
     let inside = |time: &f64| (start + aside..end - aside).contains(time);
-    let jumps: Vec<f64> = function.kinks().into_iter().filter(inside).filter(is_jump).collect();
+    let jumps: Vec<f64> = function.breakpoints().into_iter().filter(inside).filter(is_jump).collect();
     let first = jumps.first()?;
     Some(Warning::Model {
         message: format!(

@@ -11,7 +11,7 @@ use lissom_model::scene::Scene;
 use super::{Exit, Failure, show_warnings};
 
 /// A model at its start.
-pub(super) struct Still {
+pub(super) struct InitialScene {
     /// Name of the model.
     pub(super) name: String,
     /// One line about it; empty for none.
@@ -22,7 +22,7 @@ pub(super) struct Still {
     pub(super) motion: Vec<u8>,
 }
 
-impl Still {
+impl InitialScene {
     /// Reads a model and finds its start.
     pub(super) fn of(path: &Path, set: &[Override], quiet: bool) -> Result<Self, Failure> {
         let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;

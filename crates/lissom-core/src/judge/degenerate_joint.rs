@@ -6,18 +6,18 @@
 
 use nalgebra::DMatrix;
 
-use crate::joints::MOST_COORDINATES;
+use crate::joints::MAX_COORDINATES;
 use crate::joints::attached::AttachedJoint;
 use crate::kinematics::{Kinematics, Quantity};
 use crate::system::System;
 
 /// A joint holds nearly nothing in one direction where the smallest singular value is less than this part of that at the
 /// start: for the rotation of a `constant_velocity` joint, 26 degrees beside half a turn.
-const LOST: f64 = 0.05;
+const RANK_LOSS: f64 = 0.05;
 
 /// A joint close to a place where one of its equations vanishes.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct LostHold {
+pub(crate) struct RankLoss {
     pub(crate) joint: String,
     pub(crate) kind: &'static str,
     /// The equation that takes most part in what vanishes.
@@ -28,17 +28,23 @@ pub(crate) struct LostHold {
 
 /// The joint that holds least at a configuration, compared with where the motion began; none where all hold well.
 /// Lengths are compared with angles through `length` [m].
-pub(crate) fn lost(system: &System, start: &Kinematics, at: &Kinematics, length: f64) -> Option<LostHold> {
+pub(crate) fn rank_loss(
+    system: &System,
+    start: &Kinematics,
+    at: &Kinematics,
+    length: f64,
+) -> Option<RankLoss> {
     let length = if length > 0.0 { length } else { 1.0 };
-    let mut least: Option<(f64, LostHold)> = None;
+    let mut least: Option<(f64, RankLoss)> = None;
     for joint in system.joints().iter().filter(|joint| joint.equations() > 0) {
-        let Some(((before, _), (now, equation))) = hold(joint, start, length).zip(hold(joint, at, length))
+        let Some(((before, _), (now, equation))) =
+            smallest_singular_value(joint, start, length).zip(smallest_singular_value(joint, at, length))
         else {
             continue;
         };
         let ratio = now / before;
-        if ratio < LOST && least.as_ref().is_none_or(|(smallest, _)| ratio < *smallest) {
-            let found = LostHold {
+        if ratio < RANK_LOSS && least.as_ref().is_none_or(|(smallest, _)| ratio < *smallest) {
+            let found = RankLoss {
                 joint: joint.name.clone(),
                 kind: joint.kind,
                 equation: joint.joint().equations()[equation],
@@ -52,10 +58,10 @@ pub(crate) fn lost(system: &System, start: &Kinematics, at: &Kinematics, length:
 
 /// The joint that a step has led across a pose in which one of its equations vanishes: the gradient of an equation turns by more
 /// than a right angle, or the step ends on a branch of solutions that the joint cannot reach.
-pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> Option<LostHold> {
+pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> Option<RankLoss> {
     system.joints().iter().find_map(|joint| {
         let branch = joint.joint().branch()?;
-        let poses = [start, end].map(|at| joint.outright(at));
+        let poses = [start, end].map(|at| joint.evaluate_absolute(at));
         let [before, after] = poses.each_ref().map(|pose| joint.own_gradient(pose));
         let turned = |&row: &usize| {
             let relative = before.relative.row(row).dot(&after.relative.row(row));
@@ -66,8 +72,9 @@ pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> 
             return None;
         }
         let equations = joint.joint().equations();
-        let least = || hold(joint, end, 1.0).map_or(equations.len() - 1, |(_, equation)| equation);
-        Some(LostHold {
+        let least =
+            || smallest_singular_value(joint, end, 1.0).map_or(equations.len() - 1, |(_, equation)| equation);
+        Some(RankLoss {
             joint: joint.name.clone(),
             kind: joint.kind,
             equation: equations[reversed.unwrap_or_else(least)],
@@ -78,15 +85,15 @@ pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> 
 
 /// Smallest singular value of a joint's gradient, with the equation that takes most part in it; angles count as arcs at
 /// `length`. None where numbers are not finite.
-fn hold(joint: &AttachedJoint, at: &Kinematics, length: f64) -> Option<(f64, usize)> {
-    let gradient = joint.own_gradient(&joint.outright(at));
+fn smallest_singular_value(joint: &AttachedJoint, at: &Kinematics, length: f64) -> Option<(f64, usize)> {
+    let gradient = joint.own_gradient(&joint.evaluate_absolute(at));
     let row_size = |row: usize| match joint.joint().equation_quantity(row) {
         Quantity::Angle => length,
         Quantity::Length | Quantity::State => 1.0,
     };
     let own = joint.joint().coordinates();
     let count = joint.equations();
-    let matrix = DMatrix::from_fn(count, 6 + MOST_COORDINATES, |row, column| {
+    let matrix = DMatrix::from_fn(count, 6 + MAX_COORDINATES, |row, column| {
         let (value, unit) = match column {
             0..3 => (gradient.relative[(row, column)], 1.0),
             3..6 => (gradient.relative[(row, column)], length),

@@ -27,7 +27,7 @@ const STEADY_ROTATION: f64 = 1e-5;
 
 /// The state about which a model is linearised.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum About {
+pub enum OperatingPoint {
     /// Static equilibrium: of a model with load steps at their end, of others under the loads at the start.
     Static,
     /// The places of the model file, without gravity and loads.
@@ -39,7 +39,7 @@ pub enum About {
 }
 
 /// A model at a state.
-pub(crate) struct Reached<'m, 'a> {
+pub(crate) struct LinearizationPoint<'m, 'a> {
     /// Linearised there.
     pub(crate) model: &'m LinearModel<'a>,
     /// What it records.
@@ -48,7 +48,7 @@ pub(crate) struct Reached<'m, 'a> {
     pub(crate) warnings: Vec<String>,
 }
 
-impl std::str::FromStr for About {
+impl std::str::FromStr for OperatingPoint {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -64,7 +64,7 @@ impl std::str::FromStr for About {
     }
 }
 
-impl About {
+impl OperatingPoint {
     /// Its words in `summary.json`.
     pub(crate) fn name(self) -> String {
         match self {
@@ -86,7 +86,7 @@ impl About {
     pub(crate) fn linearized<T, E: From<ModesError>>(
         self,
         document: &Document,
-        then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+        then: impl FnOnce(LinearizationPoint<'_, '_>) -> Result<T, E>,
     ) -> Result<T, E> {
         handed_over(then, |hand| {
             self.find(document, &mut |mut reached| {
@@ -121,11 +121,11 @@ fn kink_warning(model: &LinearModel<'_>) -> Option<String> {
 }
 
 /// What takes the state that was found.
-type Hand<'h> = &'h mut dyn FnMut(Reached<'_, '_>);
+type Hand<'h> = &'h mut dyn FnMut(LinearizationPoint<'_, '_>);
 
 /// What `then` makes of the state that `find` hands over. The search for the state is compiled once, whatever is made of it.
 fn handed_over<T, E: From<ModesError>>(
-    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+    then: impl FnOnce(LinearizationPoint<'_, '_>) -> Result<T, E>,
     find: impl FnOnce(Hand<'_>) -> Result<(), ModesError>,
 ) -> Result<T, E> {
     let mut then = Some(then);
@@ -144,7 +144,7 @@ fn undeformed(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
         STILL_BALANCED,
         "springs or drives pull at it: take the static equilibrium",
     )?;
-    hand(Reached { model: &model, channels: &lowered.channels, warnings: Vec::new() });
+    hand(LinearizationPoint { model: &model, channels: &lowered.channels, warnings: Vec::new() });
     Ok(())
 }
 
@@ -153,7 +153,7 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
     stop(&mut state);
     let model = linear(&system, &state, &settings)?;
     if balanced(&model, "state of the file", BALANCED, "").is_ok() {
-        hand(Reached { model: &model, channels: &channels, warnings: Vec::new() });
+        hand(LinearizationPoint { model: &model, channels: &channels, warnings: Vec::new() });
         return Ok(());
     }
     drop(model);
@@ -167,7 +167,7 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
     let hint =
         "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
     balanced(&model, "state that was found", STILL_BALANCED, hint)?;
-    hand(Reached { model: &model, channels: &channels, warnings });
+    hand(LinearizationPoint { model: &model, channels: &channels, warnings });
     Ok(())
 }
 
@@ -183,7 +183,7 @@ fn in_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
     if later.is_nan() || later > STEADY_ROTATION {
         return Err(ModesError::SteadyHereAlone(later));
     }
-    hand(Reached { model: &model, channels: &channels, warnings: Vec::new() });
+    hand(LinearizationPoint { model: &model, channels: &channels, warnings: Vec::new() });
     Ok(())
 }
 
@@ -213,7 +213,7 @@ fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesErro
 pub(crate) fn now<T, E: From<ModesError>>(
     session: &Session,
     document: &Document,
-    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+    then: impl FnOnce(LinearizationPoint<'_, '_>) -> Result<T, E>,
 ) -> Result<T, E> {
     handed_over(then, |hand| {
         where_it_stands(session, document, &mut |mut reached| {
@@ -247,7 +247,7 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
             model.unsteadiness()
         ));
     }
-    hand(Reached { model: &model, channels: session.observed().channels(), warnings });
+    hand(LinearizationPoint { model: &model, channels: session.observed().channels(), warnings });
     Ok(())
 }
 

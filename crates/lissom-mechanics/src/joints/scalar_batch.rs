@@ -15,13 +15,13 @@ use crate::joints::evaluation_point::{Chart, Point};
 use crate::kinematics::Kinematics;
 
 /// Such joints of all kinds.
-pub(crate) struct Singly {
+pub(crate) struct ScalarJointBatch {
     joints: Vec<AttachedJoint>,
     indices: Vec<u32>,
     starts: Vec<usize>,
 }
 
-impl Singly {
+impl ScalarJointBatch {
     pub(super) fn new() -> Self {
         Self { joints: Vec::new(), indices: Vec::new(), starts: vec![0] }
     }
@@ -34,7 +34,7 @@ impl Singly {
     }
 }
 
-impl JointBatch for Singly {
+impl JointBatch for ScalarJointBatch {
     fn indices(&self) -> &[u32] {
         &self.indices
     }
@@ -57,7 +57,7 @@ impl JointBatch for Singly {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
     ) {
-        let mut results = [[0.0; WIDTH]; LOCAL + super::MOST_EQUATIONS];
+        let mut results = [[0.0; WIDTH]; LOCAL + super::MAX_EQUATIONS];
         for block in blocks {
             for (lane, item) in self.block_items(block).enumerate() {
                 let joint = &self.joints[item];

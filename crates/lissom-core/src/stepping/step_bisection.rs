@@ -2,16 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numbers::{MOST_HALVINGS, Number, Numbers};
+use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
 /// Smallest parts a planned step may be cut into.
-pub(crate) const PARTS: u32 = 1 << MOST_HALVINGS;
+pub(crate) const MAX_PARTS: u32 = 1 << MAX_HALVINGS;
 
 /// The place within a planned step. Places are whole multiples of the current part's size, so that the end of the
 /// planned step is met exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(crate) struct Parts {
-    /// Parts done, of [`PARTS`].
+pub(crate) struct StepBisection {
+    /// Parts done, of [`MAX_PARTS`].
     done: u32,
     /// Parts in the next attempt.
     size: u32,
@@ -19,15 +19,15 @@ pub(crate) struct Parts {
     taken: u32,
 }
 
-impl Parts {
+impl StepBisection {
     /// At the start of a planned step that is tried as a whole.
     pub(crate) fn whole() -> Self {
-        Self { done: 0, size: PARTS, taken: 0 }
+        Self { done: 0, size: MAX_PARTS, taken: 0 }
     }
 
-    /// Share of the planned step that the next attempt takes.
-    pub(crate) fn share(&self) -> f64 {
-        f64::from(self.size) / f64::from(PARTS)
+    /// Fraction of the planned step that the next attempt takes.
+    pub(crate) fn fraction(&self) -> f64 {
+        f64::from(self.size) / f64::from(MAX_PARTS)
     }
 
     /// Back to the start of the planned step.
@@ -36,16 +36,16 @@ impl Parts {
     }
 
     /// A part was taken. Whether the end of the planned step is reached.
-    pub(crate) fn accept(&mut self, numbers: &Numbers) -> bool {
+    pub(crate) fn accept(&mut self, tuning: &Tuning) -> bool {
         self.done += self.size;
-        let is_complete = self.done >= PARTS;
+        let is_complete = self.done >= MAX_PARTS;
         if is_complete {
             self.done = 0;
         }
         self.taken += 1;
         // A doubled part must end where whole doubled parts end.
-        if f64::from(self.taken) >= numbers.of(Number::PartsToGrow)
-            && self.size < PARTS
+        if f64::from(self.taken) >= tuning.of(TuningParameter::StepsToGrow)
+            && self.size < MAX_PARTS
             && self.done.is_multiple_of(2 * self.size)
         {
             self.size *= 2;
@@ -55,7 +55,7 @@ impl Parts {
     }
 
     /// A part failed. Whether it is to be tried again with half its size.
-    pub(crate) fn refuse(&mut self) -> bool {
+    pub(crate) fn halve(&mut self) -> bool {
         self.taken = 0;
         let can_halve = self.size > 1;
         if can_halve {
@@ -71,19 +71,19 @@ mod tests {
 
     #[test]
     fn parts_halve_grow_back_and_meet_the_end_of_every_planned_step() {
-        let mut parts = Parts::whole();
+        let mut bisection = StepBisection::whole();
         let (mut planned, mut time) = (0, 0.0);
         let mut sizes = Vec::new();
         while planned < 6 {
-            let size = parts.share();
+            let size = bisection.fraction();
             // Between 1.1 and 1.4 nothing longer than 0.1 is possible.
             if size > 0.1 && time + size > 1.1 && time < 1.4 {
-                assert!(parts.refuse());
+                assert!(bisection.halve());
                 continue;
             }
             sizes.push(size);
             time += size;
-            if parts.accept(&Numbers::default()) {
+            if bisection.accept(&Tuning::default()) {
                 planned += 1;
                 assert_eq!(time, f64::from(planned));
             }
@@ -94,8 +94,8 @@ mod tests {
 
     #[test]
     fn twelve_halvings_are_the_end() {
-        let mut parts = Parts::whole();
-        let halvings = (0..100).take_while(|_| parts.refuse()).count();
+        let mut bisection = StepBisection::whole();
+        let halvings = (0..100).take_while(|_| bisection.halve()).count();
         assert_eq!(halvings, 12);
     }
 }

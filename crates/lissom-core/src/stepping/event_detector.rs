@@ -41,16 +41,16 @@ const BESIDE: f64 = 1e-3;
 /// Round-off of a watched number, relative to the largest seen.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// Steps solved anew for one root: three are usual.
-const MOST_REFINEMENTS: usize = 6;
+const MAX_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the surface that is passed.
-const MOST_CROSSINGS: usize = 1000;
+const MAX_CROSSINGS: usize = 1000;
 
 /// Sides that may turn out to be wrong at the start of one step: beyond, the motion slides along a switch.
 const MAX_SWITCHES_AT_START: usize = 8;
 
 /// What is known of the watched numbers between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Watched {
+pub(crate) struct EventState {
     /// 1 above zero, -1 below, 0 where it is not known yet.
     sides: Vec<i8>,
     /// The largest magnitude seen.
@@ -67,21 +67,21 @@ pub(crate) struct Watched {
 
 /// An instant within a step at which something passes through zero.
 #[derive(Clone, Debug)]
-pub(crate) struct Located {
+pub(crate) struct LocatedRoot {
     /// Size of the step that ends there [s]; zero where the step begins there.
     pub(crate) size: f64,
     /// Size of the step in which it was found [s].
     whole: f64,
     /// What passes through zero.
-    pub(crate) who: Vec<usize>,
+    pub(crate) indices: Vec<usize>,
     /// Whether it jumps there instead.
     is_jump: bool,
     refinements: usize,
 }
 
 /// The watched numbers of one simulation: those of events, then the switches of signals, then those of elements.
-pub(crate) struct Watch {
-    pub(crate) known: Watched,
+pub(crate) struct EventDetector {
+    pub(crate) known: EventState,
     /// Whether kinks and jumps of forces are watched beside events.
     has_switches: bool,
     /// How often sides were changed at the start of the present step.
@@ -90,23 +90,23 @@ pub(crate) struct Watch {
     between: State,
 }
 
-impl Watch {
+impl EventDetector {
     /// At the start of a motion; kinks and jumps of forces are watched with `has_switches`.
     pub(crate) fn new(system: &System, start: &State, has_switches: bool) -> Self {
-        let mut watch = Self::of_nothing(start);
-        watch.has_switches = has_switches;
-        values_at(system, start, has_switches, &mut watch.values);
-        watch.known.sides = vec![0; watch.values.len()];
-        watch.known.largest = vec![0.0; watch.values.len()];
-        watch.known.recent.0 = start.kinematics.time;
-        watch.note(0..0, &[]);
-        watch
+        let mut detector = Self::of_nothing(start);
+        detector.has_switches = has_switches;
+        values_at(system, start, has_switches, &mut detector.values);
+        detector.known.sides = vec![0; detector.values.len()];
+        detector.known.largest = vec![0.0; detector.values.len()];
+        detector.known.recent.0 = start.kinematics.time;
+        detector.note(0..0, &[]);
+        detector
     }
 
     /// Where there is no motion.
     pub(crate) fn of_nothing(start: &State) -> Self {
         Self {
-            known: Watched::default(),
+            known: EventState::default(),
             has_switches: false,
             switched_at_start: 0,
             values: Vec::new(),
@@ -127,14 +127,14 @@ impl Watch {
     }
 
     /// Whether the sides of all switches are held as they are known.
-    pub(crate) fn holds_sides(&self, system: &System, at: &Kinematics) -> bool {
+    pub(crate) fn has_frozen_switches(&self, system: &System, at: &Kinematics) -> bool {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &at.held[system.signals().first_side()..];
         sides.iter().zip(held).all(|(side, held)| f64::from(*side) == *held)
     }
 
     /// Writes the sides of all switches to where they are held.
-    pub(crate) fn hold_sides(&self, system: &System, at: &mut Kinematics) {
+    pub(crate) fn freeze_switches(&self, system: &System, at: &mut Kinematics) {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &mut at.held[system.signals().first_side()..];
         held.iter_mut().zip(sides).for_each(|(held, side)| *held = f64::from(*side));
@@ -179,7 +179,12 @@ impl Watch {
     }
 
     /// The first instant of the step of `size` [s] at which something passes through zero.
-    pub(crate) fn crossing(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<Located> {
+    pub(crate) fn crossing(
+        &mut self,
+        system: &System,
+        step: (&State, &State),
+        size: f64,
+    ) -> Option<LocatedRoot> {
         let events = system.signals().events();
         let mut before = 0.0;
         for instant in INSTANTS {
@@ -195,8 +200,9 @@ impl Watch {
                 if self.any_has_passed(events) { after = middle } else { before = middle }
             }
             self.at(system, step, after);
-            let who: Vec<usize> = (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
-            let are_switches = who.iter().all(|k| *k >= events.len());
+            let indices: Vec<usize> =
+                (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
+            let are_switches = indices.iter().all(|k| *k >= events.len());
             let share = match after {
                 // The step begins where the force switches: another of no length would be no information.
                 after if after < CLOSE && are_switches => 0.0,
@@ -204,19 +210,19 @@ impl Watch {
                 after => after.max(CLOSE),
             };
             // A smooth number is not beyond its noise yet.
-            let is_jump = self.values[who[0]].abs() > CLOSE * self.known.largest[who[0]];
-            return Some(Located { size: share * size, whole: size, who, is_jump, refinements: 0 });
+            let is_jump = self.values[indices[0]].abs() > CLOSE * self.known.largest[indices[0]];
+            return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
     }
 
     /// An event whose root is at the end of the step of `size` [s], or so near before it that the sign of its number is not
     /// clear there. The values at the end are those known.
-    fn root_at_end(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<Located> {
+    fn root_at_end(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<LocatedRoot> {
         let events = system.signals().events();
-        let is_doubtful = |watch: &Self, k: usize| {
-            let side = watch.known.sides[k];
-            watch.values[k].abs() <= CLOSE * watch.known.largest[k]
+        let is_doubtful = |detector: &Self, k: usize| {
+            let side = detector.known.sides[k];
+            detector.values[k].abs() <= CLOSE * detector.known.largest[k]
                 && side != 0
                 && events[k].direction.allows(side < 0)
         };
@@ -244,14 +250,14 @@ impl Watch {
             }
         }
         let share = roots.iter().map(|root| root.1).reduce(f64::min)?;
-        let who = roots.iter().filter(|root| root.1 <= share + ACCURACY).map(|root| root.0).collect();
-        Some(Located { size: share * size, whole: size, who, is_jump: false, refinements: 0 })
+        let indices = roots.iter().filter(|root| root.1 <= share + ACCURACY).map(|root| root.0).collect();
+        Some(LocatedRoot { size: share * size, whole: size, indices, is_jump: false, refinements: 0 })
     }
 
     /// Changes the sides of forces that switch at the start of the step. Returns false if they do so again and again: the
     /// motion slides along the switch.
-    pub(crate) fn switch_at_start(&mut self, who: &[usize]) -> bool {
-        for &k in who {
+    pub(crate) fn switch_at_start(&mut self, indices: &[usize]) -> bool {
+        for &k in indices {
             self.known.sides[k] = -self.known.sides[k];
         }
         self.known.has_switched = true;
@@ -260,12 +266,17 @@ impl Watch {
     }
 
     /// Whether the step that was solved to end at the root ends there; otherwise the root has moved.
-    pub(crate) fn is_met(&mut self, system: &System, step: (&State, &State), located: &mut Located) -> bool {
-        let first = located.who[0];
+    pub(crate) fn is_met(
+        &mut self,
+        system: &System,
+        step: (&State, &State),
+        located: &mut LocatedRoot,
+    ) -> bool {
+        let first = located.indices[0];
         located.refinements += 1;
         if located.is_jump {
             let size = located.size * self.jump(system, step, first, located);
-            let is_there = size == located.size || located.refinements > MOST_REFINEMENTS;
+            let is_there = size == located.size || located.refinements > MAX_REFINEMENTS;
             if !is_there {
                 located.size = size.clamp(CLOSE * located.whole, located.whole);
             }
@@ -277,7 +288,7 @@ impl Watch {
         let value = self.values[first];
         let change = -value * 1e-3 * located.size / (value - earlier);
         let is_there = change.abs() <= ACCURACY * located.whole || change.is_nan();
-        if is_there || located.refinements > MOST_REFINEMENTS {
+        if is_there || located.refinements > MAX_REFINEMENTS {
             return true;
         }
         let size = (located.size + change).clamp(CLOSE * located.whole, located.whole);
@@ -287,13 +298,13 @@ impl Watch {
     }
 
     /// Where number `which` jumps near the end of a step, as a part of it: 1 if it does so within the accuracy before the end.
-    fn jump(&mut self, system: &System, step: (&State, &State), which: usize, located: &Located) -> f64 {
+    fn jump(&mut self, system: &System, step: (&State, &State), which: usize, located: &LocatedRoot) -> f64 {
         let events = system.signals().events();
         let unit = located.whole / located.size;
         let (accuracy, most) = (2.0 * ACCURACY * unit, unit - 1.0);
-        let passes = |watch: &mut Self, share: f64| {
-            watch.at(system, step, share);
-            watch.has_passed(events, which)
+        let passes = |detector: &mut Self, share: f64| {
+            detector.at(system, step, share);
+            detector.has_passed(events, which)
         };
         let is_early = !passes(self, 1.0);
         // Doubles the distance from the end until the jump is between.
@@ -324,20 +335,20 @@ impl Watch {
         &mut self,
         system: &System,
         state: &State,
-        located: Option<&Located>,
+        located: Option<&LocatedRoot>,
         longest: f64,
     ) -> Result<Vec<usize>, usize> {
         self.switched_at_start = 0;
         let events = system.signals().events();
-        let who: &[usize] = located.map_or(&[], |located| &located.who);
+        let indices: &[usize] = located.map_or(&[], |located| &located.indices);
         values_at(system, state, self.has_switches, &mut self.values);
-        self.note(self.of_switches(system, &state.kinematics), who);
+        self.note(self.of_switches(system, &state.kinematics), indices);
         let time = state.kinematics.time;
         let known = &mut self.known;
         known.stopped_by = None;
-        known.has_switched = who.iter().any(|&k| k >= events.len() || !events[k].sets.is_empty());
+        known.has_switched = indices.iter().any(|&k| k >= events.len() || !events[k].sets.is_empty());
         let mut happened = Vec::new();
-        for &k in who {
+        for &k in indices {
             known.sides[k] = -known.sides[k];
             if let Some(event) = events.get(k) {
                 happened.push(k);
@@ -350,8 +361,8 @@ impl Watch {
         if time - known.recent.0 > longest {
             known.recent = (time, 0);
         }
-        known.recent.1 += who.len();
-        if known.recent.1 > MOST_CROSSINGS { Err(who[0]) } else { Ok(happened) }
+        known.recent.1 += indices.len();
+        if known.recent.1 > MAX_CROSSINGS { Err(indices[0]) } else { Ok(happened) }
     }
 
     /// After inputs have changed at the state: sides of events change with them, and nothing happens.

@@ -11,17 +11,17 @@ const PER_NODE: f64 = 5e4;
 /// Memory that every machine has [bytes].
 const SMALL: f64 = 1e8;
 /// Memory that no machine is asked for [bytes].
-const MOST_MEMORY: f64 = 1e12;
+const MAX_MEMORY: f64 = 1e12;
 /// Bytes of a number in the table of results.
 const PER_NUMBER: f64 = 20.0;
 /// Largest table of results [bytes].
-const LARGEST_TABLE: f64 = 5e10;
+const MAX_TABLE: f64 = 5e10;
 /// Most planned steps: at a microsecond each, which no model reaches, they take three hours.
-const MOST_STEPS: f64 = 1e10;
+const MAX_STEPS: f64 = 1e10;
 
 /// Complaints about a model that is too large.
 pub(super) fn check(document: &Document, problems: &mut Vec<Problem>) {
-    elements(document, || files::available_memory().unwrap_or(MOST_MEMORY), problems);
+    elements(document, || files::available_memory().unwrap_or(MAX_MEMORY), problems);
 }
 
 /// Whether a run to the end is of a size that can be meant. Who takes single steps need not ask.
@@ -41,7 +41,7 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     if memory <= SMALL {
         return;
     }
-    let available = available().min(MOST_MEMORY);
+    let available = available().min(MAX_MEMORY);
     if memory <= available {
         return;
     }
@@ -68,12 +68,12 @@ fn steps(document: &Document, problems: &mut Vec<Problem>) {
     let rows = steps / analysis.output_every as f64;
     let columns = 1.0 + 3.0 * document.outputs.len() as f64;
     let table = PER_NUMBER * rows * columns;
-    if steps > MOST_STEPS {
+    if steps > MAX_STEPS {
         let message = format!("the analysis asks for {steps:.1e} steps: at 10 µs each they take {} hours", {
             (steps * 1e-5 / 3600.0).round()
         });
         problems.push(Problem::error(span, message).help("choose a larger `step` or an earlier `end`"));
-    } else if table > LARGEST_TABLE {
+    } else if table > MAX_TABLE {
         let message = format!("{rows:.1e} rows of results would take about {} on the disk", size(table));
         let help = "record fewer of them with `output_every`, or choose a larger `step` or an earlier `end`";
         problems.push(Problem::error(span, message).help(help));
@@ -94,7 +94,7 @@ mod tests {
     use super::*;
     use crate::lower::registry::registry;
 
-    fn told(elements: &str, further: &str, available: f64) -> Vec<String> {
+    fn problems(elements: &str, further: &str, available: f64) -> Vec<String> {
         let text = format!(
             "lissom = 1\n[sections.s]\nshape = \"general\"\nstiffness = [1, 1, 1, 1, 1, 1]\nmass = {{ per_length = 1, inertia = [1, 1, 1] }}\n\
              [beams.b]\nsection = \"s\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nelements = {elements}\norder = 2\n\
@@ -108,9 +108,9 @@ mod tests {
     }
 
     #[test]
-    fn too_many_elements_are_told_with_what_they_need() {
-        assert_eq!(told("1000", "end = 1\nstep = 1e-3", 1e9), Vec::<String>::new());
-        let words = told("100000", "end = 1\nstep = 1e-3", 1e9).join("\n");
+    fn too_many_elements_are_reported_with_what_they_need() {
+        assert_eq!(problems("1000", "end = 1\nstep = 1e-3", 1e9), Vec::<String>::new());
+        let words = problems("100000", "end = 1\nstep = 1e-3", 1e9).join("\n");
         assert!(
             words.contains("10.0 GB") && words.contains("beam `b`") && words.contains("1.0 GB"),
             "{words}"
@@ -118,17 +118,17 @@ mod tests {
     }
 
     #[test]
-    fn too_many_steps_or_rows_are_told() {
-        let words = told("10", "end = 1e3\nstep = 1e-8", 1e9).join("\n");
+    fn too_many_steps_or_rows_are_reported() {
+        let words = problems("10", "end = 1e3\nstep = 1e-8", 1e9).join("\n");
         assert!(words.contains("1.0e11 steps") && words.contains("take 278 hours"), "{words}");
-        let words = told("10", "end = 10\nstep = 1e-8", 1e9).join("\n");
+        let words = problems("10", "end = 10\nstep = 1e-8", 1e9).join("\n");
         assert!(words.contains("1.0e9 rows") && words.contains("80.0 GB"), "{words}");
-        assert_eq!(told("10", "end = 10\nstep = 1e-8\noutput_every = 1000", 1e9), Vec::<String>::new());
-        assert_eq!(told("10", "end = 10", 1e9), Vec::<String>::new());
+        assert_eq!(problems("10", "end = 10\nstep = 1e-8\noutput_every = 1000", 1e9), Vec::<String>::new());
+        assert_eq!(problems("10", "end = 10", 1e9), Vec::<String>::new());
     }
 
     #[test]
-    fn bytes_are_told_in_the_unit_that_leaves_few_digits() {
+    fn bytes_are_reported_in_the_unit_that_leaves_few_digits() {
         let sizes = [(2.4e6, "2 MB"), (9.99e8, "999 MB"), (1e9, "1.0 GB"), (2.5e11, "250.0 GB")];
         for (bytes, words) in sizes.into_iter().chain([(1e12, "1.0 TB"), (3.2e15, "3200.0 TB")]) {
             assert_eq!(size(bytes), words);

@@ -11,14 +11,14 @@ pub(crate) struct Course {
     /// The straight line that they are.
     pub(crate) line: Line,
     /// Values of the variable at which they have a kink or a jump, in ascending order.
-    pub(crate) kinks: Vec<f64>,
+    pub(crate) breakpoints: Vec<f64>,
     /// Of each switch, in the order of [`switches`], whether its zeros are among these, and none are elsewhere.
     pub(crate) are_known: Vec<bool>,
 }
 
 /// The course of steps whose arguments are these lines, none for those that are not given.
 pub(super) fn of(steps: &[Step], arguments: &[Line]) -> Course {
-    let (mut kinks, mut are_known) = (Vec::new(), Vec::new());
+    let (mut breakpoints, mut are_known) = (Vec::new(), Vec::new());
     let mut stack: [Line; STACK] = [None; STACK];
     let mut top = 0;
     for step in steps {
@@ -30,13 +30,13 @@ pub(super) fn of(steps: &[Step], arguments: &[Line]) -> Course {
         }
         stack[first] = match *step {
             Step::Argument(index) => arguments.get(index).copied().flatten(),
-            step => line(step, operands, &mut kinks),
+            step => line(step, operands, &mut breakpoints),
         };
         top = first + 1;
     }
-    kinks.sort_by(f64::total_cmp);
-    kinks.dedup();
-    Course { line: stack[0], kinks, are_known }
+    breakpoints.sort_by(f64::total_cmp);
+    breakpoints.dedup();
+    Course { line: stack[0], breakpoints, are_known }
 }
 
 /// Hands out numbers that change their sign where a function has a kink or a jump, given its arguments.

@@ -25,7 +25,7 @@ impl TimeFunction for Broken {
     fn second_derivative(&self, _: f64) -> f64 {
         0.0
     }
-    fn kinks(&self) -> Vec<f64> {
+    fn breakpoints(&self) -> Vec<f64> {
         self.0.clone()
     }
 }
@@ -42,9 +42,9 @@ fn each_broken(parameters: &[Parameter], random: &mut Random) -> Vec<(&'static s
     parameters.iter().filter(is_function).map(broken).collect()
 }
 
-fn assert_kinks(builder: Builder, kind: &str, parameter: &str) {
+fn assert_breakpoints(builder: Builder, kind: &str, parameter: &str) {
     let (system, _) = builder.build(0.0).expect("valid");
-    assert_eq!(system.kinks(), [0.37, 0.61], "`{parameter}` of {kind}");
+    assert_eq!(system.breakpoints(), [0.37, 0.61], "`{parameter}` of {kind}");
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn loads_and_springs_report_the_kinks_of_their_functions() {
                 }
             };
             builder.add_of_kind(kind, attached, &parameters).expect("valid");
-            assert_kinks(builder, kind.name, parameter);
+            assert_breakpoints(builder, kind.name, parameter);
             count += 1;
         }
     }
@@ -99,7 +99,7 @@ fn drives_report_the_kinks_of_their_functions() {
                 }
                 _ => continue,
             }
-            assert_kinks(builder, kind.name, parameter);
+            assert_breakpoints(builder, kind.name, parameter);
             count += 1;
         }
     }

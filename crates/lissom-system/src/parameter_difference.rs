@@ -18,7 +18,7 @@ use lissom_mechanics::evaluation::batch::{AnyBatch, Changed};
 use lissom_mechanics::kinematics::Kinematics;
 
 /// What differs between models of the same unknowns.
-pub struct Reach {
+pub struct ParameterDifference {
     /// The models, each with its weight.
     systems: Vec<(Arc<System>, f64)>,
     /// Elements whose forces are the derivative.
@@ -28,7 +28,7 @@ pub struct Reach {
     constraints: Vec<usize>,
 }
 
-impl Reach {
+impl ParameterDifference {
     /// Of neighbouring models with the weights of a difference. None where it cannot be determined what differs.
     pub fn of(systems: Vec<(Arc<System>, f64)>) -> Option<Self> {
         let (first, _) = systems.first()?;
@@ -76,7 +76,7 @@ impl Reach {
                 }
             }
             for &constraint in &self.constraints {
-                system.add_outright(constraint, at, multipliers, scratch);
+                system.add_absolute(constraint, at, multipliers, scratch);
             }
             for (sum, value) in out.iter_mut().zip(&*scratch) {
                 *sum += weight * value;

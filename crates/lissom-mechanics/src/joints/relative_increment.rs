@@ -12,7 +12,7 @@
 
 use lissom_motion::{Matrix3, Real, Triple, Vector3, Versor};
 
-use super::{MOST_COORDINATES, Own, Relative};
+use super::{JointCoordinates, MAX_COORDINATES, Relative};
 
 /// Three axes: a matrix by its columns.
 #[derive(Clone, Copy, Debug)]
@@ -132,7 +132,7 @@ impl<R: Real> FrameChange<R> {
 
 /// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the step.
 #[derive(Clone, Copy, Debug)]
-pub struct Moved<R> {
+pub struct RelativeIncrement<R> {
     /// Relative rotation at the start.
     pub start_rotation: Axes<R>,
     /// Its change.
@@ -145,7 +145,7 @@ pub struct Moved<R> {
     pub position_change: Triple<R>,
 }
 
-impl<R: Real> Moved<R> {
+impl<R: Real> RelativeIncrement<R> {
     /// From rotation and place at the start and the changes of both joint frames.
     #[inline(always)]
     pub fn new(start: (Axes<R>, Triple<R>), base: FrameChange<R>, tip: FrameChange<R>) -> Self {
@@ -171,7 +171,7 @@ impl<R: Real> Moved<R> {
     }
 }
 
-impl From<&Relative> for Moved<f64> {
+impl From<&Relative> for RelativeIncrement<f64> {
     fn from(relative: &Relative) -> Self {
         let Relative { rotation, position, rotation_change, position_change } = relative;
         let start = position - position_change;
@@ -218,14 +218,14 @@ impl<R: Real> Angle<R> {
 
 /// A joint's own coordinates.
 #[derive(Clone, Copy, Debug)]
-pub struct OwnMoved<R> {
+pub struct CoordinateIncrement<R> {
     /// Changes since the start of the step [rad, m].
-    pub change: [R; MOST_COORDINATES],
+    pub change: [R; MAX_COORDINATES],
     /// Those that are angles.
-    pub angles: [Angle<R>; MOST_COORDINATES],
+    pub angles: [Angle<R>; MAX_COORDINATES],
 }
 
-impl Own {
+impl JointCoordinates {
     /// A coordinate as an angle.
     pub fn angle(&self, coordinate: usize) -> Angle<f64> {
         let change = self.change[coordinate];
@@ -234,8 +234,8 @@ impl Own {
     }
 }
 
-impl From<&Own> for OwnMoved<f64> {
-    fn from(own: &Own) -> Self {
+impl From<&JointCoordinates> for CoordinateIncrement<f64> {
+    fn from(own: &JointCoordinates) -> Self {
         Self { change: own.change, angles: [own.angle(0), own.angle(1)] }
     }
 }

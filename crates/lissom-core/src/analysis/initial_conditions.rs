@@ -10,8 +10,8 @@
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, LinearSolver, SolverKind};
 
-use super::compliance::Compliance;
 pub use super::initial_error::InitialError;
+use super::regularization::Regularization;
 use super::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::judge::singular::SingularPositions;
@@ -20,7 +20,7 @@ use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
 /// Repetitions after which forces by multipliers count as not found.
-const MOST_REPETITIONS: usize = 100;
+const MAX_REPETITIONS: usize = 100;
 
 /// Changes of multipliers below are round-off, where they fall no further.
 const REPEATED: f64 = 1e-10;
@@ -37,15 +37,15 @@ enum Inertias {
 }
 
 /// Solves for initial values.
-pub struct Initial {
+pub struct ConsistentInitialConditions {
     solver: Box<dyn LinearSolver<f64>>,
     linearization: Linearization,
     values: Vec<f64>,
     scale: f64,
     /// Length that stands for a radian [m].
     radian: f64,
-    /// Whether constraints yield because some repeat others, see `compliance`.
-    yields: bool,
+    /// Whether constraints yield because some repeat others, see `regularization`.
+    is_regularized: bool,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
     /// The mass, while that in use has damping.
@@ -60,7 +60,7 @@ struct Relevant {
     is_damped: bool,
 }
 
-impl Initial {
+impl ConsistentInitialConditions {
     /// Room for initial values of `system`.
     pub fn new(system: &System, state: &State, representative: &Representative, kind: &SolverKind) -> Self {
         Self {
@@ -70,7 +70,7 @@ impl Initial {
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             radian: representative.length,
             // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
-            yields: SingularPositions::new(system, &state.kinematics, representative.length)
+            is_regularized: SingularPositions::new(system, &state.kinematics, representative.length)
                 .first_repeating()
                 .is_some(),
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
@@ -178,9 +178,9 @@ impl Initial {
         let mut result = self.factor_values(system);
         if let Err(FactorError::ZeroPivot { unknown, .. }) = result
             && unknown >= layout.coordinate_count()
-            && !self.yields
+            && !self.is_regularized
         {
-            self.yields = true;
+            self.is_regularized = true;
             result = self.factor_values(system);
         }
         result.map_err(|error| match error {
@@ -200,10 +200,11 @@ impl Initial {
         for (i, value) in self.values.iter_mut().enumerate() {
             *value = mass[i] + self.scale * (gram[i] + constraint[i]);
         }
-        if self.yields {
+        if self.is_regularized {
             let structure = system.structure();
-            let mut compliance = Compliance::new(&structure.pattern, system.layout().coordinate_count());
-            compliance.enter(self.scale, None, &mut self.values);
+            let mut regularization =
+                Regularization::new(&structure.pattern, system.layout().coordinate_count());
+            regularization.enter(self.scale, None, &mut self.values);
         }
         self.solver.factor(&self.values).map(|_| ())
     }
@@ -236,7 +237,7 @@ impl Initial {
         let mut solution = vec![0.0; right.len()];
         // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also
         // takes back what constraints have yielded, while multipliers stay the least ones.
-        for _ in 0..if self.yields { 4 } else { 2 } {
+        for _ in 0..if self.is_regularized { 4 } else { 2 } {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
             let constraints: Vec<f64> = rest[count..].to_vec();
@@ -461,7 +462,7 @@ impl Initial {
         let zero = vec![0.0; layout.multiplier_count];
         let mut right = vec![0.0; layout.size()];
         let mut change = f64::INFINITY;
-        for _ in 0..MOST_REPETITIONS {
+        for _ in 0..MAX_REPETITIONS {
             system.residual(&self.point(&at, &zero), &mut right);
             self.turn_slides(system, &at, &mut right);
             right[..count].iter_mut().for_each(|value| *value = -*value);

@@ -9,7 +9,7 @@ use crate::kinematics::{Kinematics, split};
 /// Motion and forces of one superelement at one instant. Vectors count as the unknowns do: six per interface, then the modal
 /// coordinates.
 #[derive(Default)]
-pub(super) struct Room {
+pub(super) struct ElementScratch {
     /// E_i.
     pub(super) turns: Vec<Matrix3>,
     /// r_i [m].
@@ -38,7 +38,7 @@ pub(super) struct Room {
     pub(super) twist: [Vector3; 2],
 }
 
-impl Room {
+impl ElementScratch {
     /// Takes in the motion `at`.
     pub(super) fn enter(&mut self, of: &Part, at: &Kinematics) {
         let (nodes, size) = (of.nodes.len(), of.size());

@@ -20,7 +20,7 @@ const AROUND: f64 = 2e-3;
 const NEAR: f64 = 3e-5;
 /// The largest displacement of a state over which a column is differentiated [-, rad], how much smaller the next is, and how
 /// many there are.
-const LARGEST: f64 = 1e-3;
+const MAX_DISPLACEMENT: f64 = 1e-3;
 const SMALLER: f64 = 0.125;
 const TRIED: i32 = 5;
 /// A step that is shorter than the others by more than this part is of another size.
@@ -43,19 +43,19 @@ pub(super) struct Question<'a> {
 struct Neighbours {
     path: String,
     number: f64,
-    way: Way,
+    sensitivity: Sensitivity,
 }
 
 /// How the derivatives by a number are found.
-enum Way {
+enum Sensitivity {
     /// They are carried, with this index; the neighbours are kept for what they record.
-    Carried(usize, Vec<(Observed, f64)>),
+    Direct(usize, Vec<(Observed, f64)>),
     /// The neighbours take the steps themselves.
-    Followed(Vec<(Session, f64)>),
+    FiniteDifference(Vec<(Session, f64)>),
 }
 
 /// All numbers, each on its way.
-pub(super) struct Ways {
+pub(super) struct ParameterSensitivities {
     numbers: Vec<Neighbours>,
     sensitivities: Option<Sensitivities>,
     corrections: usize,
@@ -123,7 +123,7 @@ impl Question<'_> {
         let near = SAME_TIME * (plan.end.abs().max(plan.start.abs()) + (plan.end - plan.start));
         let is_within = |time: &f64| (plan.start + near..plan.end - near).contains(time);
         let [own, other] =
-            [self.session, neighbour].map(|session| session.simulation().system().kinks().into_iter());
+            [self.session, neighbour].map(|session| session.simulation().system().breakpoints().into_iter());
         let other: Vec<f64> = other.collect();
         let is_elsewhere = |time: &f64| other.iter().all(|there| (there - time).abs() > near);
         own.filter(is_within).find(is_elsewhere)
@@ -137,7 +137,7 @@ impl Question<'_> {
     }
 }
 
-impl Ways {
+impl ParameterSensitivities {
     pub(super) fn new(question: &Question<'_>, paths: &[String]) -> Result<Self, GradientError> {
         let base = question.session.simulation();
         let is_even = base.settings().scheme.stages.len() > 1 || question.has_even_steps();
@@ -157,12 +157,14 @@ impl Ways {
                 if sensitivities.add(base, &simulations) {
                     count += 1;
                     let observed = |(session, weight): (Session, f64)| (session.into_observed(), weight);
-                    let way = Way::Carried(count - 1, sessions.into_iter().map(observed).collect());
-                    return Ok(Neighbours { path: path.clone(), number, way });
+                    let sensitivity =
+                        Sensitivity::Direct(count - 1, sessions.into_iter().map(observed).collect());
+                    return Ok(Neighbours { path: path.clone(), number, sensitivity });
                 }
             }
-            let way = Way::Followed(question.neighbours(path, number, (APART, false))?);
-            Ok(Neighbours { path: path.clone(), number, way })
+            let sensitivity =
+                Sensitivity::FiniteDifference(question.neighbours(path, number, (APART, false))?);
+            Ok(Neighbours { path: path.clone(), number, sensitivity })
         };
         let numbers = paths.iter().map(&mut of).collect::<Result<Vec<_>, GradientError>>()?;
         Ok(Self { numbers, sensitivities, corrections: 0, state: base.state().clone() })
@@ -172,7 +174,8 @@ impl Ways {
     pub(super) fn advance(&mut self, session: &mut Session) -> Result<(), GradientError> {
         let time = session.progress().time;
         let base = session.simulation_mut();
-        let is_carried = self.numbers.iter().any(|number| matches!(number.way, Way::Carried(..)));
+        let is_carried =
+            self.numbers.iter().any(|number| matches!(number.sensitivity, Sensitivity::Direct(..)));
         let is_known = match &mut self.sensitivities {
             Some(sensitivities) if is_carried => sensitivities.advance(base)?,
             _ => base.renew_at_solution()?,
@@ -180,8 +183,8 @@ impl Ways {
         if !is_known {
             return Err(GradientError::InParts(time));
         }
-        for Neighbours { way, .. } in &mut self.numbers {
-            let Way::Followed(sessions) = way else { continue };
+        for Neighbours { sensitivity, .. } in &mut self.numbers {
+            let Sensitivity::FiniteDifference(sessions) = sensitivity else { continue };
             for (neighbour, _) in sessions {
                 self.corrections += neighbour.simulation_mut().follow(base)?;
             }
@@ -194,9 +197,9 @@ impl Ways {
         let Self { numbers, sensitivities, state, .. } = self;
         let base = session.simulation();
         let mut of = |number: &Neighbours| {
-            let (index, observed) = match &number.way {
-                Way::Carried(index, observed) => (*index, observed),
-                Way::Followed(sessions) => {
+            let (index, observed) = match &number.sensitivity {
+                Sensitivity::Direct(index, observed) => (*index, observed),
+                Sensitivity::FiniteDifference(sessions) => {
                     let of = |(session, weight): &(Session, f64)| {
                         let simulation = session.simulation();
                         weight * session.observed().value(column, simulation.state(), simulation.last_step())
@@ -215,7 +218,7 @@ impl Ways {
                 let share = NEAR * number.number;
                 return directly + along(session, sensitivities, index, share, column, state);
             }
-            let shares = (0..TRIED).map(|k| LARGEST / extent * SMALLER.powi(k));
+            let shares = (0..TRIED).map(|k| MAX_DISPLACEMENT / extent * SMALLER.powi(k));
             let found: Vec<f64> =
                 shares.map(|share| along(session, sensitivities, index, share, column, state)).collect();
             directly + steadiest(&found)
@@ -226,7 +229,9 @@ impl Ways {
     /// Path and value of every number, and whether its derivatives were carried; and corrections of all.
     pub(super) fn into_numbers(self) -> (Vec<(String, f64, bool)>, usize) {
         let carried = self.sensitivities.as_ref().map_or(0, Sensitivities::corrections);
-        let of = |number: Neighbours| (number.path, number.number, matches!(number.way, Way::Carried(..)));
+        let of = |number: Neighbours| {
+            (number.path, number.number, matches!(number.sensitivity, Sensitivity::Direct(..)))
+        };
         (self.numbers.into_iter().map(of).collect(), self.corrections + carried)
     }
 }

@@ -30,7 +30,7 @@ const CHANGE: f64 = 1e-12;
 /// Part of the largest single energy that its round-off may reach.
 const ROUND_OFF: f64 = 1e-10;
 
-/// A state as the ledger sees it.
+/// A state as the energy balance sees it.
 pub(crate) struct Entry<'a> {
     at: &'a Kinematics,
     multipliers: &'a [f64],
@@ -48,7 +48,7 @@ const STRIDE: u32 = 8;
 
 /// Energy and work since the start of a simulation [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Ledger {
+pub struct EnergyBalance {
     /// Energy when it was looked at last, at most eight steps ago.
     pub energy: Energy,
     /// Work of forces, moments and other loads since the start, in statics that of weight included.
@@ -75,12 +75,12 @@ pub struct Ledger {
     moved: f64,
     floor: f64,
     /// The most that violated constraints would give back: those that repeat each other yield a little, like springs.
-    unheld: f64,
+    constraint_energy: f64,
     /// Steps since the energy was looked at.
-    unweighed: u32,
+    steps_since_check: u32,
 }
 
-impl Ledger {
+impl EnergyBalance {
     /// At the start of a simulation; of a motion, with the `interval` in which places change [s].
     pub(crate) fn new(
         system: &System,
@@ -92,16 +92,16 @@ impl Ledger {
         let place = PLACE * representative.length;
         // What rests moves by round-off of places, and has energy where nothing has any.
         let speed = interval.map_or(0.0, |interval| CHANGE * representative.length / interval);
-        let mut ledger = Self {
+        let mut energy_balance = Self {
             energy,
             most: energy.kinetic + energy.strain,
             potential: [energy.potential; 2],
             floor: representative.stiffness * place * place + representative.mass * speed * speed,
             ..Self::default()
         };
-        ledger.least_balance = ledger.balance(interval.is_some());
-        ledger.first_balance = ledger.least_balance;
-        ledger
+        energy_balance.least_balance = energy_balance.balance(interval.is_some());
+        energy_balance.first_balance = energy_balance.least_balance;
+        energy_balance
     }
 
     /// Surplus relative to the energy turned over.
@@ -117,7 +117,7 @@ impl Ledger {
     /// Energies below this are round-off, or held by constraints.
     fn least_known(&self) -> f64 {
         let largest = self.most.max(self.potential[0].abs()).max(self.potential[1].abs());
-        self.floor + self.unheld + ROUND_OFF * largest + f64::MIN_POSITIVE
+        self.floor + self.constraint_energy + ROUND_OFF * largest + f64::MIN_POSITIVE
     }
 
     fn balance(&self, is_motion: bool) -> f64 {
@@ -135,13 +135,17 @@ impl Ledger {
         let loads = system.work_of_loads(start.at, end.at);
         let drives = system.work_of_drives((start.at, start.multipliers), (end.at, end.multipliers));
         let held = end.multipliers.iter().zip(end.violations);
-        let unheld = held.map(|(force, violation)| (force * violation).abs()).sum::<f64>();
+        let constraint_energy = held.map(|(force, violation)| (force * violation).abs()).sum::<f64>();
         let mut after = Self {
-            unheld: if unheld > self.unheld { unheld } else { self.unheld },
+            constraint_energy: if constraint_energy > self.constraint_energy {
+                constraint_energy
+            } else {
+                self.constraint_energy
+            },
             loads: self.loads + loads,
             drives: self.drives + drives,
             moved: self.moved + loads.abs() + drives.abs(),
-            unweighed: self.unweighed + 1,
+            steps_since_check: self.steps_since_check + 1,
             ..*self
         };
         if weighs {
@@ -154,7 +158,7 @@ impl Ledger {
     }
 
     /// Takes note of an impact that takes energy at an instant.
-    pub(crate) fn strike(&mut self, system: &System, before: &Kinematics, after: &Kinematics) {
+    pub(crate) fn record_impact(&mut self, system: &System, before: &Kinematics, after: &Kinematics) {
         self.latches += system.energy(before).kinetic - system.energy(after).kinetic;
         self.weigh(system.energy(after), None);
     }
@@ -166,7 +170,7 @@ impl Ledger {
         }
         let is_motion = of_weight.is_none();
         self.energy = energy;
-        self.unweighed = 0;
+        self.steps_since_check = 0;
         self.most = self.most.max(energy.kinetic + energy.strain);
         self.potential = [self.potential[0].min(energy.potential), self.potential[1].max(energy.potential)];
         let balance = self.balance(is_motion);
@@ -178,10 +182,10 @@ impl Ledger {
 
     /// Whether the energy is to be looked at after the next step, however smooth it is.
     pub(crate) fn is_due(&self) -> bool {
-        self.unweighed + 1 >= STRIDE
+        self.steps_since_check + 1 >= STRIDE
     }
 
-    /// Fails where this ledger, after `before`, shows more energy than can be there.
+    /// Fails where this energy balance, after `before`, shows more energy than can be there.
     pub(crate) fn refuse_gain(
         &self,
         before: &Self,

@@ -80,7 +80,7 @@ fn rows_keep_their_times_and_steps_their_number() {
 }
 
 #[test]
-fn steps_end_at_jumps_that_no_line_of_time_tells_of() {
+fn steps_end_at_jumps_that_no_line_of_time_reports_of() {
     // The root of t² - 0.2534 is no straight line, and jumps of the others have no argument with a root.
     let [from, angle] = [0.2534_f64.sqrt(), 40.0_f64];
     let to_and_fro = |end: f64| {
@@ -107,8 +107,8 @@ fn steps_end_at_jumps_that_no_line_of_time_tells_of() {
                 let found = errors(force, &analysis, exact);
                 assert!(found.iter().all(|error| *error < 2e-6), "{scheme}, {steps}, {force}: {found:?}");
                 let session = finished(&rail(force, &analysis));
-                let ledger = session.simulation().ledger();
-                let surplus = ledger.surplus;
+                let energy_balance = session.simulation().energy_balance();
+                let surplus = energy_balance.surplus;
                 assert!(
                     surplus.abs() < 1e-5,
                     "{scheme}, {steps}, {force}: work is that behind the jump, not {surplus}"
@@ -135,21 +135,21 @@ fn chosen_steps_see_pulses_far_shorter_than_they_are() {
 }
 
 #[test]
-fn planned_steps_that_do_not_see_what_a_load_does_are_told() {
-    let told = |force: &str, step: f64| {
+fn planned_steps_that_do_not_see_what_a_load_does_are_reported() {
+    let reported = |force: &str, step: f64| {
         let session = finished(&rail(force, &format!("scheme = \"generalized-alpha\"\nstep = {step}")));
-        let told: Vec<String> = session
+        let reported: Vec<String> = session
             .warnings()
             .filter(|warning| warning.code() == "function-unseen")
             .map(ToString::to_string)
             .collect();
-        told
+        reported
     };
     // The first two have the step as their period, or lie between the stages of steps.
     for force in ["sin(2000*pi*t + 0.5)", "1 + sin(2000*pi*t + 0.5)", PULSE] {
-        let found = told(force, 1e-3);
+        let found = reported(force, 1e-3);
         assert!(found.len() == 1 && found[0].contains("load `"), "{force}: {found:?}");
-        assert!(told(force, 2e-5).is_empty(), "{force}");
+        assert!(reported(force, 2e-5).is_empty(), "{force}");
     }
     for force in [
         "sin(200*pi*t)",
@@ -157,7 +157,7 @@ fn planned_steps_that_do_not_see_what_a_load_does_are_told() {
         "smoothstep((t - 0.5)/1e-4)",
         "t*sin(20*t)/(1 + t^2)",
     ] {
-        assert!(told(force, 1e-3).is_empty(), "{force}");
+        assert!(reported(force, 1e-3).is_empty(), "{force}");
     }
 }
 
@@ -181,7 +181,7 @@ fn runs_with_jumps_that_were_found_go_on_from_a_snapshot_to_the_last_bit() {
 }
 
 #[test]
-fn drives_that_jump_are_told() {
+fn drives_that_jump_are_reported() {
     // Whether a run comes to its end, and whether it warns.
     let driven = |displacement: &str, analysis: &str| {
         let drive = "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rail\"";
@@ -295,8 +295,8 @@ fn jumps_of_what_is_sampled_or_only_recorded_end_no_steps() {
 /// Prescribed motions whose place or speed jumps are told before they run; those whose acceleration alone jumps are not, however long
 /// the run is.
 #[test]
-fn prescribed_motions_that_jump_are_told_at_once() {
-    for (motion, end, is_told) in [
+fn prescribed_motions_that_jump_are_reported_at_once() {
+    for (motion, end, is_reported) in [
         ("max(t - 0.5, 0)", "1", true),
         ("t + 1e-3*step(t - 0.5)", "1", true),
         ("t + step(t - 0.5)", "1e6", true),
@@ -313,9 +313,9 @@ fn prescribed_motions_that_jump_are_told_at_once() {
         let lowered = document
             .and_then(|document| lower(&document))
             .unwrap_or_else(|report| panic!("{}", report.render(false)));
-        let told =
+        let reported =
             lowered.warnings.iter().any(|warning| warning.to_string().contains("jumps in place or speed"));
-        assert_eq!(told, is_told, "{motion}: {:?}", lowered.warnings);
+        assert_eq!(reported, is_reported, "{motion}: {:?}", lowered.warnings);
     }
 }
 

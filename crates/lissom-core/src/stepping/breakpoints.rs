@@ -18,23 +18,23 @@ const ROUNDINGS: f64 = 8.0;
 
 /// When functions of time are not smooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Kink {
+pub(crate) struct Breakpoint {
     /// When [s].
     pub(crate) time: f64,
     /// Whether a value jumps, not its slope alone.
     jumps: bool,
 }
 
-impl Kink {
+impl Breakpoint {
     /// A jump at `time` [s].
     pub(crate) fn jump(time: f64) -> Self {
         Self { time, jumps: true }
     }
 }
 
-/// Where a step ends because of a kink.
+/// Where a step ends because of a breakpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Landing {
+pub(crate) struct StopTime {
     /// End of the step [s].
     pub(crate) end: f64,
     /// What the clock is set to there [s].
@@ -43,34 +43,34 @@ pub(crate) struct Landing {
     jump: Option<f64>,
 }
 
-/// All kinks of a system, in ascending order. Times closer than a part of the step, `step` [s], are one.
-pub(crate) fn of(system: &System, step: f64) -> Vec<Kink> {
+/// All breakpoints of a system, in ascending order. Times closer than a part of the step, `step` [s], are one.
+pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     let near = SAME * step;
     let mut jumps: Vec<f64> = Vec::new();
     let mut known: Vec<f64> = Vec::new();
     for (_, function) in &system.functions {
-        let kinks = function.kinks();
-        jumps.extend(kinks.iter().filter(|kink| jumps_at(function, **kink, near)));
-        known.extend(kinks);
+        let breakpoints = function.breakpoints();
+        jumps.extend(breakpoints.iter().filter(|breakpoint| jumps_at(function, **breakpoint, near)));
+        known.extend(breakpoints);
     }
     jumps.sort_by(f64::total_cmp);
     known.sort_by(f64::total_cmp);
     let has = |times: &[f64], time: f64| times.binary_search_by(|probe| probe.total_cmp(&time)).is_ok();
-    let mut kinks: Vec<Kink> = Vec::new();
-    for time in system.kinks() {
+    let mut breakpoints: Vec<Breakpoint> = Vec::new();
+    for time in system.breakpoints() {
         // Of a function without a name it is not known.
         let jumps = has(&jumps, time) || !has(&known, time);
-        match kinks.last_mut() {
-            Some(last) if time - last.time <= near => *last = Kink { time, jumps: last.jumps || jumps },
-            _ => kinks.push(Kink { time, jumps }),
+        match breakpoints.last_mut() {
+            Some(last) if time - last.time <= near => *last = Breakpoint { time, jumps: last.jumps || jumps },
+            _ => breakpoints.push(Breakpoint { time, jumps }),
         }
     }
-    kinks
+    breakpoints
 }
 
-/// Whether a function jumps at `kink`, seen from both sides.
-fn jumps_at(function: &Function, kink: f64, aside: f64) -> bool {
-    let [before, after] = [kink - aside, kink + aside];
+/// Whether a function jumps at `breakpoint`, seen from both sides.
+fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
+    let [before, after] = [breakpoint - aside, breakpoint + aside];
     let change = (function.value(after) - function.value(before)).abs();
     let slope = function.first_derivative(before).abs().max(function.first_derivative(after).abs());
     let size = function.value(after).abs().max(function.value(before).abs());
@@ -78,37 +78,42 @@ fn jumps_at(function: &Function, kink: f64, aside: f64) -> bool {
 }
 
 impl Simulation {
-    /// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of a kink between; a jump at
+    /// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of a breakpoint between; a jump at
     /// its end counts. `longest` is the longest step [s].
-    pub(super) fn landing(&self, now: f64, limit: f64, longest: f64) -> Option<Landing> {
+    pub(super) fn stop_time(&self, now: f64, limit: f64, longest: f64) -> Option<StopTime> {
         let near = SAME * longest;
-        let begin = self.kinks.partition_point(|kink| kink.time <= now + near);
-        let is_met = |kink: &&Kink| kink.time < limit - near || (kink.jumps && kink.time <= limit + near);
-        let kink = self.kinks[begin..].iter().take_while(|kink| kink.time <= limit + near).find(is_met)?;
-        if !kink.jumps {
-            let end = kink.time.next_down();
-            return Some(Landing { end, clock: end, jump: None });
+        let begin = self.breakpoints.partition_point(|breakpoint| breakpoint.time <= now + near);
+        let is_met = |breakpoint: &&Breakpoint| {
+            breakpoint.time < limit - near || (breakpoint.jumps && breakpoint.time <= limit + near)
+        };
+        let breakpoint = self.breakpoints[begin..]
+            .iter()
+            .take_while(|breakpoint| breakpoint.time <= limit + near)
+            .find(is_met)?;
+        if !breakpoint.jumps {
+            let end = breakpoint.time.next_down();
+            return Some(StopTime { end, clock: end, jump: None });
         }
-        let aside = ROUNDINGS * f64::EPSILON * kink.time.abs().max(now.abs());
-        let is_end = (kink.time - limit).abs() <= near;
+        let aside = ROUNDINGS * f64::EPSILON * breakpoint.time.abs().max(now.abs());
+        let is_end = (breakpoint.time - limit).abs() <= near;
         // The work of the next step begins with the loads behind the jump.
-        let clock = if is_end { limit } else { kink.time };
-        Some(Landing { end: kink.time.min(limit) - aside, clock, jump: Some(kink.time) })
+        let clock = if is_end { limit } else { breakpoint.time };
+        Some(StopTime { end: breakpoint.time.min(limit) - aside, clock, jump: Some(breakpoint.time) })
     }
 
-    /// After a step that ended at a kink: sets the clock, and lets accelerations jump.
+    /// After a step that ended at a breakpoint: sets the clock, and lets accelerations jump.
     ///
     /// # Errors
     /// If there are no consistent accelerations on one of the sides.
-    pub(super) fn pass_kink(&mut self, landing: &Landing, longest: f64) -> Result<(), StepError> {
-        if let Some(jump) = landing.jump {
+    pub(super) fn cross_breakpoint(&mut self, stop_time: &StopTime, longest: f64) -> Result<(), StepError> {
+        if let Some(jump) = stop_time.jump {
             let aside = SAME * longest;
             self.jump_between(jump - aside, jump + aside)
-                .map_err(|error| StepError::Velocities { time: landing.clock, error })?;
+                .map_err(|error| StepError::Velocities { time: stop_time.clock, error })?;
             // The end of the step no longer determines the start of the next one.
-            self.is_last_step_known &= self.method_memory.is_none();
+            self.is_last_step_known &= self.integrator_history.is_none();
         }
-        (self.state.kinematics.time, self.state.time_remainder) = (landing.clock, 0.0);
+        (self.state.kinematics.time, self.state.time_remainder) = (stop_time.clock, 0.0);
         self.work.forget_predictions();
         Ok(())
     }

@@ -1,0 +1,88 @@
+//! Optional features of the nonlinear solver beyond Newton's method. Each can be switched off (`analysis.without`), so that a
+//! command can show what it is worth.
+
+/// Something that saves iterations or tangents, or finds a solution that Newton's method alone would miss.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum SolverFeature {
+    /// First guesses by linear prediction.
+    Prediction,
+    /// Secants of earlier corrections (Anderson's mixing).
+    Secants,
+    /// A first correction is the last where the contraction of earlier solutions says so.
+    SingleCorrection,
+    /// A tangent is given up when solutions with it have become dear.
+    JacobianCost,
+    /// Corrections that went too far are halved.
+    BackOff,
+    /// Tangents far from equilibrium are made with the stresses at the start of the step.
+    StartStresses,
+    /// Steps of planned size without solution are taken in parts.
+    StepBisection,
+}
+
+/// Every feature with its word and what it does.
+pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 7] = [
+    (SolverFeature::Prediction, "prediction", "first guesses by linear prediction from earlier steps"),
+    (SolverFeature::Secants, "secants", "corrections improved by secants of earlier ones"),
+    (SolverFeature::SingleCorrection, "single-correction", "a first correction accepted as the last"),
+    (SolverFeature::JacobianCost, "account", "a tangent renewed when solutions with it have become dear"),
+    (SolverFeature::BackOff, "back-off", "corrections that went too far halved"),
+    (
+        SolverFeature::StartStresses,
+        "start-stresses",
+        "tangents far from equilibrium with the stresses at the start",
+    ),
+    (SolverFeature::StepBisection, "parts", "steps without solution taken in parts"),
+];
+
+/// Their words.
+pub const WORDS: [&str; SOLVER_FEATURES.len()] = {
+    let mut words = [""; SOLVER_FEATURES.len()];
+    let mut index = 0;
+    while index < words.len() {
+        words[index] = SOLVER_FEATURES[index].1;
+        index += 1;
+    }
+    words
+};
+
+/// The features that are switched off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DisabledFeatures(u8);
+
+impl DisabledFeatures {
+    /// Switches off one more.
+    pub fn and(self, feature: SolverFeature) -> Self {
+        Self(self.0 | 1 << feature as u8)
+    }
+
+    /// Whether a feature is in use.
+    pub fn allows(self, feature: SolverFeature) -> bool {
+        self.0 & (1 << feature as u8) == 0
+    }
+
+    /// Those of these words; none where a word means nothing.
+    pub fn of_words<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<Self> {
+        words.into_iter().try_fold(Self::default(), |disabled, word| {
+            let (feature, ..) = SOLVER_FEATURES.iter().find(|(_, name, _)| *name == word)?;
+            Some(disabled.and(*feature))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_leave_out_what_they_name_and_nothing_else() {
+        for (feature, word, _) in SOLVER_FEATURES {
+            let disabled = DisabledFeatures::of_words([word]).expect("a word of the table");
+            for (other, ..) in SOLVER_FEATURES {
+                assert_eq!(disabled.allows(other), other != feature);
+            }
+        }
+        assert_eq!(DisabledFeatures::of_words(["pivoting"]), None);
+    }
+}
