@@ -15,7 +15,9 @@
 use nalgebra::SMatrix;
 use num_complex::Complex64;
 
-use super::{Combination, Coupling, Decoupled, Increments, MAX_STAGES, Scheme, Stage, StageSystem, Weights};
+use super::scheme::{
+    Combination, Coupling, Decoupled, Increments, MAX_STAGES, Scheme, Stage, StageSystem, Weights,
+};
 
 /// Imaginary parts of eigenvalues below this part of their size are round-off.
 const REAL: f64 = 1e-10;

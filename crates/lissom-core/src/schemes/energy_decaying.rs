@@ -13,7 +13,7 @@
 //! energy never grows stands in `docs/theory/energy-decaying.md`.
 
 use super::radau_iia::two_stage_collocation;
-use super::{Scheme, SchemeError, SchemeKind, Tableau, within};
+use super::scheme::{Scheme, SchemeError, SchemeKind, Tableau, within};
 
 /// The energy is bounded by the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step of
 /// 0.1 ms.

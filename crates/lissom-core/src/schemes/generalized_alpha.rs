@@ -10,7 +10,7 @@
 //!
 //! Equilibrium and constraints hold at the end of the step.
 
-use super::{
+use super::scheme::{
     Combination, Coupling, Increments, Scheme, SchemeError, SchemeKind, SchemeParameters, Stage, Weights,
     within,
 };

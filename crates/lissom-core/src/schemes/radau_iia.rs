@@ -12,7 +12,7 @@
 //! stage first without pivoting, for (A⁻²)₁₁ = 0.
 
 use super::collocation::collocation;
-use super::{Scheme, SchemeKind};
+use super::scheme::{Scheme, SchemeKind};
 
 /// The prediction misses a sixth of the third derivative; the scheme's own error is of fourth order. With this part
 /// of what is missed, errors at the end of a run are near the tolerance.

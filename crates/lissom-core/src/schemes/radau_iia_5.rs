@@ -10,7 +10,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::collocation::collocation;
-use super::{Scheme, SchemeKind};
+use super::scheme::{Scheme, SchemeKind};
 
 /// As for two stages, from the same estimates: they are of lower order than the scheme.
 const ERROR_CONSTANT: f64 = 0.5;

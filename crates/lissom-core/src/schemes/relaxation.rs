@@ -4,7 +4,7 @@
 //! 1976]: the potential falls in every step, and where a step moves nothing there is equilibrium. The inertia makes the tangent
 //! definite where the stiffness is not, as that of a cable without tension.
 
-use super::{Combination, Coupling, Increments, Scheme, Stage, Weights};
+use super::scheme::{Combination, Coupling, Increments, Scheme, Stage, Weights};
 
 /// The scheme with rate zero and the increment as curvature.
 pub(crate) fn relaxation() -> Scheme {

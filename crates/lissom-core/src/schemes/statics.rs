@@ -1,6 +1,6 @@
 //! Statics: equilibrium without inertia and rates at the end of each load step.
 
-use super::{Combination, Coupling, Increments, Scheme, Stage, Weights};
+use super::scheme::{Combination, Coupling, Increments, Scheme, Stage, Weights};
 
 /// The scheme with rate and curvature zero.
 pub fn statics() -> Scheme {
