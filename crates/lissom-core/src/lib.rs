@@ -9,10 +9,14 @@ pub use lissom_mechanics::{
 pub use lissom_system as system;
 
 pub mod analysis;
+mod bytes;
+pub(crate) mod control;
 pub(crate) mod equilibration;
+pub(crate) mod integrator;
 pub mod interrupt;
 pub mod judge;
 pub mod linear;
+pub(crate) mod monitors;
 pub mod newton;
 mod node_motion;
 pub mod scaling;

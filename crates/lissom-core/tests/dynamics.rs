@@ -61,6 +61,21 @@ fn run(simulation: &mut Simulation, steps: usize) {
     }
 }
 
+/// Schemes of one stage remember what belongs to the step size: an attempt of another size must not change it.
+#[test]
+fn a_step_that_fails_leaves_no_trace_in_the_state() {
+    let mut simulation = simulation(top(), generalized_alpha::hht(-0.1).expect("valid"), 1e-3);
+    run(&mut simulation, 20);
+    let before = simulation.state().clone();
+    simulation.set_step_size(1e3);
+    simulation.step().expect_err("hundred turns in a part of a step");
+    assert_eq!(*simulation.state(), before);
+    simulation.set_step_size(1e-3);
+    run(&mut simulation, 1);
+    let node = &simulation.state().kinematics;
+    assert!((node.time - before.kinematics.time - 1e-3).abs() < 1e-12, "{}", node.time);
+}
+
 #[test]
 fn heavy_top_reaches_the_reference() {
     let steps = 8000;

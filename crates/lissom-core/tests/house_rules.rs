@@ -61,18 +61,12 @@ fn offences(allowed: &[&str], words: &[&str]) -> Vec<String> {
     found
 }
 
-/// The claim of the method as code structure: only the scaling and the analyses know the step size.
+/// The claim of the method as code structure: only the scaling, and what takes steps, know the step size.
 #[test]
-fn only_scaling_and_analyses_know_the_step_size() {
-    let found = offences(
-        &["scaling.rs", "analysis/", "stepping/"],
-        &["h", "dt", "step_size", "time_step", "penalty"],
-    );
-    assert!(
-        found.is_empty(),
-        "step size or penalty outside scaling.rs, analysis/ and stepping/:\n{}",
-        found.join("\n")
-    );
+fn only_scaling_and_what_takes_steps_know_the_step_size() {
+    let allowed = ["scaling.rs", "analysis/", "control/", "integrator/", "stepping/"];
+    let found = offences(&allowed, &["h", "dt", "step_size", "time_step", "penalty"]);
+    assert!(found.is_empty(), "step size or penalty outside {allowed:?}:\n{}", found.join("\n"));
 }
 
 #[test]
@@ -151,6 +145,54 @@ fn paths_in_the_documentation_exist() {
     }
     assert!(count > 100, "the search must see the paths: {count}");
     assert!(missing.is_empty(), "paths that do not exist:\n{}", missing.join("\n"));
+}
+
+/// Names in backticks that are no path: `function_name`, `Type::function`, `CamelCase`; the last part of each.
+fn quoted_names(text: &str) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        for piece in line.split('`').skip(1).step_by(2) {
+            let is_name = |part: &str| {
+                part.starts_with(|c: char| c.is_ascii_alphabetic())
+                    && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+            };
+            let looks_like_code = piece.contains("::")
+                || piece.contains('_')
+                || piece.trim_start_matches(|c: char| c.is_ascii_uppercase()) != piece;
+            if looks_like_code && piece.split("::").all(is_name) {
+                found.push((number + 1, piece.rsplit("::").next().unwrap_or(piece).to_owned()));
+            }
+        }
+    }
+    found
+}
+
+/// Functions and types that ARCHITECTURE.md names are in the sources, and so are its short paths, such as `stepping/mod.rs`.
+#[test]
+fn names_in_the_architecture_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let text = fs::read_to_string(root.join("ARCHITECTURE.md")).expect("readable");
+    let mut files = Vec::new();
+    sources(&root.join("crates"), &mut files);
+    let known: std::collections::HashSet<String> = files
+        .iter()
+        .flat_map(|file| identifiers(&fs::read_to_string(file).expect("readable")))
+        .map(|(_, word)| word)
+        .collect();
+    let names = quoted_names(&text);
+    assert!(names.len() > 20, "the search must see the names: {}", names.len());
+    let of_names = names.iter().filter(|(_, name)| !known.contains(name));
+    let short = |(line, piece): (usize, &str)| {
+        let is_path = Path::new(piece).extension().is_some_and(|extension| extension == "rs");
+        let exists = files.iter().any(|file| file.ends_with(piece));
+        (is_path && !exists && !root.join(piece).exists()).then(|| (line, piece.to_owned()))
+    };
+    let pieces = text
+        .lines()
+        .enumerate()
+        .flat_map(|(number, line)| line.split('`').skip(1).step_by(2).map(move |piece| (number + 1, piece)));
+    let missing: Vec<(usize, String)> = of_names.cloned().chain(pieces.filter_map(short)).collect();
+    assert!(missing.is_empty(), "ARCHITECTURE.md names what does not exist: {missing:?}");
 }
 
 #[test]

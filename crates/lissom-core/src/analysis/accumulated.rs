@@ -3,10 +3,12 @@
 
 use std::sync::Arc;
 
-use super::simulation::{Simulation, warn};
+use super::settings::Problem;
 use crate::elements::quadrature::gauss_legendre;
+use crate::integrator::Attempt;
 use crate::joints::Constraint as _;
 use crate::judge::Warning;
+use crate::judge::warn;
 use crate::stepping::dense::interpolate;
 use crate::system::{ElementId, State, System};
 
@@ -69,22 +71,25 @@ pub(crate) struct Accumulation {
     after: Vec<f64>,
 }
 
-impl Simulation {
-    /// Accumulates numbers from here on, from zero: [`State::accumulated`] has them in this order.
-    pub fn accumulate(&mut self, numbers: Vec<Arc<dyn Accumulated>>) {
-        for state in [&mut self.previous, &mut self.state, &mut self.next] {
-            state.accumulated = vec![0.0; numbers.len()];
-        }
-        let within = (!numbers.is_empty()).then(|| Box::new([self.state.clone(), self.state.clone()]));
-        self.accumulation = Accumulation { within, after: Vec::with_capacity(numbers.len()), numbers };
+impl Accumulation {
+    /// Of these numbers, from zero, in a simulation that stands at `state`.
+    pub(crate) fn new(numbers: Vec<Arc<dyn Accumulated>>, state: &State) -> Self {
+        let within = (!numbers.is_empty()).then(|| Box::new([state.clone(), state.clone()]));
+        Self { within, after: Vec::with_capacity(numbers.len()), numbers }
     }
 
-    /// Takes the step into account that is being accepted.
-    pub(super) fn accumulate_step(&mut self) {
-        let Accumulation { numbers, within, after } = &mut self.accumulation;
+    /// Takes a step into account that is being accepted.
+    pub(crate) fn follow(
+        &mut self,
+        Problem { system, settings }: Problem<'_>,
+        attempt: &mut Attempt,
+        state: &State,
+        warnings: &mut Vec<Warning>,
+    ) {
+        let Self { numbers, within, after } = self;
         let Some(within) = within else { return };
-        let is_motion = self.settings.scheme.dynamic;
-        let (start, end) = (&self.state, &self.next);
+        let is_motion = settings.scheme.dynamic;
+        let (start, end) = (attempt.start(state), &attempt.end);
         let time = end.kinematics.time;
         if is_motion {
             let duration = time - start.kinematics.time;
@@ -92,16 +97,16 @@ impl Simulation {
                 interpolate(start, end, start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
             }
         }
-        let step = AcceptedStep { system: &self.system, start, within: is_motion.then_some(&**within), end };
+        let step = AcceptedStep { system, start, within: is_motion.then_some(&**within), end };
         after.clear();
         for (number, &before) in numbers.iter().zip(&start.accumulated) {
             let value = number.after(&step, before);
             if before.is_finite() && !value.is_finite() {
                 let output = number.name().to_owned();
-                warn(&mut self.warnings, Warning::AccumulationLost { time, output });
+                warn(warnings, Warning::AccumulationLost { time, output });
             }
             after.push(value);
         }
-        self.next.accumulated.copy_from_slice(after);
+        attempt.end.accumulated.copy_from_slice(after);
     }
 }

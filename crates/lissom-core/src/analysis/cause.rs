@@ -2,6 +2,7 @@
 
 use super::simulation::Simulation;
 use super::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE, StepError};
+use crate::analysis::Problem;
 use crate::judge::{MAX_TURN, degenerate_joint};
 
 impl Simulation {
@@ -14,18 +15,17 @@ impl Simulation {
             | StepError::ZeroPivot { time, after_pivoting: true, .. } => *time,
             _ => return error,
         };
-        let at = &self.state.kinematics;
+        let (at, length) = (&self.state.kinematics, self.integrator.representative.length);
         if let Some((node, angle)) = self.turns_in_a_part() {
             return StepError::TurnsTooFar { time, node, angle };
         }
-        if let Some(found) =
-            degenerate_joint::rank_loss(&self.system, &self.origin, at, self.representative.length)
-        {
+        if let Some(found) = degenerate_joint::rank_loss(&self.system, &self.origin.kinematics, at, length) {
             let degenerate_joint::RankLoss { joint, kind, equation, angle } = found;
             return StepError::JointLosesHold { time, joint, kind, equation, angle: angle.to_degrees() };
         }
-        if let Some((joints, beside)) = self.singular.closest(&self.system, at) {
-            return StepError::LoopIsSingular { time, joints, beside: beside.to_degrees() };
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        if let Some(cause) = self.monitors.cause(problem, at, time) {
+            return cause;
         }
         if !self.settings.scheme.dynamic {
             return error;
@@ -47,7 +47,7 @@ impl Simulation {
     /// What changes its side between the state and the last iterate, in words: steps of planned size look for no
     /// side that can stay.
     fn switching(&self) -> Option<String> {
-        let reached = &self.work.motions.last()?.at;
+        let reached = &self.integrator.work.motions.last()?.at;
         let [before, after] = [&self.state.kinematics, reached].map(|at| {
             let mut values = Vec::new();
             self.system.signals().switches(at, &mut values);
@@ -68,7 +68,7 @@ impl Simulation {
         let turning = |node: usize| self.state.kinematics.nodes[node].twist.fixed_rows::<3>(3).norm();
         let nodes = 0..self.state.kinematics.nodes.len();
         let fastest = nodes.max_by(|&a, &b| turning(a).total_cmp(&turning(b)))?;
-        let angle = turning(fastest) * self.scaled.step_size();
+        let angle = turning(fastest) * self.integrator.scaled.step_size();
         let name = || self.system.layout().name_of_node(fastest).to_owned();
         (angle > MAX_TURN).then(|| (name(), angle))
     }

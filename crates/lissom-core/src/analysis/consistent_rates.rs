@@ -12,9 +12,9 @@
 //! The damping D over the step h keeps neighbours of a driven node in a damped beam together: with the mass alone, the change of
 //! a light node would make a force in the damper beside it.
 
-use super::dynamics::pivoting_unless;
 use super::initial_conditions::ConsistentInitialConditions;
 use super::simulation::Simulation;
+use crate::integrator::pivoting_unless_augmented;
 use crate::system::{State, System};
 
 /// Makes states of driven motions consistent, for what is recorded. The motion itself does not change.
@@ -34,7 +34,7 @@ impl ConsistentRates {
         let is_radau = settings.scheme.tableau.is_none() && settings.scheme.stages.len() > 1;
         let is_coarse = settings.control.is_some() || is_radau;
         let new = || {
-            let solver = pivoting_unless(settings);
+            let solver = pivoting_unless_augmented(settings);
             ConsistentInitialConditions::repeated(
                 system,
                 simulation.state(),

@@ -1,47 +1,30 @@
-//! Starts a simulation, solves its steps and accepts them: `stepping` decides about their length.
+//! Starts a simulation, tries steps and accepts them: `control` decides about their length.
 
 use std::sync::Arc;
 
-use lissom_solver::{FactorError, SolverKind};
+use lissom_solver::FactorError;
 
 use super::accumulated::Accumulation;
-use super::equations::StepEquations;
 use super::equilibrium;
 use super::held_values::settle;
 use super::initial_conditions::{ConsistentInitialConditions, InitialError};
-use super::phase::{Stopwatch, Unwatched};
-use super::projection::Projection;
-use super::regularization::Regularization;
+use super::phase::{Phase, Stopwatch};
 use super::settings::Settings;
-use super::simulation::{Simulation, warn};
+use super::simulation::{Origin, Simulation};
+use super::singular_positions::SingularPositions;
 use super::step_error::{StepError, describe};
 use super::tangent_values::TangentValues;
 use super::totals::{StepReport, Totals};
-use super::workspace::Workspace;
-use crate::judge::rates::ConstraintRates;
-use crate::judge::singular::SingularPositions;
+use crate::analysis::Problem;
+use crate::control;
+use crate::integrator::{Attempt, Integrator, Start, pivoting_unless_augmented};
 use crate::judge::{self, EnergyBalance, Judge, Warning};
-use crate::kinematics::{Kinematics, MotionChange};
-use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
+use crate::monitors::{Accepted, Beginning, Monitors};
+use crate::newton::Failure;
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::StageSystem;
-use crate::stepping::breakpoints;
-use crate::stepping::{
-    Controller, EventDetector, Impacts, IntegratorHistory, LoadControl, Resolution, StepBisection,
-    TimeFunctions,
-};
-use crate::system::{State, System, Threads};
-
-/// Where round-off keeps such a scheme from that, a last correction below this is a solution all the same: what it does
-/// to the energy is seen by the energy balance.
-const SUFFICIENT: f64 = 1e-9;
-
-/// Part of the work of a load step that must be missing for it to be reported as a jump: a path of equilibria that the
-/// trapezoidal rule follows badly, as with all of a load at once, misses up to a third.
-const JUMP: f64 = 0.6;
-
-/// Energy that the first load step may release, over what a linear model says of it.
-const RELEASED: f64 = 4.0;
+use crate::stepping::{EventDetector, Stops};
+use crate::system::{State, System};
 
 impl Simulation {
     /// Prepares a simulation: representative values, consistent initial velocities, accelerations and
@@ -87,190 +70,51 @@ impl Simulation {
         }
         state.violations = vec![0.0; system.layout().multiplier_count];
         system.violations(&state.kinematics, &mut state.violations);
-        let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
-        let equilibrated = settings.scaling.equilibrates();
-        let mut work =
-            Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
-        (work.disabled, work.tuning) = (settings.limits.disabled, settings.limits.tuning);
-        work.threads = Threads::new(system.starts_of_batches(), settings.threads);
-        work.factorization.set_threads(settings.threads);
-        let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
-        work.regularization = regularization(&system, &singular);
-        work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
-        let projection = settings
-            .scheme
-            .tableau
-            .filter(|tableau| !tableau.is_stiffly_accurate() && layout_has_constraints(&system))
-            .map(|tableau| Projection::new(&system, &state, &representative, settings.solver, tableau));
-        let remembers = settings.scheme.dynamic && settings.scheme.stages.len() == 1;
-        let integrator_history = remembers.then(|| {
-            let solver = pivoting_unless(&settings);
-            IntegratorHistory::new(&system, &state, &representative, solver, settings.step_size)
-        });
+        let problem = Problem { system: &system, settings: &settings };
+        let beginning = Beginning { problem, state: &state, representative: &representative, released };
+        let monitors = Monitors::new(&beginning);
+        let repeating = monitors.get::<SingularPositions>().and_then(SingularPositions::first_repeating);
+        let integrator = Integrator::new(problem, &state, representative, repeating);
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
         let energy_balance = EnergyBalance::new(&system, &state.kinematics, &representative, interval);
-        let is_chosen = settings.control.is_some();
-        let controller = (is_chosen && settings.scheme.dynamic).then(|| Controller::new(settings.step_size));
-        let load_control =
-            (is_chosen && !settings.scheme.dynamic).then(|| LoadControl::new(settings.step_size));
-        let is_bound = is_chosen || settings.scheme.dynamic;
-        let breakpoints = if is_bound { breakpoints::of(&system, settings.step_size) } else { Vec::new() };
-        let event_detector = event_detector(&system, &state, &settings);
-        event_detector.freeze_switches(&system, &mut state.kinematics);
-        let is_planned = settings.scheme.dynamic && controller.is_none();
+        let events = event_detector(&system, &state, &settings);
+        events.freeze_switches(&system, &mut state.kinematics);
         Ok(Self {
-            released,
-            impacts: if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() },
-            resolution: Resolution::new(if is_planned { system.layout().coordinate_count() } else { 0 }),
-            constraint_rates: ConstraintRates::new(&system, &state.kinematics),
-            time_functions: TimeFunctions::default(),
-            origin: state.kinematics.clone(),
+            integrator,
+            monitors,
+            stops: Stops::new(&system, &settings, state.kinematics.time),
+            control: control::of(&settings),
+            origin: Origin { kinematics: state.kinematics.clone(), velocity_correction, may_relax: true },
             previous: state.clone(),
-            next: state.clone(),
+            attempt: Attempt::new(&state, energy_balance),
             system,
             state,
             settings,
-            representative,
-            scaled,
-            work: Box::new(work),
-            projection,
             held_values,
-            jacobian_state: JacobianState::default(),
-            integrator_history,
-            step_bisection: StepBisection::whole(),
-            breakpoints,
-            controller,
-            load_control,
-            farthest: 0.0,
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
-            velocity_correction,
             energy_balance,
-            next_energy_balance: energy_balance,
-            next_violation: 0.0,
             warnings,
-            singular,
-            stable_at: None,
-            stability: Vec::new(),
-            event_detector,
+            events,
             accumulation: Accumulation::default(),
             is_last_step_known: false,
-            may_relax: true,
         })
     }
 
     /// The tangent at the solution of the last step; none before the first step and after one that failed.
     pub(super) fn last_tangent(&mut self, scaled: Scaled, of: &StageSystem) -> Option<TangentValues> {
-        if !self.is_last_step_known {
-            return None;
-        }
-        self.system.begin_step(&self.previous.kinematics, &mut self.work.joint_starts);
-        let mut equations = StepEquations {
-            system: &self.system,
-            scheme: &self.settings.scheme,
-            scaled,
-            scaling: (&self.settings.scaling, &self.representative),
-            start: &self.previous,
-            work: &mut self.work,
-            watch: &mut Unwatched,
-        };
-        let mut values = TangentValues::zeros(of, self.system.structure().pattern.entries());
-        equations.assemble_tangent(&mut values.receiver(&scaled, of, &mut []));
-        Some(values)
+        let Self { system, settings, integrator, previous, .. } = self;
+        let problem = Problem { system, settings };
+        self.is_last_step_known.then(|| integrator.tangent_at_solution(problem, previous, scaled, of))
     }
 
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
     pub(super) fn factored_condition(&mut self) -> Option<f64> {
         let pattern = &self.system.structure().pattern;
-        let value =
-            self.jacobian_state.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
+        let Integrator { jacobian_state, work, .. } = &mut self.integrator;
+        let value = jacobian_state.has_tangent.then(|| work.factorization.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
-    }
-
-    /// Solves the equations of a step of the present size from the state, and leaves what it comes to in `next`.
-    pub(crate) fn solve_step(&mut self, watch: &mut dyn Stopwatch) -> Result<Outcome, StepError> {
-        let work = &mut *self.work;
-        self.scaled.to_unit_step(self.system.layout(), &self.settings.scheme, &self.state, &mut work.unit);
-        self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
-        work.extrapolates = self.settings.scheme.dynamic;
-        let mut equations = StepEquations {
-            system: &self.system,
-            scheme: &self.settings.scheme,
-            scaled: self.scaled,
-            scaling: (&self.settings.scaling, &self.representative),
-            start: &self.state,
-            work,
-            watch,
-        };
-        equations.restart();
-        let is_exact = equations.scheme.tableau.is_some();
-        let sufficient = |result: Result<Outcome, Failure>| match result {
-            Err(Failure::NotConverged { iterations, correction }) if is_exact && correction <= SUFFICIENT => {
-                Ok(Outcome { iterations, factorizations: 0, correction, stagnated: true })
-            }
-            other => other,
-        };
-        let result =
-            sufficient(newton::solve(&mut equations, &self.settings.limits, &mut self.jacobian_state));
-        self.scaled = equations.scaled;
-        let outcome = result.map_err(|failure| {
-            self.jacobian_state = JacobianState::default();
-            if matches!(failure, Failure::NotFinite { .. } | Failure::Factor(FactorError::NotFinite { .. }))
-                && let Some(error) = equations.signal_error()
-            {
-                return StepError::Signal(error);
-            }
-            if matches!(failure, Failure::NotFinite { .. } | Failure::Factor(FactorError::NotFinite { .. })) {
-                let at = equations.work.motions.iter().map(|motion| motion.at.time);
-                let found = at.filter_map(|at| {
-                    let (what, value) = self.system.function_without_value(at)?;
-                    let time = self.state.kinematics.time + self.scaled.step_size();
-                    Some(StepError::FunctionNotFinite { time, what: what.to_owned(), value, at })
-                });
-                if let Some(error) = found.take(1).next() {
-                    return error;
-                }
-            }
-            // With a pivoting solver a smaller step may do what this one could not.
-            let pivoted = !matches!(failure, Failure::Factor(_));
-            let failure = equations.unforgiven(failure);
-            let time = self.state.kinematics.time + self.scaled.step_size();
-            let mut error =
-                describe(&failure, self.system.layout(), time, &self.settings, &equations.worst_unknown());
-            if let StepError::ZeroPivot { after_pivoting, .. } = &mut error {
-                *after_pivoting = pivoted;
-            }
-            error
-        })?;
-        equations.final_violations(&mut self.next.violations);
-        self.finish_attempt()?;
-        Ok(outcome)
-    }
-
-    /// Leaves what the increments and multipliers of an attempt come to in `next`.
-    pub(super) fn finish_attempt(&mut self) -> Result<(), StepError> {
-        let work = &*self.work;
-        let last = self.settings.scheme.stages.len() - 1;
-        let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };
-        copy_motion(&end.at, &mut self.next.kinematics);
-        self.next.multipliers.copy_from_slice(&work.multipliers[last]);
-        self.next.kinematics.show_multipliers(&self.next.multipliers);
-        let memory = &mut self.next.algorithmic;
-        self.scaled.memory_from_unit_step(
-            &self.settings.scheme.algorithmic,
-            &work.unit,
-            &work.increments,
-            memory,
-        );
-        compensate(&self.state, &end.changes, &mut self.next);
-        if let Some(projection) = &mut self.projection {
-            projection
-                .apply(&self.system, &mut self.next)
-                .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
-        }
-        self.system.signals().check(&self.next.kinematics).map_err(StepError::Signal)?;
-        Ok(())
     }
 
     /// A failed factorisation, with names.
@@ -278,96 +122,66 @@ impl Simulation {
         describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, "")
     }
 
-    fn judge(&self) -> Judge<'_> {
-        Judge {
-            system: &self.system,
-            representative: &self.representative,
-            is_motion: self.settings.scheme.dynamic,
-            checks_energy: self.settings.energy_check,
-        }
+    /// Solves a step of `size` [s] from the state, and judges what it has led to.
+    ///
+    /// # Errors
+    /// If it has no solution, or one that cannot be believed.
+    pub(crate) fn attempt(&mut self, size: f64, watch: &mut dyn Stopwatch) -> Result<(), StepError> {
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let from = Start { previous: &self.previous, state: &self.state };
+        self.integrator.attempt(problem, from, size, watch, &mut self.attempt)?;
+        watch.begin(Phase::Rest);
+        self.judge_attempt()
     }
 
-    /// Judges what the last attempt came to.
-    pub(crate) fn judge_step(&mut self) -> Result<(), StepError> {
-        (self.next_energy_balance, self.next_violation) =
-            self.judge().examine(&self.state, &self.next, &self.energy_balance)?;
+    /// Judges what the last attempt has led to.
+    ///
+    /// # Errors
+    /// If it cannot be believed.
+    pub(crate) fn judge_attempt(&mut self) -> Result<(), StepError> {
+        let judge = Judge::new(self.problem(), &self.integrator.representative);
+        let start = self.attempt.start(&self.state);
+        let (after, violation) = judge.examine(start, &self.attempt.end, &self.energy_balance)?;
+        (self.attempt.energy_balance, self.attempt.violation) = (after, violation);
         Ok(())
     }
 
-    /// Takes note of reasons to doubt the step that is being accepted.
-    fn collect_warnings(&mut self) {
-        judge::contact::check(&self.system, &self.next, &mut self.warnings);
-        judge::linear_range::check(&self.system, &self.next, &mut self.warnings);
-        if let Some(warning) = self.judge().regularized(&self.next, self.next_violation) {
-            warn(&mut self.warnings, warning);
-        }
-        let (before, after) = (&self.energy_balance, &self.next_energy_balance);
-        let time = self.next.kinematics.time;
-        if self.settings.scheme.dynamic {
-            let step = (&self.state.kinematics, &self.next.kinematics);
-            if let Some(warning) = judge::drives::jump(&self.system, &self.representative, step) {
-                warn(&mut self.warnings, warning);
-            }
-            let (surplus, turned_over) = (after.surplus, after.turned_over);
-            let known =
-                self.warnings.iter().position(|warning| matches!(warning, Warning::EnergySurplus { .. }));
-            match (known, after.is_noteworthy()) {
-                // What looked large at the start may turn out small beside what follows.
-                (Some(known), false) => {
-                    self.warnings.remove(known);
-                }
-                (Some(known), true) => {
-                    if let Warning::EnergySurplus { surplus: most, turned_over: all, .. } =
-                        &mut self.warnings[known]
-                    {
-                        (*most, *all) = (surplus, turned_over);
-                    }
-                }
-                (None, true) => self.warnings.push(Warning::EnergySurplus { time, surplus, turned_over }),
-                (None, false) => {}
-            }
-            return;
-        }
-        let missing = after.missing_work(before);
-        // A start that is no equilibrium, as one with prestress, releases energy that no load has put in.
-        let is_release =
-            self.totals.steps == 0 && after.unexplained_work(before).abs() <= RELEASED * self.released;
-        // Relaxation leaves the path, and has a warning of its own.
-        let is_relaxed = self.warnings.iter().any(
-            |warning| matches!(warning, Warning::Relaxed { time, .. } if *time == self.next.kinematics.time),
-        );
-        if missing > JUMP && !is_release && !is_relaxed {
-            let start = self.state.kinematics.time;
-            let work = after.loads + after.drives - before.loads - before.drives;
-            warn(&mut self.warnings, Warning::Jump { start, time, work: missing * work.abs() });
-        }
+    /// Accepts the last attempt: monitors look at it, and its end becomes the state.
+    pub(crate) fn accept_attempt(&mut self) {
+        let mut step = Accepted {
+            problem: Problem { system: &self.system, settings: &self.settings },
+            integrator: &mut self.integrator,
+            origin: &self.origin.kinematics,
+            start: self.attempt.start(&self.state),
+            end: &self.attempt.end,
+            last_size: self.state.kinematics.time - self.previous.kinematics.time,
+            energy_balance: [&self.energy_balance, &self.attempt.energy_balance],
+            violation: self.attempt.violation,
+            fraction: self.control.fraction(&self.attempt),
+            has_switched: self.events.known.has_switched,
+        };
+        self.monitors.accept(&mut step, &mut self.warnings);
+        self.commit_attempt();
     }
 
-    /// Makes what the last attempt came to the state.
-    pub(crate) fn accept_step(&mut self) {
-        self.collect_warnings();
-        self.accumulate_step();
-        self.energy_balance = self.next_energy_balance;
-        let work = &mut *self.work;
-        if self.settings.scheme.dynamic {
-            work.learn(&self.settings.scheme, &self.state.multipliers);
-        }
-        std::mem::swap(&mut self.previous, &mut self.state);
-        std::mem::swap(&mut self.state, &mut self.next);
-        if let Some(memory) = &mut self.integrator_history {
-            memory.renew(self.scaled.step_size());
-        }
-        self.note_singular_positions();
+    /// Makes the end of the last attempt the state.
+    pub(crate) fn commit_attempt(&mut self) {
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        self.accumulation.follow(problem, &mut self.attempt, &self.state, &mut self.warnings);
+        self.energy_balance = self.attempt.energy_balance;
+        let multipliers = &self.attempt.start(&self.state).multipliers;
+        self.integrator.learn(&self.settings, multipliers);
+        self.attempt.accept(&mut self.previous, &mut self.state);
     }
 
     /// Counts a step that was completed.
     pub(crate) fn count(&mut self, report: &StepReport) {
-        let totals = &mut self.totals;
+        let (totals, work) = (&mut self.totals, &self.integrator.work);
         totals.steps += report.parts;
         totals.stagnated_steps += usize::from(report.stagnated);
-        totals.fell_back_at = self.work.fell_back.map(|(unknown, _)| unknown);
-        totals.regularized_at = self.work.regularization.as_ref().map(|(_, unknown)| *unknown);
-        if let Some(factor) = self.work.report.as_ref() {
+        totals.fell_back_at = work.fell_back.map(|(unknown, _)| unknown);
+        totals.regularized_at = work.regularization.as_ref().map(|(_, unknown)| *unknown);
+        if let Some(factor) = work.report.as_ref() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }
         for violation in &self.state.violations {
@@ -385,49 +199,11 @@ fn event_detector(system: &System, state: &State, settings: &Settings) -> EventD
     }
 }
 
-/// Without the augmented term massless coordinates need pivots.
-pub(super) fn pivoting_unless(settings: &Settings) -> &'static SolverKind {
-    let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
-    if settings.scaling.augmented { settings.solver } else { pivoting }
-}
-
 /// Fails where equations hold rates, of which statics know nothing.
 fn refuse_rates(system: &System) -> Result<(), InitialError> {
     let of_row = system.layout().rate_rows().next().map(|row| system.layout().name_of(row));
     let of_creep = || system.sees_multipliers().then(|| "the creep of a wheel on a rail".to_owned());
     of_row.or_else(of_creep).map_or(Ok(()), |name| Err(InitialError::StateInStatics(name)))
-}
-
-fn copy_motion(from: &Kinematics, to: &mut Kinematics) {
-    to.elapsed = from.elapsed;
-    to.nodes.copy_from_slice(&from.nodes);
-    to.coordinates.copy_from_slice(&from.coordinates);
-    to.held.copy_from_slice(&from.held);
-}
-
-/// Adds each node's displacement to its position, and the step to the time, with the remainders of earlier
-/// roundings, so that many small steps do not lose digits [Kahan 1965].
-fn compensate(start: &State, changes: &[MotionChange], next: &mut State) {
-    let step = std::mem::take(&mut next.kinematics.elapsed) + start.time_remainder;
-    let time = start.kinematics.time + step;
-    next.time_remainder = step - (time - start.kinematics.time);
-    next.kinematics.time = time;
-    for (node, change) in changes.iter().enumerate() {
-        let from = &start.kinematics.nodes[node].frame;
-        let shift = from.rotation.apply(&change.shift) + start.position_remainders[node];
-        let position = from.position + shift;
-        next.position_remainders[node] = shift - (position - from.position);
-        let frame = &mut next.kinematics.nodes[node].frame;
-        frame.position = position;
-        frame.rotation = frame.rotation.normalized();
-    }
-}
-
-/// What lets constraints yield that repeat each other from the start, with the first unknown that does.
-fn regularization(system: &System, singular: &SingularPositions) -> Option<(Regularization, usize)> {
-    let multiplier = singular.first_repeating()?;
-    let count = system.layout().coordinate_count();
-    Some((Regularization::new(&system.structure().pattern, count), count + multiplier))
 }
 
 /// Makes velocities, accelerations and multipliers of a motion's start consistent. Gives the largest change of a velocity, and what finds
@@ -440,7 +216,7 @@ fn begin_motion(
     warnings: &mut Vec<Warning>,
 ) -> Result<(f64, Option<ConsistentInitialConditions>), InitialError> {
     let mut initial =
-        ConsistentInitialConditions::new(system, state, representative, pivoting_unless(settings));
+        ConsistentInitialConditions::new(system, state, representative, pivoting_unless_augmented(settings));
     let given = state.kinematics.clone();
     let velocity_correction = initial.given_velocities(system, state)?;
     let rates = initial.constraint_rates(system, state);
@@ -458,8 +234,4 @@ fn begin_motion(
 fn may_jump(system: &System, state: &State) -> bool {
     let changes = system.functions.iter().any(|(_, function)| !function.is_constant());
     changes || !state.kinematics.held.is_empty() || !system.breakpoints().is_empty()
-}
-
-fn layout_has_constraints(system: &System) -> bool {
-    !system.layout().multiplier_rows().is_empty()
 }

@@ -93,7 +93,7 @@ pub fn at_rest(
         ..settings.clone()
     };
     let mut simulation = Simulation::new(system, moved, settings.clone())?;
-    simulation.may_relax = false;
+    simulation.origin.may_relax = false;
     let stepped = simulation.step();
     let doubts =
         simulation.warnings().iter().filter(|warning| matches!(warning, Warning::Unstable { .. })).cloned();

@@ -120,7 +120,7 @@ impl Simulation {
         if self.switches_latch(&at) {
             // The tangent of the equation that the latch had would solve the one it has to the tolerance alone, and leave that
             // much of a force where there is none.
-            self.jacobian_state.has_tangent = false;
+            self.integrator.jacobian_state.has_tangent = false;
         }
         let Some(initial) = &mut self.held_values else {
             self.state.kinematics = at;

@@ -12,9 +12,9 @@ use lissom_solver::{FactorError, LinearSolver, SolverKind};
 
 pub use super::initial_error::InitialError;
 use super::regularization::Regularization;
+use super::singular_positions::SingularPositions;
 use super::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
-use crate::judge::singular::SingularPositions;
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};

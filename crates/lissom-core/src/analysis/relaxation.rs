@@ -7,9 +7,11 @@
 use std::sync::Arc;
 
 use super::settings::Settings;
-use super::simulation::{Simulation, warn};
+use super::simulation::Simulation;
 use super::step_error::StepError;
+use crate::analysis::Problem;
 use crate::judge::Warning;
+use crate::judge::warn;
 use crate::kinematics::Kinematics;
 use crate::newton::JacobianState;
 use crate::scaling::Representative;
@@ -115,11 +117,11 @@ pub(crate) fn relax(
 }
 
 impl Simulation {
-    /// Leaves the equilibrium that relaxation finds a step of `size` [s] after the start in `next`, where the first load step
+    /// Leaves the equilibrium that relaxation finds a step of `size` [s] after the start as the last attempt, where the first load step
     /// ended with `error`.
     pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
         let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
-        if !(self.may_relax && is_first && may_help(error)) {
+        if !(self.origin.may_relax && is_first && may_help(error)) {
             return Err(error.clone());
         }
         let time = self.state.kinematics.time + size;
@@ -127,12 +129,13 @@ impl Simulation {
         let found = relax(&self.system, &self.state, &self.settings, time, &mut iterations);
         self.totals.newton_iterations += iterations;
         let Some((reached, doubts)) = found else { return Err(error.clone()) };
-        self.resize(size)?;
-        self.jacobian_state = JacobianState::default();
-        self.next = reached;
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        self.integrator.resize(problem, size);
+        self.integrator.jacobian_state = JacobianState::default();
+        (self.attempt.size, self.attempt.is_converted, self.attempt.end) = (size, false, reached);
         // That of a step of unit length has lost digits.
-        self.next.kinematics.time = time;
-        self.judge_step()?;
+        self.attempt.end.kinematics.time = time;
+        self.judge_attempt()?;
         for doubt in doubts {
             warn(&mut self.warnings, doubt);
         }
@@ -160,7 +163,7 @@ fn begin(
     }
     let mut simulation =
         Simulation::start(Arc::clone(system), state, settings.clone(), Some(representative)).ok()?;
-    simulation.may_relax = false;
+    simulation.origin.may_relax = false;
     Some(simulation)
 }
 

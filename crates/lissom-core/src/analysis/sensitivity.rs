@@ -12,9 +12,10 @@
 //! the same J, which is not exact for every scheme, until what is still to come is round-off of the derivative: three corrections
 //! where J is exact.
 
-use super::equations::StepEquations;
 use super::simulation::Simulation;
 use super::{StepError, Unwatched};
+use crate::analysis::Problem;
+use crate::integrator::{Start, step_equations};
 use crate::newton::Equations;
 
 /// Most corrections of a neighbour's step.
@@ -41,23 +42,10 @@ impl Simulation {
         if !self.is_last_step_known {
             return Ok(false);
         }
-        self.system.begin_step(&self.previous.kinematics, &mut self.work.joint_starts);
-        let mut equations = StepEquations {
-            system: &self.system,
-            scheme: &self.settings.scheme,
-            scaled: self.scaled,
-            scaling: (&self.settings.scaling, &self.representative),
-            start: &self.previous,
-            work: &mut self.work,
-            watch: &mut Unwatched,
-        };
-        equations.work.correction = 0.0;
-        let result = equations.renew_tangent();
-        self.scaled = equations.scaled;
-        let step_size = self.scaled.step_size();
+        let Self { system, settings, integrator, previous, .. } = self;
+        let result = integrator.renew_at_solution(Problem { system, settings }, previous);
         let time = self.state.kinematics.time;
         result.map_err(|error| self.describe_factor(&error, time))?;
-        debug_assert!(step_size > 0.0);
         Ok(true)
     }
 
@@ -70,31 +58,25 @@ impl Simulation {
     /// # Panics
     /// If the two systems have different numbers of unknowns.
     pub fn follow(&mut self, base: &mut Self) -> Result<usize, StepError> {
-        let size = base.scaled.step_size();
-        if size != self.scaled.step_size() {
-            self.resize(size)?;
-        }
-        self.scaled = base.scaled;
-        let scheme = &self.settings.scheme;
-        let work = &mut *self.work;
-        self.scaled.to_unit_step(self.system.layout(), scheme, &self.state, &mut work.unit);
-        self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
-        work.increments.clone_from(&base.work.increments);
-        work.multipliers.clone_from(&base.work.multipliers);
-        work.regularization.clone_from(&base.work.regularization);
+        let size = base.integrator.scaled.step_size();
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let from = Start { previous: &self.previous, state: &self.state };
+        let integrator = &mut self.integrator;
+        integrator.begin(problem, from, size, &mut self.attempt)?;
+        integrator.scaled = base.integrator.scaled;
+        let start = self.attempt.start(&self.state);
+        let (work, leading) = (&mut *integrator.work, &mut *base.integrator.work);
+        integrator.scaled.to_unit_step(self.system.layout(), &self.settings.scheme, start, &mut work.unit);
+        work.increments.clone_from(&leading.increments);
+        work.multipliers.clone_from(&leading.multipliers);
+        work.regularization.clone_from(&leading.regularization);
         work.anderson.forget();
-        std::mem::swap(&mut work.factorization, &mut base.work.factorization);
-        std::mem::swap(&mut work.equilibration, &mut base.work.equilibration);
-        work.note_scales(self.system.layout(), &self.scaled);
-        let mut equations = StepEquations {
-            system: &self.system,
-            scheme,
-            scaled: self.scaled,
-            scaling: (&self.settings.scaling, &self.representative),
-            start: &self.state,
-            work,
-            watch: &mut Unwatched,
-        };
+        std::mem::swap(&mut work.factorization, &mut leading.factorization);
+        std::mem::swap(&mut work.equilibration, &mut leading.equilibration);
+        work.note_scales(self.system.layout(), &integrator.scaled);
+        let scaled = integrator.scaled;
+        let watch = &mut Unwatched;
+        let mut equations = step_equations(problem, start, &integrator.representative, scaled, work, watch);
         equations.update_motions();
         let (mut made, mut first) = (0, 0.0);
         let (mut last, mut size_of_last) = (f64::INFINITY, f64::INFINITY);
@@ -121,16 +103,16 @@ impl Simulation {
         }
         let worst = equations.worst_unknown();
         let correction = equations.work.correction;
-        equations.final_violations(&mut self.next.violations);
-        std::mem::swap(&mut self.work.factorization, &mut base.work.factorization);
-        std::mem::swap(&mut self.work.equilibration, &mut base.work.equilibration);
+        std::mem::swap(&mut work.factorization, &mut leading.factorization);
+        std::mem::swap(&mut work.equilibration, &mut leading.equilibration);
         if !(last <= FOUND || size_of_last <= MIN_CORRECTION) {
             let time = self.state.kinematics.time + size;
             let hint = "the neighbouring model has no solution near this one";
             return Err(StepError::NotConverged { time, iterations: made, correction, worst, hint });
         }
-        self.finish_attempt()?;
-        self.accept_step();
+        integrator.finish(problem, &self.state, &mut self.attempt)?;
+        self.judge_attempt()?;
+        self.commit_attempt();
         Ok(made)
     }
 }

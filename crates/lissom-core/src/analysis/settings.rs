@@ -5,7 +5,7 @@ use lissom_solver::SolverKind;
 use crate::newton::Limits;
 use crate::scaling::ScalingChoice;
 use crate::schemes::Scheme;
-use crate::stepping::StepControl;
+use crate::system::System;
 
 /// Settings of a simulation, besides system and state.
 #[derive(Clone)]
@@ -28,4 +28,20 @@ pub struct Settings {
     pub from_equilibrium: bool,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
+}
+
+/// What the user asks of step-size control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepControl {
+    /// Error to be expected of places at the end, relative to how far the model has moved, see `integrator/error_estimate` [-].
+    pub relative_tolerance: f64,
+    /// Largest step [s].
+    pub max_step: f64,
+}
+
+/// A model with the settings of its solution.
+#[derive(Clone, Copy)]
+pub(crate) struct Problem<'p> {
+    pub(crate) system: &'p System,
+    pub(crate) settings: &'p Settings,
 }

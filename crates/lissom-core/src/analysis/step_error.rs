@@ -308,7 +308,7 @@ pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'
 }
 
 /// A failure of Newton's method as that of a step to `time` [s], with names.
-pub(super) fn describe(
+pub(crate) fn describe(
     failure: &Failure,
     layout: &Layout,
     time: f64,

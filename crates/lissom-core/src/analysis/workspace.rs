@@ -53,7 +53,7 @@ pub(crate) struct Workspace {
     /// Whether that one was just halved.
     pub(super) backed_off: bool,
     /// Size of the last correction of places.
-    pub(super) correction: f64,
+    pub(crate) correction: f64,
     /// All iterations and tangents so far, whatever they led to.
     pub(crate) effort: Effort,
     /// Room for the error estimate: by coordinate row, and by row.

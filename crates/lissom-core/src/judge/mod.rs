@@ -5,21 +5,19 @@
 //! beyond half a turn stand for others, and energy that nothing put in shows that the step left its branch or that the
 //! scheme feeds motions which it does not resolve.
 
-pub(crate) mod contact;
 pub(crate) mod degenerate_joint;
-pub(crate) mod drives;
 mod energy_balance;
-pub(crate) mod linear_range;
-pub(crate) mod rates;
-pub(crate) mod singular;
+mod reports;
 pub(crate) mod start;
 mod warning;
 
 pub use energy_balance::EnergyBalance;
+pub(crate) use reports::{report, warn};
 pub use warning::Warning;
 
 use std::f64::consts::PI;
 
+use crate::analysis::Problem;
 use crate::analysis::StepError;
 use crate::kinematics::{Kinematics, Quantity};
 use crate::scaling::Representative;
@@ -50,6 +48,14 @@ pub(crate) struct Judge<'a> {
     pub(crate) is_motion: bool,
     /// Whether energy out of nothing fails the step.
     pub(crate) checks_energy: bool,
+}
+
+impl<'a> Judge<'a> {
+    /// Judges steps of a model.
+    pub(crate) fn new(Problem { system, settings }: Problem<'a>, representative: &'a Representative) -> Self {
+        let (is_motion, checks_energy) = (settings.scheme.dynamic, settings.energy_check);
+        Self { system, representative, is_motion, checks_energy }
+    }
 }
 
 impl Judge<'_> {

@@ -4,7 +4,6 @@
 //! velocity. So a step ends as close before it as numbers allow, that its last stage does not see it either, and accelerations, with what a scheme remembers of them, jump as forces do. At a kink, which changes the slope
 //! alone, a step ends, and nothing jumps.
 
-use crate::analysis::{Simulation, StepError};
 use crate::instants::SAME;
 use crate::registry::Function;
 use crate::system::System;
@@ -40,7 +39,7 @@ pub(crate) struct StopTime {
     /// What the clock is set to there [s].
     pub(crate) clock: f64,
     /// The jump that lies between the two [s], if there is one.
-    jump: Option<f64>,
+    pub(super) jump: Option<f64>,
 }
 
 /// All breakpoints of a system, in ascending order. Times closer than a part of the step, `step` [s], are one.
@@ -77,44 +76,29 @@ fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
     change > STEEP * 2.0 * aside * slope + ROUND_OFF * size
 }
 
-impl Simulation {
-    /// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of a breakpoint between; a jump at
-    /// its end counts. `longest` is the longest step [s].
-    pub(super) fn stop_time(&self, now: f64, limit: f64, longest: f64) -> Option<StopTime> {
-        let near = SAME * longest;
-        let begin = self.breakpoints.partition_point(|breakpoint| breakpoint.time <= now + near);
-        let is_met = |breakpoint: &&Breakpoint| {
-            breakpoint.time < limit - near || (breakpoint.jumps && breakpoint.time <= limit + near)
-        };
-        let breakpoint = self.breakpoints[begin..]
-            .iter()
-            .take_while(|breakpoint| breakpoint.time <= limit + near)
-            .find(is_met)?;
-        if !breakpoint.jumps {
-            let end = breakpoint.time.next_down();
-            return Some(StopTime { end, clock: end, jump: None });
-        }
-        let aside = ROUNDINGS * f64::EPSILON * breakpoint.time.abs().max(now.abs());
-        let is_end = (breakpoint.time - limit).abs() <= near;
-        // The work of the next step begins with the loads behind the jump.
-        let clock = if is_end { limit } else { breakpoint.time };
-        Some(StopTime { end: breakpoint.time.min(limit) - aside, clock, jump: Some(breakpoint.time) })
+/// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of one of these breakpoints between; a
+/// jump at its end counts where forces see it: an equilibrium before a jump knows nothing of it. `longest` is the longest step
+/// [s].
+pub(super) fn stop_time(
+    breakpoints: &[Breakpoint],
+    [now, limit]: [f64; 2],
+    longest: f64,
+    is_motion: bool,
+) -> Option<StopTime> {
+    let near = SAME * longest;
+    let begin = breakpoints.partition_point(|breakpoint| breakpoint.time <= now + near);
+    let is_met = |breakpoint: &&Breakpoint| {
+        breakpoint.time < limit - near || (breakpoint.jumps && breakpoint.time <= limit + near)
+    };
+    let breakpoint =
+        breakpoints[begin..].iter().take_while(|breakpoint| breakpoint.time <= limit + near).find(is_met)?;
+    if !(breakpoint.jumps && is_motion) {
+        let end = breakpoint.time.next_down();
+        return Some(StopTime { end, clock: end, jump: None });
     }
-
-    /// After a step that ended at a breakpoint: sets the clock, and lets accelerations jump.
-    ///
-    /// # Errors
-    /// If there are no consistent accelerations on one of the sides.
-    pub(super) fn cross_breakpoint(&mut self, stop_time: &StopTime, longest: f64) -> Result<(), StepError> {
-        if let Some(jump) = stop_time.jump {
-            let aside = SAME * longest;
-            self.jump_between(jump - aside, jump + aside)
-                .map_err(|error| StepError::Velocities { time: stop_time.clock, error })?;
-            // The end of the step no longer determines the start of the next one.
-            self.is_last_step_known &= self.integrator_history.is_none();
-        }
-        (self.state.kinematics.time, self.state.time_remainder) = (stop_time.clock, 0.0);
-        self.work.forget_predictions();
-        Ok(())
-    }
+    let aside = ROUNDINGS * f64::EPSILON * breakpoint.time.abs().max(now.abs());
+    let is_end = (breakpoint.time - limit).abs() <= near;
+    // The work of the next step begins with the loads behind the jump.
+    let clock = if is_end { limit } else { breakpoint.time };
+    Some(StopTime { end: breakpoint.time.min(limit) - aside, clock, jump: Some(breakpoint.time) })
 }

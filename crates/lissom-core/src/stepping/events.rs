@@ -1,28 +1,28 @@
 //! Steps that end at events and where forces switch.
 
 use super::event_detector::LocatedRoot;
-use crate::analysis::{Simulation, StepError, StepReport, Stopwatch, warn};
-use crate::judge::Warning;
-use crate::newton::Outcome;
+use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
 use crate::signals::event::Occurrence;
 
-/// An attempt that was checked for zeros of switching functions.
-pub(super) enum Checked {
+/// What becomes of an attempt that has a solution.
+pub(super) enum Verdict {
     /// It can be accepted, and ends at the zero if there is one.
-    Accepted(Outcome, Option<LocatedRoot>),
-    /// A force switched at the start of the step: the attempt has to be repeated.
-    SwitchedAtStart,
+    Accept(Option<LocatedRoot>),
+    /// A force switched at the start of the step: the attempt is repeated.
+    Repeat,
+    /// A shorter one is made.
+    Shorten,
 }
 
 impl Simulation {
     /// The events that happened since the start, in their order.
     pub fn occurrences(&self) -> &[Occurrence] {
-        &self.event_detector.known.occurrences
+        &self.events.known.occurrences
     }
 
     /// Name of the event at which the run is to end, if the last step ended at one.
     pub fn stopped_by(&self) -> Option<&str> {
-        let event = self.event_detector.known.stopped_by?;
+        let event = self.events.known.stopped_by?;
         Some(&self.system.signals().events()[event].name)
     }
 
@@ -34,36 +34,36 @@ impl Simulation {
     /// If the shorter step has no solution, or the motion slides along a switch.
     pub(super) fn end_at_event(
         &mut self,
-        (size, mut outcome): (f64, Outcome),
+        size: f64,
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
-    ) -> Result<Checked, StepError> {
-        if self.event_detector.is_empty() {
-            return Ok(Checked::Accepted(outcome, None));
+    ) -> Result<Verdict, StepError> {
+        if self.events.is_empty() {
+            return Ok(Verdict::Accept(None));
         }
-        let Some(mut located) = self.event_detector.crossing(&self.system, (&self.state, &self.next), size)
-        else {
-            return Ok(Checked::Accepted(outcome, None));
+        let step = (&self.state, &self.attempt.end);
+        let Some(mut located) = self.events.crossing(&self.system, step, size) else {
+            return Ok(Verdict::Accept(None));
         };
         if located.size == 0.0 {
-            if !self.event_detector.switch_at_start(&located.indices) {
+            if !self.events.switch_at_start(&located.indices) {
                 return Err(self.chatters(located.indices[0]));
             }
             self.freeze_switches()?;
-            self.work.forget_predictions();
+            self.integrator.work.forget_predictions();
             report.rejected += 1;
-            return Ok(Checked::SwitchedAtStart);
+            return Ok(Verdict::Repeat);
         }
         let mut solved = size;
         while located.size != solved {
             report.rejected += 1;
             solved = located.size;
-            outcome = self.attempt(solved, watch)?;
-            if self.event_detector.is_met(&self.system, (&self.state, &self.next), &mut located) {
+            self.attempt(solved, watch)?;
+            if self.events.is_met(&self.system, (&self.state, &self.attempt.end), &mut located) {
                 break;
             }
         }
-        Ok(Checked::Accepted(outcome, Some(located)))
+        Ok(Verdict::Accept(Some(located)))
     }
 
     /// After a step was accepted: notes which events happened at its end, and does what they ask for.
@@ -75,11 +75,11 @@ impl Simulation {
         located: Option<&LocatedRoot>,
         longest: f64,
     ) -> Result<(), StepError> {
-        if self.event_detector.is_empty() {
+        if self.events.is_empty() {
             return Ok(());
         }
         let happened = self
-            .event_detector
+            .events
             .accept(&self.system, &self.state, located, longest)
             .map_err(|which| self.chatters(which))?;
         self.freeze_switches()?;
@@ -100,18 +100,18 @@ impl Simulation {
         graph.check(&at).map_err(StepError::Signal)?;
         let time = at.time;
         self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })?;
-        self.event_detector.renew(&self.system, &self.state, &happened);
+        self.events.renew(&self.system, &self.state, &happened);
         self.freeze_switches()
     }
 
     /// Lets signals be continued from the sides of their switches that are known: forces may jump with them.
     pub(crate) fn freeze_switches(&mut self) -> Result<(), StepError> {
-        if self.event_detector.has_frozen_switches(&self.system, &self.state.kinematics) {
+        if self.events.has_frozen_switches(&self.system, &self.state.kinematics) {
             return Ok(());
         }
         let first = self.system.signals().first_side();
         let mut at = self.state.kinematics.clone();
-        self.event_detector.freeze_switches(&self.system, &mut at);
+        self.events.freeze_switches(&self.system, &mut at);
         let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
         if pairs().all(|(side, held)| side == held || *held == 0.0) {
             // Sides that become known change nothing.
@@ -120,23 +120,6 @@ impl Simulation {
         }
         let time = at.time;
         self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
-    }
-
-    /// After a step of planned size that was accepted.
-    pub(super) fn note_impacts(&mut self) {
-        let found = self.impacts.accept(&self.system, &self.state.kinematics);
-        let is_contact = |warning: &Warning| matches!(warning, Warning::ContactTooShort { .. });
-        let known = self.warnings.iter().position(is_contact);
-        match (found, known) {
-            (Some((which, time)), None) => {
-                let what = self.system.name_of_switch(which);
-                warn(&mut self.warnings, Warning::ContactTooShort { time, what });
-            }
-            (None, Some(known)) => {
-                self.warnings.remove(known);
-            }
-            _ => {}
-        }
     }
 
     fn chatters(&self, which: usize) -> StepError {

@@ -8,10 +8,10 @@ use std::sync::Arc;
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, EventState, Impacts, IntegratorHistory, LoadControl, Resolution, StepBisection};
+use super::EventState;
 use crate::analysis::snapshot_parts::Learned;
 use crate::analysis::{Settings, Simulation, Totals};
-use crate::judge::singular::Known;
+use crate::integrator::IntegratorHistory;
 use crate::judge::{EnergyBalance, Warning};
 use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
 use crate::newton::JacobianState;
@@ -19,7 +19,7 @@ use crate::scaling::Scaled;
 use crate::system::State;
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 13;
+const VERSION: u32 = 14;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,19 +33,14 @@ pub struct Snapshot {
     scaled: Scaled,
     jacobian_state: JacobianState,
     integrator_history: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
-    step_bisection: StepBisection,
-    controller: Option<Controller>,
-    load_control: Option<LoadControl>,
-    stability: Vec<(f64, Option<usize>)>,
-    farthest: f64,
+    control: Vec<u8>,
     totals: Totals,
     velocity_correction: f64,
     energy_balance: EnergyBalance,
     warnings: Vec<Warning>,
-    singular: Vec<Known>,
     event_state: EventState,
-    impacts: Impacts,
-    resolution: Resolution,
+    /// By the name of the monitor.
+    monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
 }
 
@@ -163,30 +158,24 @@ impl Simulation {
     /// What the simulation is between two steps: a simulation of the same model to which it is given back goes on as
     /// this one does, to the last bit.
     pub fn snapshot(&self) -> Snapshot {
-        let origin = State { kinematics: self.origin.clone(), ..self.state.clone() };
+        let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
         Snapshot {
             version: VERSION,
             belongs_to: self.belonging(),
             states: [(&self.previous).into(), (&self.state).into()],
             origin: (&origin).into(),
             step_size: self.settings.step_size,
-            scaled: self.scaled,
-            jacobian_state: self.jacobian_state,
-            integrator_history: self.integrator_history.as_ref().map(IntegratorHistory::to_numbers),
-            step_bisection: self.step_bisection,
-            controller: self.controller,
-            load_control: self.load_control,
-            stability: self.stability.clone(),
-            farthest: self.farthest,
+            scaled: self.integrator.scaled,
+            jacobian_state: self.integrator.jacobian_state,
+            integrator_history: self.integrator.history.as_ref().map(IntegratorHistory::to_numbers),
+            control: self.control.save(),
             totals: self.totals,
-            velocity_correction: self.velocity_correction,
+            velocity_correction: self.origin.velocity_correction,
             energy_balance: self.energy_balance,
             warnings: self.warnings.clone(),
-            singular: self.singular.known.clone(),
-            event_state: self.event_detector.known.clone(),
-            impacts: self.impacts.clone(),
-            resolution: self.resolution.clone(),
-            learned: self.work.learned(),
+            event_state: self.events.known.clone(),
+            monitors: self.monitors.save(),
+            learned: self.integrator.work.learned(),
         }
     }
 
@@ -205,30 +194,29 @@ impl Simulation {
                 found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
             });
         }
-        self.work.restore(&self.system, &from.learned).map_err(|_| SnapshotError::Damaged)?;
+        let is_read = self.integrator.work.restore(&self.system, &from.learned).is_ok()
+            && self.control.restore(&from.control)
+            && self.monitors.restore(&from.monitors);
+        if !is_read {
+            return Err(SnapshotError::Damaged);
+        }
         self.previous = (&from.states[0]).into();
         self.state = (&from.states[1]).into();
-        self.origin = State::from(&from.origin).kinematics;
+        self.origin.kinematics = State::from(&from.origin).kinematics;
+        self.origin.velocity_correction = from.velocity_correction;
+        self.stops.restart(self.origin.kinematics.time);
         self.settings.step_size = from.step_size;
-        self.scaled = from.scaled;
-        self.jacobian_state = from.jacobian_state;
-        if let (Some(memory), Some(numbers)) = (&mut self.integrator_history, &from.integrator_history) {
-            memory.set_numbers(numbers);
+        let integrator = &mut self.integrator;
+        integrator.scaled = from.scaled;
+        integrator.jacobian_state = from.jacobian_state;
+        if let (Some(history), Some(numbers)) = (&mut integrator.history, &from.integrator_history) {
+            history.set_numbers(numbers);
         }
-        self.step_bisection = from.step_bisection;
-        self.controller = from.controller;
-        self.load_control = from.load_control;
-        self.stability.clone_from(&from.stability);
-        self.farthest = from.farthest;
+        integrator.work.note_scales(self.system.layout(), &integrator.scaled);
         self.totals = from.totals;
-        self.velocity_correction = from.velocity_correction;
         self.energy_balance = from.energy_balance;
         self.warnings.clone_from(&from.warnings);
-        self.singular.known.clone_from(&from.singular);
-        self.event_detector.known.clone_from(&from.event_state);
-        self.impacts.clone_from(&from.impacts);
-        self.resolution.clone_from(&from.resolution);
-        self.work.note_scales(self.system.layout(), &self.scaled);
+        self.events.known.clone_from(&from.event_state);
         self.is_last_step_known = false;
         Ok(())
     }
@@ -239,9 +227,10 @@ impl Simulation {
     /// If the tangent in use cannot be factored again.
     pub fn try_clone(&self) -> Result<Self, SnapshotError> {
         let settings = Settings { from_equilibrium: false, ..self.settings.clone() };
-        let origin = State { kinematics: self.origin.clone(), ..self.state.clone() };
-        let mut copy = Self::start(Arc::clone(&self.system), origin, settings, Some(&self.representative))
-            .map_err(|_| SnapshotError::Damaged)?;
+        let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
+        let mut copy =
+            Self::start(Arc::clone(&self.system), origin, settings, Some(&self.integrator.representative))
+                .map_err(|_| SnapshotError::Damaged)?;
         copy.accumulate(self.accumulation.numbers.clone());
         copy.restore(&self.snapshot())?;
         Ok(copy)

@@ -14,16 +14,13 @@
 
 use std::sync::Arc;
 
-use super::breakpoints::Breakpoint;
-use crate::analysis::{InitialError, Simulation, warn};
 use crate::instants::SAME;
-use crate::judge::Warning;
 use crate::registry::TimeFunction;
 use crate::system::System;
 
 /// A function that departs by more than this part of its largest value from what the ends of a step determine is not resolved: a
 /// sine with 4.4 steps a period.
-const DEPARTURE: f64 = 0.01;
+pub(super) const DEPARTURE: f64 = 0.01;
 /// Where bounds are narrower than this part of the largest value, nothing hides between the instants looked at.
 const NARROW: f64 = 0.1;
 /// Intervals looked at within one step at most, and in the search for the largest value.
@@ -41,9 +38,9 @@ const INSIDE: f64 = 1e-6;
 /// Blocks begin by this part of a step before one of them: the golden section, that no simple part of a step is.
 const ASIDE: f64 = 0.381_966;
 /// Planned steps that are looked at together; chosen ones are as many of the longest.
-const BLOCK: [f64; 2] = [64.0, 1.0];
+pub(super) const BLOCK: [f64; 2] = [64.0, 1.0];
 /// Blocks for which the largest value is found together.
-const WINDOW: f64 = 64.0;
+pub(super) const WINDOW: f64 = 64.0;
 
 /// What is known of the functions of a system. All of it follows from the time the motion began and the size of steps.
 #[derive(Clone, Debug, Default)]
@@ -53,7 +50,7 @@ pub(crate) struct TimeFunctions {
     /// The block looked at last, from when to when [s].
     block: Option<[f64; 2]>,
     /// Where in it the first interval is that the ends of a step do not determine [s], with the function's index.
-    hidden: Option<(f64, usize)>,
+    pub(super) hidden: Option<(f64, usize)>,
 }
 
 /// What is found within an interval.
@@ -77,7 +74,7 @@ struct Scan {
 
 impl TimeFunctions {
     /// Sizes of the functions of a motion that began at `origin` [s], as far as two windows of this length beyond `time`.
-    fn sizes(&mut self, system: &System, origin: f64, time: f64, window: f64) -> &[f64] {
+    pub(super) fn sizes(&mut self, system: &System, origin: f64, time: f64, window: f64) -> &[f64] {
         let index = ((time - origin) / window).max(0.0) as usize;
         while self.sizes.len() < index + 2 {
             let from = origin + self.sizes.len() as f64 * window;
@@ -92,7 +89,13 @@ impl TimeFunctions {
     }
 
     /// Looks at the block around a step of `step` [s] from `from` on, unless it has been looked at last; gives the jumps in it.
-    fn look_ahead(&mut self, system: &System, origin: f64, from: f64, [step, length]: [f64; 2]) -> Vec<f64> {
+    pub(super) fn look_ahead(
+        &mut self,
+        system: &System,
+        origin: f64,
+        from: f64,
+        [step, length]: [f64; 2],
+    ) -> Vec<f64> {
         let from = from + SAME * step;
         if self.block.is_some_and(|[first, last]| first <= from && from + (1.0 + 0.5 * ASIDE) * step <= last)
         {
@@ -120,7 +123,7 @@ impl TimeFunctions {
 
     /// The longest step of `size` [s] or less, halved, from `from` on whose ends determine the functions within it, except for
     /// jumps.
-    fn longest_resolved(
+    pub(super) fn longest_resolved(
         &mut self,
         system: &System,
         origin: f64,
@@ -304,65 +307,6 @@ fn departure(function: &dyn TimeFunction, [from, to]: [f64; 2], part: [f64; 2]) 
     };
     // A value that is no number is reported elsewhere.
     [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
-}
-
-impl Simulation {
-    /// Looks at functions of time before a step from the time `now` [s]: jumps that are found end steps.
-    pub(super) fn look_at_time_functions(&mut self, now: f64) {
-        if self.system.functions.is_empty() || !self.settings.scheme.dynamic {
-            return;
-        }
-        let sizes = self.sizes_of_blocks();
-        for time in self.time_functions.look_ahead(&self.system, self.origin.time, now, sizes) {
-            let place = self.breakpoints.partition_point(|breakpoint| breakpoint.time < time);
-            let near = |breakpoint: &Breakpoint| (breakpoint.time - time).abs() <= SAME * sizes[0];
-            if !self.breakpoints[place.saturating_sub(1)..].iter().take(2).any(near) {
-                self.breakpoints.insert(place, Breakpoint::jump(time));
-            }
-        }
-    }
-
-    /// At the start: accelerations are those behind jumps of functions at that very instant.
-    ///
-    /// # Errors
-    /// If there are no consistent accelerations there.
-    pub(crate) fn begin_behind_jumps(&mut self) -> Result<(), InitialError> {
-        let now = self.state.kinematics.time;
-        let [step, length] = self.sizes_of_blocks();
-        let behind = now + SAME * step;
-        let sizes = self.time_functions.sizes(&self.system, now, now, WINDOW * length);
-        let jumps = self.system.functions.iter().zip(sizes).any(|((_, function), size)| {
-            (function.value(behind) - function.value(now)).abs() > DEPARTURE * size
-        });
-        if jumps && self.settings.scheme.dynamic { self.jump_between(now, behind) } else { Ok(()) }
-    }
-
-    /// The longest planned or chosen step, and the length of a block [s].
-    fn sizes_of_blocks(&self) -> [f64; 2] {
-        match self.settings.control {
-            Some(control) => [control.max_step, BLOCK[1] * control.max_step],
-            None => [self.settings.step_size, BLOCK[0] * self.settings.step_size],
-        }
-    }
-
-    /// Reports, after a step of planned size, that it has passed something that its ends do not determine.
-    pub(super) fn note_hidden(&mut self) {
-        let Some((time, index)) = self.time_functions.hidden else { return };
-        if time < self.state.kinematics.time {
-            let function = self.system.functions[index].0.clone();
-            let step = self.settings.step_size;
-            warn(&mut self.warnings, Warning::FunctionUnseen { time, function, step });
-        }
-    }
-
-    /// The longest step of `size` [s] or less within which no function of time does what its ends do not give.
-    pub(super) fn resolved_by_its_ends(&mut self, now: f64, size: f64) -> f64 {
-        let window = WINDOW * self.sizes_of_blocks()[1];
-        // The square root of what a step of third order may miss.
-        let tolerance = self.settings.control.map_or(1.0, |control| control.relative_tolerance);
-        let part = tolerance.powf(2.0 / 3.0).min(DEPARTURE);
-        self.time_functions.longest_resolved(&self.system, self.origin.time, (now, size), part, window)
-    }
 }
 
 #[cfg(test)]

@@ -67,7 +67,7 @@ pub(super) struct IntegratedStep {
 impl IntegratedStep {
     /// None where strains are evaluated where a stage is.
     pub(super) fn new(base: &Simulation) -> Option<Self> {
-        let (layout, work) = (base.system.layout(), &base.work);
+        let (layout, work) = (base.system.layout(), &base.integrator.work);
         Some(Self {
             tableau: base.settings.scheme.tableau?,
             start: base.state.clone(),
@@ -92,8 +92,8 @@ impl IntegratedStep {
         out: &mut [Vec<Block>],
     ) {
         self.start.clone_from(&base.previous);
-        self.increments.clone_from(&base.work.increments);
-        self.multipliers.clone_from(&base.work.multipliers);
+        self.increments.clone_from(&base.integrator.work.increments);
+        self.multipliers.clone_from(&base.integrator.work.multipliers);
         self.move_stages(base);
         for neighbour in neighbours {
             self.evaluate(&neighbour.system, neighbour.length);
@@ -108,7 +108,7 @@ impl IntegratedStep {
             let moved = side * share;
             self.start.clone_from(&base.previous);
             lanes.now.displace(lane, base.system.layout(), moved, &mut self.start);
-            let work = &base.work;
+            let work = &base.integrator.work;
             let ways = [
                 (&mut self.increments, &work.increments, &lanes.increments),
                 (&mut self.multipliers, &work.multipliers, &lanes.multipliers),
@@ -121,14 +121,14 @@ impl IntegratedStep {
                 }
             }
             self.move_stages(base);
-            self.evaluate(&base.system, base.representative.length);
+            self.evaluate(&base.system, base.integrator.representative.length);
             self.add(weight / share, lane, out);
         }
     }
 
     /// Motions at the stages and at the end, from the start and the increments.
     fn move_stages(&mut self, base: &Simulation) {
-        let (layout, scheme, scaled) = (base.system.layout(), &base.settings.scheme, &base.scaled);
+        let (layout, scheme, scaled) = (base.system.layout(), &base.settings.scheme, &base.integrator.scaled);
         scaled.to_unit_step(layout, scheme, &self.start, &mut self.unit);
         for stage in 0..scheme.stages.len() {
             let increments = StageIncrements { all: &self.increments, stage };
@@ -185,7 +185,7 @@ pub(super) fn round_off(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
 
 /// The share of the variation in a lane over which residuals are differentiated.
 fn share(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
-    let work = &base.work;
+    let work = &base.integrator.work;
     let largest = |of: &mut dyn Iterator<Item = (f64, f64)>| {
         of.fold(0.0_f64, |most, (size, value)| most.max((size * value).abs()))
     };
@@ -193,7 +193,7 @@ fn share(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
     let column = |values: &[Block]| largest(&mut sizes().zip(values.iter().map(|block| block[lane])));
     let place = column(&lanes.now.place);
     let found = largest_found(base, lanes)[lane];
-    let change = found.max(base.scaled.step_size() * column(&lanes.now.rate));
+    let change = found.max(base.integrator.scaled.step_size() * column(&lanes.now.rate));
     let straight = largest(&mut sizes().zip(work.unit.rate.iter().copied()));
     let travel = work
         .increments

@@ -92,7 +92,7 @@ impl Sensitivities {
             numbers: Vec::new(),
             variations: Vec::new(),
             stages: Stages::new(base),
-            remembered: base.integrator_history.is_some().then(|| base.scaled.step_size()),
+            remembered: base.integrator.history.is_some().then(|| base.integrator.scaled.step_size()),
             steps: 0,
             is_exact: true,
             corrections: 0,
@@ -126,7 +126,7 @@ impl Sensitivities {
         let neighbour = |(of, weight): &(&Simulation, f64)| Neighbour {
             system: Arc::clone(&of.system),
             weight: *weight,
-            length: of.representative.length,
+            length: of.integrator.representative.length,
         };
         self.numbers.push(Number { difference, neighbours: neighbours.iter().map(neighbour).collect() });
         true
@@ -140,7 +140,9 @@ impl Sensitivities {
     /// How far the state moves with a unit of the number of this index [-, rad]: the largest derivative of a place, or of a rate or
     /// acceleration over a step.
     pub fn extent(&self, base: &Simulation, index: usize) -> f64 {
-        self.variations[index / WIDTH].now.extents(&base.work.sizes, base.scaled.step_size())[index % WIDTH]
+        self.variations[index / WIDTH]
+            .now
+            .extents(&base.integrator.work.sizes, base.integrator.scaled.step_size())[index % WIDTH]
     }
 
     /// Moves a copy of the state of `base` by `share` of its derivative by the number of this index.
@@ -154,7 +156,7 @@ impl Sensitivities {
     /// # Errors
     /// If its tangent has no factors, or corrections do not converge.
     pub fn advance(&mut self, base: &mut Simulation) -> Result<bool, StepError> {
-        if self.remembered.is_some_and(|size| size != base.scaled.step_size()) {
+        if self.remembered.is_some_and(|size| size != base.integrator.scaled.step_size()) {
             return Ok(false);
         }
         if !base.renew_at_solution()? {
@@ -203,8 +205,9 @@ fn step(
             continue;
         }
         let known = largest_found(base, lanes);
-        let rounding =
-            rounding.get_or_insert_with(|| lanes.now.extents(&base.work.sizes, base.scaled.step_size()));
+        let rounding = rounding.get_or_insert_with(|| {
+            lanes.now.extents(&base.integrator.work.sizes, base.integrator.scaled.step_size())
+        });
         let reference: Block =
             std::array::from_fn(|lane| first[lane].max(known[lane]).max(ROUNDED * rounding[lane]));
         if made == 2 {
@@ -240,7 +243,7 @@ fn step(
 /// What a violation weighs in the augmented term.
 fn relative_weights(base: &Simulation) -> Vec<f64> {
     let layout = base.system.layout();
-    let augmentation = base.scaled.augmentation();
+    let augmentation = base.integrator.scaled.augmentation();
     let of = |quantity: &Quantity| augmentation.weight * augmentation.relative(*quantity);
     layout.quantities()[layout.multiplier_rows()].iter().map(of).collect()
 }

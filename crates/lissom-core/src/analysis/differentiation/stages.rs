@@ -11,6 +11,7 @@ use super::{Lanes, Number, relative_weights};
 use crate::analysis::equations::StepEquations;
 use crate::analysis::phase::Unwatched;
 use crate::analysis::simulation::Simulation;
+use crate::integrator::Integrator;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeId};
 use crate::schemes::Combination;
@@ -72,7 +73,8 @@ impl Stages {
     /// Takes note of the last step of `base`, whose tangent has been made at its solution.
     pub(super) fn enter(&mut self, base: &mut Simulation) {
         self.weights = relative_weights(base);
-        let Simulation { system, settings, work, previous, scaled, representative, .. } = base;
+        let Simulation { system, settings, integrator, previous, .. } = base;
+        let Integrator { work, scaled, representative, .. } = integrator;
         let (layout, scheme, size) = (system.layout(), &settings.scheme, scaled.step_size());
         let pattern = &system.structure().pattern;
         let equations = StepEquations {
@@ -123,7 +125,7 @@ impl Stages {
             return;
         }
         let [scratch, own] = &mut self.scratch;
-        let work = &base.work;
+        let work = &base.integrator.work;
         for (index, explicit) in self.explicit.iter_mut().enumerate() {
             explicit.fill(NOTHING);
             for (lane, number) in numbers.iter().enumerate() {
@@ -179,8 +181,8 @@ impl Stages {
     /// Solves for corrections and applies them: their size in each lane.
     pub(super) fn correct(&mut self, base: &mut Simulation, lanes: &mut Lanes) -> Block {
         let layout = base.system.layout();
-        let (count, work) = (layout.coordinate_count(), &mut *base.work);
-        let factor = base.scaled.multiplier_factor();
+        let (count, work) = (layout.coordinate_count(), &mut *base.integrator.work);
+        let factor = base.integrator.scaled.multiplier_factor();
         // The tangent has the augmented term, which vanishes with the violations.
         for (residual, multipliers) in self.residuals.iter().zip(&mut lanes.multipliers) {
             for ((value, violation), weight) in
@@ -193,7 +195,7 @@ impl Stages {
         }
         if let Some((regularization, _)) = &work.regularization {
             let [room, violations] = &mut self.scratch;
-            let scale = factor * base.scaled.scale();
+            let scale = factor * base.integrator.scaled.scale();
             for (residual, multipliers) in self.residuals.iter_mut().zip(&lanes.multipliers) {
                 for lane in 0..WIDTH {
                     let known = room.iter_mut().zip(multipliers);
@@ -238,7 +240,7 @@ impl Stages {
         let last = self.residuals.len() - 1;
         self.vary(base, lanes, last);
         let scheme = &base.settings.scheme;
-        let size = base.scaled.step_size();
+        let size = base.integrator.scaled.step_size();
         if let Some(tableau) = &scheme.tableau {
             for index in 0..last {
                 self.vary(base, lanes, index);
@@ -288,7 +290,7 @@ impl pulp::WithSimd for Vary<'_> {
     fn with_simd<V: pulp::Simd>(self, _: V) {
         let Vary { base, lanes, index, moving, maps, out } = self;
         let (layout, scheme) = (base.system.layout(), &base.settings.scheme);
-        let (stage, size) = (&scheme.stages[index], base.scaled.step_size());
+        let (stage, size) = (&scheme.stages[index], base.integrator.scaled.step_size());
         let (now, own) = (&lanes.now, &lanes.increments[index]);
         combine(&stage.rate, lanes, size, 1.0 / size, &mut out.rate);
         combine(&stage.curvature, lanes, size, 1.0 / (size * size), &mut out.acceleration);
@@ -365,7 +367,7 @@ fn combine(combination: &Combination, lanes: &Lanes, size: f64, factor: f64, out
 pub(super) fn largest_found(base: &Simulation, lanes: &Lanes) -> Block {
     let mut largest = NOTHING;
     for increments in &lanes.increments {
-        for (value, size) in increments.iter().zip(&base.work.sizes) {
+        for (value, size) in increments.iter().zip(&base.integrator.work.sizes) {
             for lane in 0..WIDTH {
                 largest[lane] = larger(largest[lane], size * value[lane]);
             }

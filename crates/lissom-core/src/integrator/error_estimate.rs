@@ -18,13 +18,17 @@
 //! The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the largest entry, lengths in ℓ_r. The reference is how
 //! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
 
+use super::Integrator;
+use crate::analysis::Problem;
 use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity};
+use crate::scaling::UnitStepState;
+use crate::schemes::Stage;
 use crate::system::{Drive, System};
 
 /// Order of an estimate in the step size.
 #[derive(Clone, Copy)]
-pub(super) enum Order {
+pub(crate) enum ErrorOrder {
     Third,
     Fourth,
 }
@@ -97,5 +101,97 @@ pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out
             let products = rows.iter().enumerate().map(|(k, &column)| matrix[(i, k)] * error[column]);
             out[row] += products.sum::<f64>();
         }
+    }
+}
+
+/// What the velocity at the end of a step misses, as a length of the position's miss: equal to it where the acceleration
+/// changes linearly.
+///
+/// ```text
+/// v_end - v_start - a_start = a'/2,   z_end - a_start/2 = a'/6      (step of unit length)
+/// ```
+///
+/// In two-stage Radau IIA the force of the last stage has no weight in the position at the end, (A²)₂₂ = 0: a force that
+/// begins late in a step changes the velocity alone.
+fn velocity_miss(stage: &Stage, unit: &UnitStepState, increments: &[Vec<f64>], row: usize) -> f64 {
+    (unit.combine(&stage.rate, increments, row) - unit.curvature[row]) / 3.0
+}
+
+impl Integrator {
+    /// Leaves the estimated error of the last attempt, which ended at `end` after a step of `last_size` [s], in the workspace: as
+    /// it is and filtered. Forces may have switched at its start.
+    pub(crate) fn estimate_error(
+        &mut self,
+        problem: Problem<'_>,
+        end: &Kinematics,
+        last_size: f64,
+        order: ErrorOrder,
+        has_switched: bool,
+    ) {
+        self.miss_of_attempt(problem, last_size, order, has_switched);
+        let work = &mut *self.work;
+        let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
+        if has_switched {
+            // The filter would hide a motion that the switch has just woken: an impact on a stiff stop.
+            motion.copy_from_slice(&work.error);
+            problem.system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
+            return;
+        }
+        inertial_part(problem.system, end, &work.error, motion);
+        constraints.fill(0.0);
+        if let Some(equilibration) = &work.equilibration {
+            equilibration.scale(&mut work.filtered);
+        }
+        work.factorization.solve_inertial(&problem.settings.scheme.coupling, &mut work.filtered);
+        if let Some(equilibration) = &work.equilibration {
+            equilibration.scale(&mut work.filtered);
+        }
+    }
+
+    /// The miss from which the error of the last attempt is estimated, by row: that of the position or of the velocity,
+    /// whichever is larger, times the scheme's constant, or what it exceeds the miss of the step before.
+    fn miss_of_attempt(
+        &mut self,
+        Problem { system, settings }: Problem<'_>,
+        last_size: f64,
+        order: ErrorOrder,
+        has_switched: bool,
+    ) {
+        let scheme = &settings.scheme;
+        let work = &mut *self.work;
+        let Some((stage, predicted)) = scheme.stages.iter().zip(&mut work.predicted).last() else {
+            unreachable!("every scheme has a stage")
+        };
+        work.unit.predict(&stage.prediction, predicted);
+        let unit = &work.unit;
+        let (Some(found), Some(predicted)) = (work.increments.last(), work.predicted.last()) else { return };
+        let weight = 4.0 / (1.0 + 3.0 * last_size / self.scaled.step_size());
+        // Behind a switch the motion is not smooth, and constants that assume so do not apply.
+        let constant = if has_switched { 1.0 } else { scheme.error_constant };
+        let mut error = std::mem::take(&mut work.error);
+        let quantities = system.layout().quantities();
+        for ((row, error), last) in error.iter_mut().enumerate().zip(work.last_miss()) {
+            let judge = |miss: f64| match order {
+                ErrorOrder::Third => constant * miss,
+                ErrorOrder::Fourth => weight * (miss - last),
+            };
+            *error = judge(found[row] - predicted[row]);
+            // A state has no acceleration from which its rate could be predicted.
+            if quantities[row] != Quantity::State {
+                let velocity = judge(velocity_miss(stage, unit, &work.increments, row));
+                if velocity.abs() > error.abs() {
+                    *error = velocity;
+                }
+            }
+        }
+        work.error = error;
+    }
+
+    /// Name of the unknown with the largest estimated error of the last attempt.
+    pub(crate) fn most_inaccurate(&self, system: &System) -> String {
+        let errors =
+            self.work.filtered.iter().zip(&self.work.sizes).map(|(error, size)| (error * size).abs());
+        let most = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        system.layout().name_of(most.map_or(0, |(row, _)| row))
     }
 }

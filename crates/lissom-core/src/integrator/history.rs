@@ -1,4 +1,4 @@
-//! What schemes of one stage remember belongs to the size of the step, and changes with it.
+//! What schemes of one stage remember belongs to the size of the step: an attempt of another size starts from a converted state.
 //!
 //! Legend: a algorithmic acceleration, h step size, r ratio of the new to the old one, v velocities, B gradient of the
 //! constraints.
@@ -24,7 +24,7 @@ use crate::system::{State, System};
 /// round-off of a short step, which would grow by r² from step to step: a stays, and velocities are made consistent.
 const MAX_RATIO: f64 = 2.0;
 
-/// Changes the memory of a state in place.
+/// Converts the memory of a state.
 pub(crate) struct IntegratorHistory {
     initial: ConsistentInitialConditions,
     /// Step size that the memory belongs to [s].
@@ -74,38 +74,43 @@ impl IntegratorHistory {
         self.is_known = false;
     }
 
-    /// Makes the memory of `state` that of another step size. `previous` is the state before the last step, or the
-    /// same where there was none; `scratch` is overwritten.
+    /// Whether the memory belongs to steps of this size [s].
+    pub(crate) fn is_of(&self, step: f64) -> bool {
+        step == self.step
+    }
+
+    /// Writes `state` with the memory of steps of another size to `out`. `previous` is the state before the last step, or
+    /// the same where there was none; `scratch` is overwritten.
     ///
     /// # Errors
     /// If the velocities cannot be taken apart.
-    pub(crate) fn change(
+    pub(crate) fn convert(
         &mut self,
         system: &System,
         delay: f64,
-        (previous, state, scratch): (&State, &mut State, &mut State),
+        (previous, state, scratch): (&State, &State, &mut State),
         step: f64,
+        out: &mut State,
     ) -> Result<(), InitialError> {
         if !self.is_known {
-            self.look(system, delay, (previous, state, scratch))?;
+            self.find(system, delay, (previous, state, scratch))?;
             self.is_known = true;
         }
+        out.clone_from(state);
         let ratio = step / self.step;
         let is_known = ratio <= MAX_RATIO;
         if is_known {
-            for (value, slope) in state.algorithmic.iter_mut().zip(&self.slope) {
+            for (value, slope) in out.algorithmic.iter_mut().zip(&self.slope) {
                 *value += delay * (step - self.step) * slope;
             }
         }
         let square = if is_known { ratio * ratio } else { 0.0 };
-        add_velocities(system, square - 1.0, &self.across, state);
-        self.across.iter_mut().for_each(|value| *value *= square);
-        self.step = step;
+        add_velocities(system, square - 1.0, &self.across, out);
         Ok(())
     }
 
     /// Finds ȧ and v_B.
-    fn look(
+    fn find(
         &mut self,
         system: &System,
         delay: f64,

@@ -1,16 +1,26 @@
 //! Whether superelements deform no more than their linear matrices allow, and are loaded no more than that.
 
-use super::Warning;
+use super::monitor::{Accepted, Beginning, Monitor};
 use crate::elements::{LinearLimit, LinearRange};
+use crate::judge::Warning;
 use crate::system::{State, System};
 
-/// Adds the first superelement that leaves its linear range in each way, if there is none yet.
-pub(crate) fn check(system: &System, state: &State, warnings: &mut Vec<Warning>) {
-    for limit in LinearLimit::ALL {
-        let Some(found) = system.linear_range(limit, &state.kinematics).filter(|own| own.part > 1.0) else {
-            continue;
-        };
-        check_element(system, state, (limit, found), warnings);
+/// Reports the first superelement that leaves its linear range in each way. Has learned nothing.
+struct LinearRanges;
+
+pub(super) fn begin(_: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    Some(Box::new(LinearRanges))
+}
+
+impl Monitor for LinearRanges {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let (system, state) = (step.problem.system, step.end);
+        for limit in LinearLimit::ALL {
+            let found = system.linear_range(limit, &state.kinematics).filter(|own| own.part > 1.0);
+            if let Some(found) = found {
+                check_element(system, state, (limit, found), warnings);
+            }
+        }
     }
 }
 

@@ -6,6 +6,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::interface::{Control, Review};
+use crate::analysis::StepControl;
+use crate::bytes::{from_bytes, to_bytes};
+use crate::integrator::Attempt;
 use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
 /// Iterations that a step of the right length takes: few tangents serve several steps.
@@ -16,9 +20,82 @@ const CHANGE: (f64, f64) = (0.3, 2.0);
 /// cause.
 const SAME: f64 = 0.7;
 
+/// Control of load steps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LoadSteps {
+    control: StepControl,
+    length: LoadControl,
+    /// Load parameter from here to where the steps are aimed [s].
+    distance: f64,
+    attempts: Attempts,
+    /// The length before them.
+    before: LoadControl,
+    /// Part of its work that the last attempt left unexplained.
+    missing: f64,
+}
+
+impl LoadSteps {
+    /// At the start, with a first step of `size` [s].
+    pub(crate) fn new(control: StepControl, size: f64) -> Self {
+        let length = LoadControl::new(size);
+        Self { control, length, distance: size, attempts: Attempts::default(), before: length, missing: 0.0 }
+    }
+}
+
+impl Control for LoadSteps {
+    fn longest(&self) -> f64 {
+        self.control.max_step
+    }
+
+    fn planned(&self) -> Option<f64> {
+        None
+    }
+
+    fn aim(&mut self, distance: f64, _: f64) {
+        self.distance = distance;
+        (self.attempts, self.before) = (Attempts::default(), self.length);
+    }
+
+    fn propose(&mut self) -> f64 {
+        self.length.propose(self.distance, self.control.max_step)
+    }
+
+    fn review(&mut self, review: Review<'_>) -> bool {
+        self.missing = review.attempt.energy_balance.missing_work(review.energy_balance);
+        let (size, tolerance) = (review.attempt.size, self.control.relative_tolerance);
+        !self.length.refuses(size, self.missing, tolerance, &mut self.attempts)
+    }
+
+    fn shorten(&mut self, size: f64, has_solution: bool) -> bool {
+        if has_solution {
+            return true;
+        }
+        self.attempts = Attempts::default();
+        self.length.halve(size)
+    }
+
+    fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool {
+        let missed = (self.missing, self.control.relative_tolerance);
+        self.length.accept(attempt.size, attempt.outcome.iterations, missed, tuning);
+        attempt.size == self.distance
+    }
+
+    fn restart(&mut self) {
+        self.length = self.before;
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&self.length)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        from_bytes(saved, &mut self.length)
+    }
+}
+
 /// The length of the next load step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct LoadControl {
+struct LoadControl {
     size: f64,
     /// Steps are not shorter than this.
     least: f64,
@@ -26,19 +103,19 @@ pub(crate) struct LoadControl {
 
 /// One step's attempts.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Attempts {
+struct Attempts {
     /// What the last attempt left unexplained, if it had a solution.
     missing: Option<f64>,
 }
 
 impl LoadControl {
     /// With the length of the first step.
-    pub(crate) fn new(size: f64) -> Self {
+    fn new(size: f64) -> Self {
         Self { size, least: size / f64::from(1_u32 << MAX_HALVINGS) }
     }
 
     /// The next step, where `rest` is left of the range.
-    pub(super) fn propose(&self, rest: f64, most: f64) -> f64 {
+    fn propose(&self, rest: f64, most: f64) -> f64 {
         let size = self.size.min(most);
         // Two steps of equal length rather than one with a short rest.
         if rest <= size * (1.0 + 1e-9) {
@@ -51,32 +128,20 @@ impl LoadControl {
     }
 
     /// Whether a step that left the part `missing` of its work unexplained is to be tried again with half its length.
-    pub(super) fn refuses(
-        &mut self,
-        size: f64,
-        missing: f64,
-        tolerance: f64,
-        attempts: &mut Attempts,
-    ) -> bool {
+    fn refuses(&mut self, size: f64, missing: f64, tolerance: f64, attempts: &mut Attempts) -> bool {
         let helps = attempts.missing.is_none_or(|before| missing < SAME * before);
         attempts.missing = Some(missing);
         missing > tolerance && helps && self.halve(size)
     }
 
     /// A step had no solution: whether half of it may be tried.
-    pub(super) fn halve(&mut self, size: f64) -> bool {
+    fn halve(&mut self, size: f64) -> bool {
         self.size = 0.5 * size;
         self.size >= self.least
     }
 
     /// A step of that length was taken, in so many iterations.
-    pub(super) fn accept(
-        &mut self,
-        size: f64,
-        iterations: usize,
-        (missing, tolerance): (f64, f64),
-        tuning: &Tuning,
-    ) {
+    fn accept(&mut self, size: f64, iterations: usize, (missing, tolerance): (f64, f64), tuning: &Tuning) {
         let ease = EASY / iterations.max(1) as f64;
         // The part that is missing grows with the square of the length.
         let error = if missing > 0.0 {

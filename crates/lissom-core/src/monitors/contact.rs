@@ -1,10 +1,12 @@
 //! What wheels that roll ask of the plane: no more than it can give; and of steps of planned size: that they are short beside
 //! the time in which the point of contact runs round.
 
-use super::Warning;
+use super::monitor::{Accepted, Beginning, Monitor};
 use crate::contact::wheel_on_rail::Pose;
 use crate::elements::rolling::Rolling;
 use crate::joints::attached::AttachedJoint;
+use crate::judge::Warning;
+use crate::judge::warn;
 use crate::kinematics::Kinematics;
 use crate::system::{State, System};
 
@@ -26,12 +28,35 @@ pub(crate) fn runs_round(system: &System, (from, to): (&Kinematics, &Kinematics)
     })
 }
 
-/// Adds the first wheel that the plane would have to pull, or that would slide, if there is none yet.
-pub(crate) fn check(system: &System, state: &State, warnings: &mut Vec<Warning>) {
-    if let Some(doubt) = doubt(system, state)
-        && warnings.iter().all(|known| known.code() != doubt.code())
-    {
-        warnings.push(doubt);
+/// Whether contacts can give what wheels ask of them. Has learned nothing.
+struct Contact;
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    has_wheels(beginning.problem.system).then(|| Box::new(Contact) as Box<dyn Monitor>)
+}
+
+impl Monitor for Contact {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        if let Some(warning) = doubt(step.problem.system, step.end) {
+            warn(warnings, warning);
+        }
+    }
+}
+
+/// Whether points of contact run round slowly beside steps of planned size. Has learned nothing.
+struct ContactRun;
+
+pub(super) fn begin_run(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let runs = beginning.is_planned_motion() && has_wheels(beginning.problem.system);
+    runs.then(|| Box::new(ContactRun) as Box<dyn Monitor>)
+}
+
+impl Monitor for ContactRun {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let ends = (&step.start.kinematics, &step.end.kinematics);
+        if let Some(warning) = runs_round(step.problem.system, ends) {
+            warn(warnings, warning);
+        }
     }
 }
 
@@ -79,4 +104,10 @@ fn on_planes(system: &System, state: &State, largest: &dyn Fn() -> f64) -> Optio
             normal,
         })
     })
+}
+
+fn has_wheels(system: &System) -> bool {
+    let rolls =
+        |joint: &AttachedJoint| joint.joint().contact().is_some() || joint.joint().rail_contact().is_some();
+    system.joints().iter().any(rolls)
 }

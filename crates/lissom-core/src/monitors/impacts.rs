@@ -8,6 +8,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::bytes::{from_bytes, to_bytes};
+use crate::judge::{Warning, report};
 use crate::kinematics::Kinematics;
 use crate::system::System;
 
@@ -31,17 +34,16 @@ struct Approach {
 }
 
 /// How fast the switches of one simulation are passed.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Impacts {
+#[derive(Default)]
+struct Impacts {
     time: f64,
     approaches: Vec<Approach>,
-    #[serde(skip)]
     values: Vec<f64>,
 }
 
 impl Impacts {
     /// At the start of a motion with steps of planned size.
-    pub(crate) fn new(system: &System, at: &Kinematics) -> Self {
+    fn new(system: &System, at: &Kinematics) -> Self {
         let mut impacts = Self { time: at.time, ..Self::default() };
         values_at(system, at, &mut impacts.values);
         let of = |&value: &f64| Approach { value, ..Approach::default() };
@@ -51,10 +53,7 @@ impl Impacts {
 
     /// After a step that was accepted: the first switch that stopped what passed it faster than steps resolve, and when [s].
     /// What looked fast at the start of a motion may turn out slow beside what follows, and is then not reported.
-    pub(crate) fn accept(&mut self, system: &System, at: &Kinematics) -> Option<(usize, f64)> {
-        if self.approaches.is_empty() {
-            return None;
-        }
+    fn follow(&mut self, system: &System, at: &Kinematics) -> Option<(usize, f64)> {
         values_at(system, at, &mut self.values);
         let duration = at.time - self.time;
         self.time = at.time;
@@ -66,6 +65,43 @@ impl Impacts {
             (rate >= SLOW * approach.fastest).then_some((which, time))
         });
         found.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    if !beginning.is_planned_motion() {
+        return None;
+    }
+    let impacts = Impacts::new(beginning.problem.system, &beginning.state.kinematics);
+    (!impacts.approaches.is_empty()).then(|| Box::new(impacts) as Box<dyn Monitor>)
+}
+
+impl Monitor for Impacts {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let system = step.problem.system;
+        let found = self.follow(system, &step.end.kinematics);
+        report(
+            warnings,
+            |warning| matches!(warning, Warning::ContactTooShort { .. }),
+            |known| {
+                let (which, time) = found?;
+                let reported = || Warning::ContactTooShort { time, what: system.name_of_switch(which) };
+                Some(known.cloned().unwrap_or_else(reported))
+            },
+        );
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&(self.time, &self.approaches))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let mut learned = (self.time, Vec::new());
+        let is_read = from_bytes(saved, &mut learned) && learned.1.len() == self.approaches.len();
+        if is_read {
+            (self.time, self.approaches) = learned;
+        }
+        is_read
     }
 }
 

@@ -1,6 +1,9 @@
 //! Drives that jump: however short the step, a place that changes at once is reached with a speed that nothing prescribes.
 
-use super::Warning;
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::analysis::Problem;
+use crate::judge::Warning;
+use crate::judge::warn;
 use crate::kinematics::{Kinematics, Quantity};
 use crate::scaling::Representative;
 use crate::system::System;
@@ -10,8 +13,25 @@ const MAX_RATIO: f64 = 2.0;
 /// Ways below this part of the representative length, or this angle, are not reported [-, rad].
 const MIN_DISPLACEMENT: f64 = 1e-6;
 
+/// Has learned nothing.
+struct Drives;
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let Problem { system, settings } = beginning.problem;
+    (settings.scheme.dynamic && !system.drives().is_empty()).then(|| Box::new(Drives) as Box<dyn Monitor>)
+}
+
+impl Monitor for Drives {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let ends = (&step.start.kinematics, &step.end.kinematics);
+        if let Some(warning) = jump(step.problem.system, &step.integrator.representative, ends) {
+            warn(warnings, warning);
+        }
+    }
+}
+
 /// The first drive that jumps between two instants.
-pub(crate) fn jump(
+fn jump(
     system: &System,
     representative: &Representative,
     (from, to): (&Kinematics, &Kinematics),

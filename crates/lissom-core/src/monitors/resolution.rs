@@ -13,15 +13,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error_estimate::{MIN_REFERENCE, Order};
-use crate::analysis::{Simulation, warn};
-use crate::judge::{self, Warning};
+use super::monitor::{Accepted, Beginning, Monitor};
+use super::pairs::Pairs;
+use crate::bytes::{from_bytes, to_bytes};
+use crate::integrator::error_estimate::{ErrorOrder, MIN_REFERENCE, excursion};
+use crate::judge::{Warning, report};
 
-/// Steps or parts from one pair that is looked at to the next: with the two estimates of sixteen steps a chain of ten rigid bodies took
-/// four per cent more instructions.
-const STRIDE: u32 = 64;
-/// Steps or parts before the first pair.
-const FIRST: u32 = 4;
 /// Errors of two steps in a row that differ by more than this factor belong to an instant, not to the motion.
 const SPIKE: f64 = 4.0;
 /// C: local error of an oscillation over (ωh)³ times its amplitude, for all schemes about a twelfth.
@@ -33,9 +30,6 @@ const MAX_ERROR: f64 = 8.0;
 /// Estimates beyond this part of how far the model moves are reported. Where motions amplify errors, those at the end are up to ten
 /// times the estimate: of 10 000 random mechanisms four erred by 1 to 2.5 % with estimates of 0.15 to 0.19 %.
 const NOTEWORTHY: f64 = 1e-3;
-/// Rates of constraints that miss more than this part of the speed are reported: forces then err by a multiple of it.
-const NOTEWORTHY_RATES: f64 = 0.02;
-
 /// What is known of one unknown [scaled].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Missed {
@@ -60,52 +54,45 @@ impl Missed {
 }
 
 /// What steps of planned size are estimated to miss.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Resolution {
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Resolution {
     missed: Vec<Missed>,
     /// Filtered and unfiltered errors of the first step of a pair.
     first: Vec<[f64; 2]>,
-    /// Whether they are those of the last step.
-    has_first: bool,
-    /// Planned steps since the last pair; parts of them by their share.
+    pairs: Pairs,
+    /// Planned steps since the last pair; parts of them by their fraction.
     steps: f64,
-    /// Steps and parts until the next pair.
-    wait: u32,
-    /// Share of the planned size of the last one.
-    share: f64,
-    pairs: f64,
-    /// Sums over all steps looked at: what rates of constraints miss, and speeds.
-    rates: [f64; 2],
+    /// Number of pairs.
+    count: f64,
+    /// How far any node has moved since the start, at most 1 [-].
+    farthest: f64,
 }
 
 impl Resolution {
-    /// At the start of a motion with steps of planned size and so many coordinates.
-    pub(crate) fn new(coordinates: usize) -> Self {
+    /// At the start of a motion with so many coordinates.
+    fn new(coordinates: usize) -> Self {
         Self {
             missed: vec![Missed::default(); coordinates],
             first: vec![[0.0; 2]; coordinates],
-            wait: FIRST,
-            ..Self::default()
+            pairs: Pairs::new(),
+            steps: 0.0,
+            count: 0.0,
+            farthest: 0.0,
         }
     }
 
-    /// Counts a step, or a part of one, by its share of the planned size. Whether its error is to be estimated. Two in a row
-    /// of one size are a pair: a motion may take each planned step in parts.
-    fn is_due(&mut self, share: f64) -> bool {
-        self.steps += share;
-        self.wait = self.wait.saturating_sub(1);
-        self.has_first &= share == self.share;
-        self.share = share;
-        self.wait == 0
+    /// Counts a step. Whether its error is to be estimated.
+    fn is_due(&mut self, fraction: f64) -> bool {
+        self.steps += fraction;
+        self.pairs.is_due(fraction)
     }
 
     /// Takes note of the errors of a step: filtered and not, by coordinate row. Whether a pair is complete.
     fn note<'e>(&mut self, errors: impl Iterator<Item = [f64; 2]> + Clone + 'e) -> bool {
-        if !self.has_first {
+        if !self.pairs.is_complete() {
             for (first, errors) in self.first.iter_mut().zip(errors) {
                 *first = errors;
             }
-            self.has_first = true;
             return false;
         }
         let largest =
@@ -114,114 +101,79 @@ impl Resolution {
         let other = largest(&mut errors.clone().map(|errors| errors[0]));
         let weight = (SPIKE * one.min(other) / one.max(other)).min(1.0);
         let weight = if weight.is_nan() { 0.0 } else { weight };
-        let (steps, is_first) = (self.steps, self.pairs == 0.0);
+        let (steps, is_first) = (self.steps, self.count == 0.0);
         for ((missed, first), second) in self.missed.iter_mut().zip(&self.first).zip(errors) {
             // Per planned step.
-            let error = 0.5 * weight * (first[0].abs() + second[0].abs()) / self.share;
+            let error = 0.5 * weight * (first[0].abs() + second[0].abs()) / self.pairs.fraction;
             missed.sum += 0.5 * steps * (error + if is_first { error } else { missed.last });
             missed.last = error;
             missed.errors += first[1].abs() + second[1].abs();
             missed.differences += 2.0 * (first[1] - second[1]).abs();
         }
-        self.pairs += 1.0;
-        (self.has_first, self.steps, self.wait) = (false, 0.0, STRIDE - 1);
+        (self.count, self.steps) = (self.count + 1.0, 0.0);
         true
     }
 
     /// The coordinate row that is off most, and by how much.
     fn worst(&self) -> (usize, f64) {
-        let all = self.missed.iter().map(|missed| missed.total(self.pairs, self.steps)).enumerate();
+        let all = self.missed.iter().map(|missed| missed.total(self.count, self.steps)).enumerate();
         all.fold((0, 0.0), |worst, (row, total)| if total > worst.1 { (row, total) } else { worst })
     }
 }
 
-impl Simulation {
-    /// What the rates of constraints miss at the end of a step that is looked at.
-    fn note_rates(&mut self) {
-        let (from, to) = (&self.state.kinematics, &self.next.kinematics);
-        let (length, step) = (self.representative.length, to.time - from.time);
-        let found = self.constraint_rates.missed(&self.system, to, length, step);
-        let rates = &mut self.resolution.rates;
-        rates.iter_mut().zip(found).for_each(|(sum, found)| *sum += found);
-        let part = rates[0] / rates[1];
-        let known =
-            self.warnings.iter().position(|warning| matches!(warning, Warning::UnresolvedRates { .. }));
-        match (known, part > NOTEWORTHY_RATES) {
-            // What a start has shaken may turn out small beside what follows.
-            (Some(known), false) => {
-                self.warnings.remove(known);
-            }
-            (Some(known), true) => {
-                if let Warning::UnresolvedRates { missed, .. } = &mut self.warnings[known] {
-                    *missed = part;
-                }
-            }
-            (None, true) => {
-                let time = self.next.kinematics.time;
-                warn(&mut self.warnings, Warning::UnresolvedRates { time, missed: part });
-            }
-            (None, false) => {}
-        }
-    }
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let coordinates = beginning.problem.system.layout().coordinate_count();
+    let is_examined = beginning.is_planned_motion() && coordinates > 0;
+    is_examined.then(|| Box::new(Resolution::new(coordinates)) as Box<dyn Monitor>)
+}
 
-    /// Before a step of planned size, or a part of one that is this share of it, is accepted.
-    pub(super) fn note_resolution(&mut self, share: f64) {
-        if self.resolution.missed.is_empty() {
-            return;
-        }
-        let step = (&self.state.kinematics, &self.next.kinematics);
-        if let Some(warning) = judge::contact::runs_round(&self.system, step) {
-            warn(&mut self.warnings, warning);
-        }
-        let is_due = self.resolution.is_due(share);
-        if is_due {
-            self.note_rates();
-        }
-        let known = self.warnings.iter().position(|warning| matches!(warning, Warning::Unresolved { .. }));
+impl Monitor for Resolution {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let (system, end) = (step.problem.system, &step.end.kinematics);
+        let is_unresolved = |warning: &Warning| matches!(warning, Warning::Unresolved { .. });
         let mut is_pair = false;
-        if is_due {
-            self.estimate_error(Order::Third);
-            let work = &*self.work;
+        if self.is_due(step.fraction) {
+            let (last, has_switched) = (step.last_size, step.has_switched);
+            step.integrator.estimate_error(step.problem, end, last, ErrorOrder::Third, has_switched);
+            let work = &*step.integrator.work;
             let errors = work.filtered.iter().zip(&work.error).zip(&work.sizes);
-            is_pair =
-                self.resolution.note(errors.map(|((filtered, error), size)| [filtered * size, error * size]));
+            is_pair = self.note(errors.map(|((filtered, error), size)| [filtered * size, error * size]));
         }
         // What has been reported is kept up to date with every step, so that the last word is that of the end.
-        if !is_pair && known.is_none() {
+        if !is_pair && !warnings.iter().any(is_unresolved) {
             return;
         }
-        self.farthest = self.farthest.max(self.excursion_of(&self.next));
-        let (row, total) = self.resolution.worst();
-        let part = self.settings.scheme.planned_share * total / self.farthest.max(MIN_REFERENCE);
-        if part <= NOTEWORTHY {
+        let length = step.integrator.representative.length;
+        self.farthest = self.farthest.max(excursion(system, (step.origin, end), length));
+        let (row, total) = self.worst();
+        let part = step.problem.settings.scheme.planned_share * total / self.farthest.max(MIN_REFERENCE);
+        report(warnings, is_unresolved, |known| {
             // What looked large at the start may turn out small beside how far the model goes.
-            if let Some(known) = known {
-                self.warnings.remove(known);
+            if part <= NOTEWORTHY {
+                return None;
             }
-            return;
-        }
-        let system = &self.system;
-        match known.map(|known| &mut self.warnings[known]) {
-            Some(Warning::Unresolved { error, unknown, .. }) => {
-                *error = part;
-                if is_pair {
-                    *unknown = system.layout().name_of(row);
-                }
-            }
-            _ => warn(
-                &mut self.warnings,
-                Warning::Unresolved {
-                    time: self.next.kinematics.time,
-                    error: part,
-                    unknown: system.layout().name_of(row),
-                },
-            ),
-        }
+            let (time, unknown) = match known {
+                Some(Warning::Unresolved { time, unknown, .. }) => (*time, Some(unknown.clone())),
+                _ => (end.time, None),
+            };
+            let unknown = unknown.filter(|_| !is_pair).unwrap_or_else(|| system.layout().name_of(row));
+            Some(Warning::Unresolved { time, error: part, unknown })
+        });
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(self)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let coordinates = self.missed.len();
+        from_bytes(saved, self) && self.missed.len() == coordinates
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::pairs::{FIRST, STRIDE};
     use super::*;
 
     /// What is estimated of an oscillation whose error is C (ωh)³ per step, of this amplitude, after so many steps.
@@ -275,7 +227,7 @@ mod tests {
     fn steps_of_other_sizes_are_no_pair() {
         let mut resolution = Resolution::new(1);
         let due = (0..40).filter(|step| resolution.is_due(if step % 2 == 0 { 1.0 } else { 0.5 })).count();
-        assert!(due > 0 && !resolution.has_first);
+        assert!(due > 0 && !resolution.pairs.has_first);
     }
 
     /// A motion of constant error per step, which a failure in the middle has taken in sixteenths for a while.

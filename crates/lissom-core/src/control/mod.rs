@@ -1,0 +1,25 @@
+//! How long steps are: the one owner of the step length. A control proposes the size of an attempt, reviews what it has led to, and
+//! proposes a shorter one where that is not accepted.
+//!
+//! Planned steps have one size, and are taken in parts where they have no solution. Adaptive steps are as long as their estimated
+//! error allows, load steps as long as Newton's method contracts well and the work of the loads is explained.
+
+mod adaptive;
+mod interface;
+mod load;
+mod planned;
+
+pub(crate) use interface::{Control, Review};
+
+use crate::analysis::Settings;
+
+/// The control that the settings ask for.
+pub(crate) fn of(settings: &Settings) -> Box<dyn Control> {
+    match settings.control {
+        Some(control) if settings.scheme.dynamic => {
+            Box::new(adaptive::Adaptive::new(control, settings.step_size))
+        }
+        Some(control) => Box::new(load::LoadSteps::new(control, settings.step_size)),
+        None => Box::new(planned::Planned::new(settings.step_size, settings.limits.disabled)),
+    }
+}

@@ -1,0 +1,186 @@
+//! Steps of one size. One that has no solution is taken in parts: halves, as often as necessary. What a step of a scheme promises
+//! holds for its parts, and so for the whole.
+
+use serde::{Deserialize, Serialize};
+
+use super::interface::Control;
+use crate::bytes::{from_bytes, to_bytes};
+use crate::integrator::Attempt;
+use crate::solver_features::{DisabledFeatures, SolverFeature};
+use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
+
+/// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
+const SHORT_PART: f64 = 1e-3;
+
+/// Control of steps of one size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Planned {
+    /// Size of the planned steps [s].
+    size: f64,
+    /// Duration to the instant at which the present step is aimed [s].
+    distance: f64,
+    bisection: StepBisection,
+    /// Whether steps are taken in parts.
+    may_bisect: bool,
+}
+
+impl Planned {
+    /// At the start, with steps of `size` [s].
+    pub(crate) fn new(size: f64, disabled: DisabledFeatures) -> Self {
+        let may_bisect = disabled.allows(SolverFeature::StepBisection);
+        Self { size, distance: size, bisection: StepBisection::whole(), may_bisect }
+    }
+}
+
+impl Control for Planned {
+    fn longest(&self) -> f64 {
+        self.size
+    }
+
+    fn set_planned(&mut self, size: f64) {
+        if size != self.size {
+            self.size = size;
+            self.bisection = StepBisection::whole();
+        }
+    }
+
+    fn planned(&self) -> Option<f64> {
+        Some(self.size)
+    }
+
+    fn aim(&mut self, distance: f64, _: f64) {
+        self.distance = distance;
+        self.bisection.restart();
+    }
+
+    fn propose(&mut self) -> f64 {
+        self.bisection.fraction() * self.distance
+    }
+
+    fn shorten(&mut self, _: f64, _: bool) -> bool {
+        self.may_bisect && self.bisection.halve()
+    }
+
+    fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool {
+        attempt.size == self.propose() && self.bisection.accept(tuning)
+    }
+
+    fn restart(&mut self) {
+        self.bisection = StepBisection::whole();
+    }
+
+    fn has_tried_shortest(&self) -> bool {
+        self.bisection.fraction() <= SHORT_PART
+    }
+
+    fn fraction(&self, attempt: &Attempt) -> f64 {
+        attempt.size / self.distance
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&(self.size, self.bisection))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let mut learned = (self.size, self.bisection);
+        let is_read = from_bytes(saved, &mut learned);
+        (self.size, self.bisection) = learned;
+        is_read
+    }
+}
+
+/// Smallest parts a planned step may be cut into.
+const MAX_PARTS: u32 = 1 << MAX_HALVINGS;
+
+/// The position within a planned step. Positions are whole multiples of the current part's size, so that the end of the
+/// planned step is met exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct StepBisection {
+    /// Parts done, of [`MAX_PARTS`].
+    done: u32,
+    /// Parts in the next attempt.
+    size: u32,
+    /// Parts taken in a row since the size last changed.
+    taken: u32,
+}
+
+impl StepBisection {
+    /// At the start of a planned step that is tried as a whole.
+    fn whole() -> Self {
+        Self { done: 0, size: MAX_PARTS, taken: 0 }
+    }
+
+    /// Fraction of the planned step that the next attempt takes.
+    fn fraction(&self) -> f64 {
+        f64::from(self.size) / f64::from(MAX_PARTS)
+    }
+
+    /// Back to the start of the planned step.
+    fn restart(&mut self) {
+        self.done = 0;
+    }
+
+    /// A part was taken. Whether the end of the planned step is reached.
+    fn accept(&mut self, tuning: &Tuning) -> bool {
+        self.done += self.size;
+        let is_complete = self.done >= MAX_PARTS;
+        if is_complete {
+            self.done = 0;
+        }
+        self.taken += 1;
+        // A doubled part must end where whole doubled parts end.
+        if f64::from(self.taken) >= tuning.of(TuningParameter::StepsToGrow)
+            && self.size < MAX_PARTS
+            && self.done.is_multiple_of(2 * self.size)
+        {
+            self.size *= 2;
+            self.taken = 0;
+        }
+        is_complete
+    }
+
+    /// A part failed. Whether it is to be tried again with half its size.
+    fn halve(&mut self) -> bool {
+        self.taken = 0;
+        let can_halve = self.size > 1;
+        if can_halve {
+            self.size /= 2;
+        }
+        can_halve
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_halve_grow_back_and_meet_the_end_of_every_planned_step() {
+        let mut bisection = StepBisection::whole();
+        let (mut planned, mut time) = (0, 0.0);
+        let mut sizes = Vec::new();
+        while planned < 6 {
+            let size = bisection.fraction();
+            // Between 1.1 and 1.4 nothing longer than 0.1 is possible.
+            if size > 0.1 && time + size > 1.1 && time < 1.4 {
+                assert!(bisection.halve());
+                continue;
+            }
+            sizes.push(size);
+            time += size;
+            if bisection.accept(&Tuning::default()) {
+                planned += 1;
+                assert_eq!(time, f64::from(planned));
+            }
+        }
+        assert_eq!(sizes.iter().copied().fold(1.0, f64::min), 0.0625);
+        assert_eq!(sizes.last(), Some(&1.0), "{sizes:?}");
+    }
+
+    #[test]
+    fn twelve_halvings_are_the_end() {
+        let mut bisection = StepBisection::whole();
+        let halvings = (0..100).take_while(|_| bisection.halve()).count();
+        assert_eq!(halvings, 12);
+    }
+}

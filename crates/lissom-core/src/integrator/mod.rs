@@ -1,0 +1,326 @@
+//! Solves steps: from a state and a step size to the state at the end of the step. Decides neither about the size nor about
+//! whether the result is accepted.
+
+mod attempt;
+pub(crate) mod error_estimate;
+mod history;
+
+pub(crate) use attempt::Attempt;
+pub(crate) use history::IntegratorHistory;
+
+use lissom_solver::{FactorError, SolverKind};
+
+use crate::analysis::equations::StepEquations;
+use crate::analysis::projection::Projection;
+use crate::analysis::regularization::Regularization;
+use crate::analysis::step_error::describe;
+use crate::analysis::workspace::Workspace;
+use crate::analysis::{Problem, Settings, StepError, Stopwatch, TangentValues, Unwatched};
+use crate::kinematics::{Kinematics, MotionChange};
+use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
+use crate::scaling::{Representative, ScaleBy, Scaled};
+use crate::schemes::StageSystem;
+use crate::system::{State, Threads};
+
+/// Where round-off keeps schemes that integrate velocities from the tolerance, a last correction below this is a solution all
+/// the same: what it does to the energy is seen by the energy balance.
+const SUFFICIENT: f64 = 1e-9;
+
+/// The state from which a step begins, and the one before the last step, which is the same before the first.
+#[derive(Clone, Copy)]
+pub(crate) struct Start<'s> {
+    pub(crate) previous: &'s State,
+    pub(crate) state: &'s State,
+}
+
+/// Solves steps of one simulation, with what is learned from step to step.
+pub(crate) struct Integrator {
+    pub(crate) representative: Representative,
+    /// The scaling of the tangent in use, for the size of the last attempt.
+    pub(crate) scaled: Scaled,
+    pub(crate) work: Box<Workspace>,
+    pub(crate) jacobian_state: JacobianState,
+    /// For schemes that remember what belongs to the step size.
+    pub(crate) history: Option<IntegratorHistory>,
+    /// For schemes whose velocities leave the constraints a little.
+    projection: Option<Projection>,
+}
+
+impl Integrator {
+    /// At the start of a simulation. `repeating` is the first multiplier whose constraint repeats others.
+    pub(crate) fn new(
+        Problem { system, settings }: Problem<'_>,
+        state: &State,
+        representative: Representative,
+        repeating: Option<usize>,
+    ) -> Self {
+        let scheme = &settings.scheme;
+        let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
+        let equilibrated = settings.scaling.equilibrates();
+        let mut work = Workspace::new(system, state, scheme, &representative, settings.solver, equilibrated);
+        (work.disabled, work.tuning) = (settings.limits.disabled, settings.limits.tuning);
+        work.threads = Threads::new(system.starts_of_batches(), settings.threads);
+        work.factorization.set_threads(settings.threads);
+        let count = system.layout().coordinate_count();
+        work.regularization = repeating
+            .map(|multiplier| (Regularization::new(&system.structure().pattern, count), count + multiplier));
+        work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
+        let has_constraints = !system.layout().multiplier_rows().is_empty();
+        let projection = scheme
+            .tableau
+            .filter(|tableau| !tableau.is_stiffly_accurate() && has_constraints)
+            .map(|tableau| Projection::new(system, state, &representative, settings.solver, tableau));
+        let remembers = scheme.dynamic && scheme.stages.len() == 1;
+        let history = remembers.then(|| {
+            let solver = pivoting_unless_augmented(settings);
+            IntegratorHistory::new(system, state, &representative, solver, settings.step_size)
+        });
+        Self {
+            representative,
+            scaled,
+            work: Box::new(work),
+            jacobian_state: JacobianState::default(),
+            history,
+            projection,
+        }
+    }
+
+    /// Solves a step of `size` [s] and leaves what it comes to in `attempt`.
+    ///
+    /// # Errors
+    /// If Newton's iterations do not converge, the tangent has no factorisation, or something at the end is not finite.
+    pub(crate) fn attempt(
+        &mut self,
+        problem: Problem<'_>,
+        from: Start<'_>,
+        size: f64,
+        watch: &mut dyn Stopwatch,
+        attempt: &mut Attempt,
+    ) -> Result<(), StepError> {
+        self.begin(problem, from, size, attempt)?;
+        let settings = problem.settings;
+        let start = attempt.start(from.state);
+        self.work.extrapolates = settings.scheme.dynamic;
+        let time = start.kinematics.time;
+        let mut equations =
+            step_equations(problem, start, &self.representative, self.scaled, &mut self.work, watch);
+        equations.restart();
+        let result = newton::solve(&mut equations, &settings.limits, &mut self.jacobian_state);
+        let result = sufficient(result, settings.scheme.tableau.is_some());
+        let end_time = time + equations.scaled.step_size();
+        let result = result.map_err(|failure| describe_failure(&equations, settings, failure, end_time));
+        self.scaled = equations.scaled;
+        if result.is_err() {
+            self.jacobian_state = JacobianState::default();
+        }
+        let outcome = result?;
+        self.finish(problem, from.state, attempt)?;
+        attempt.outcome = outcome;
+        Ok(())
+    }
+
+    /// Goes over to steps of `size` [s], and converts the start of one to a step of unit length.
+    pub(crate) fn begin(
+        &mut self,
+        Problem { system, settings }: Problem<'_>,
+        Start { previous, state }: Start<'_>,
+        size: f64,
+        attempt: &mut Attempt,
+    ) -> Result<(), StepError> {
+        if size != self.scaled.step_size() {
+            self.resize(Problem { system, settings }, size);
+        }
+        attempt.size = size;
+        attempt.is_converted = false;
+        if let Some(history) = self.history.as_mut().filter(|history| !history.is_of(size)) {
+            let Attempt { converted, end, .. } = attempt;
+            let delay = settings.scheme.memory_delay;
+            let time = state.kinematics.time;
+            history
+                .convert(system, delay, (previous, state, end), size, converted)
+                .map_err(|error| StepError::Velocities { time, error })?;
+            attempt.is_converted = true;
+        }
+        let start = attempt.start(state);
+        self.scaled.to_unit_step(system.layout(), &settings.scheme, start, &mut self.work.unit);
+        system.begin_step(&start.kinematics, &mut self.work.joint_starts);
+        Ok(())
+    }
+
+    /// Goes over to steps of another size with all that is learned.
+    pub(crate) fn resize(&mut self, Problem { system, settings }: Problem<'_>, size: f64) {
+        self.work.rescale_predictions(size / self.scaled.step_size());
+        self.scaled = self.scaled.resized(&settings.scaling, size);
+        // Scaled tangents of motions hardly depend on the step size, those of load steps and unscaled ones do.
+        if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None {
+            self.jacobian_state = JacobianState::default();
+        }
+        self.work.note_scales(system.layout(), &self.scaled);
+    }
+
+    /// Leaves what the increments and multipliers found come to at the end of `attempt`, which began at `state`.
+    pub(crate) fn finish(
+        &mut self,
+        problem: Problem<'_>,
+        state: &State,
+        attempt: &mut Attempt,
+    ) -> Result<(), StepError> {
+        let Problem { system, settings } = problem;
+        let start = if attempt.is_converted { &attempt.converted } else { state };
+        let end = &mut attempt.end;
+        step_equations(problem, start, &self.representative, self.scaled, &mut self.work, &mut Unwatched)
+            .final_violations(&mut end.violations);
+        let work = &*self.work;
+        let (Some(reached), Some(multipliers)) =
+            (work.motions.last(), last_stage(settings, &work.multipliers))
+        else {
+            unreachable!("every scheme has a stage")
+        };
+        copy_motion(&reached.at, &mut end.kinematics);
+        end.multipliers.copy_from_slice(multipliers);
+        end.kinematics.show_multipliers(&end.multipliers);
+        let (algorithmic, memory) = (&settings.scheme.algorithmic, &mut end.algorithmic);
+        self.scaled.memory_from_unit_step(algorithmic, &work.unit, &work.increments, memory);
+        compensate(start, &reached.changes, end);
+        if let Some(projection) = &mut self.projection {
+            let time = end.kinematics.time;
+            projection.apply(system, end).map_err(|error| StepError::Velocities { time, error })?;
+        }
+        system.signals().check(&end.kinematics).map_err(StepError::Signal)
+    }
+
+    /// Learns from an attempt that was accepted, which began with these multipliers.
+    pub(crate) fn learn(&mut self, settings: &Settings, multipliers: &[f64]) {
+        if settings.scheme.dynamic {
+            self.work.learn(&settings.scheme, multipliers);
+        }
+        if let Some(history) = &mut self.history {
+            history.renew(self.scaled.step_size());
+        }
+    }
+
+    /// Makes the tangent at the solution of the step that began at `start` anew, and keeps it in use.
+    ///
+    /// # Errors
+    /// If the tangent has no factors.
+    pub(crate) fn renew_at_solution(
+        &mut self,
+        problem: Problem<'_>,
+        start: &State,
+    ) -> Result<(), FactorError> {
+        problem.system.begin_step(&start.kinematics, &mut self.work.joint_starts);
+        let (representative, work, watch) = (&self.representative, &mut self.work, &mut Unwatched);
+        let mut equations = step_equations(problem, start, representative, self.scaled, work, watch);
+        equations.work.correction = 0.0;
+        let result = equations.renew_tangent();
+        self.scaled = equations.scaled;
+        result
+    }
+
+    /// The tangent at the solution of the step that began at `start`, under another scaling.
+    pub(crate) fn tangent_at_solution(
+        &mut self,
+        problem: Problem<'_>,
+        start: &State,
+        scaled: Scaled,
+        of: &StageSystem,
+    ) -> TangentValues {
+        problem.system.begin_step(&start.kinematics, &mut self.work.joint_starts);
+        let (representative, work, watch) = (&self.representative, &mut self.work, &mut Unwatched);
+        let mut equations = step_equations(problem, start, representative, scaled, work, watch);
+        let mut values = TangentValues::zeros(of, problem.system.structure().pattern.entries());
+        equations.assemble_tangent(&mut values.receiver(&scaled, of, &mut []));
+        values
+    }
+}
+
+/// The equations of a step from `start`.
+pub(crate) fn step_equations<'e>(
+    Problem { system, settings }: Problem<'e>,
+    start: &'e State,
+    representative: &'e Representative,
+    scaled: Scaled,
+    work: &'e mut Workspace,
+    watch: &'e mut dyn Stopwatch,
+) -> StepEquations<'e> {
+    let scaling = (&settings.scaling, representative);
+    StepEquations { system, scheme: &settings.scheme, scaled, scaling, start, work, watch }
+}
+
+/// Without the augmented term massless coordinates need pivots.
+pub(crate) fn pivoting_unless_augmented(settings: &Settings) -> &'static SolverKind {
+    let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
+    if settings.scaling.augmented { settings.solver } else { pivoting }
+}
+
+fn last_stage<'m>(settings: &Settings, multipliers: &'m [Vec<f64>]) -> Option<&'m Vec<f64>> {
+    multipliers.get(settings.scheme.stages.len() - 1)
+}
+
+/// Small last corrections suffice for schemes that integrate velocities.
+fn sufficient(result: Result<Outcome, Failure>, integrates_velocities: bool) -> Result<Outcome, Failure> {
+    match result {
+        Err(Failure::NotConverged { iterations, correction })
+            if integrates_velocities && correction <= SUFFICIENT =>
+        {
+            Ok(Outcome { iterations, factorizations: 0, correction, stagnated: true })
+        }
+        other => other,
+    }
+}
+
+/// A failure of Newton's method in a step to the time `end` [s], with names.
+fn describe_failure(
+    equations: &StepEquations<'_>,
+    settings: &Settings,
+    failure: Failure,
+    end: f64,
+) -> StepError {
+    let system = equations.system;
+    if matches!(failure, Failure::NotFinite { .. } | Failure::Factor(FactorError::NotFinite { .. })) {
+        if let Some(error) = equations.signal_error() {
+            return StepError::Signal(error);
+        }
+        let instants = equations.work.motions.iter().map(|motion| motion.at.time);
+        let found = instants.filter_map(|at| {
+            let (what, value) = system.function_without_value(at)?;
+            Some(StepError::FunctionNotFinite { time: end, what: what.to_owned(), value, at })
+        });
+        if let Some(error) = found.take(1).next() {
+            return error;
+        }
+    }
+    // With a pivoting solver a smaller step may do what this one could not.
+    let pivoted = !matches!(failure, Failure::Factor(_));
+    let failure = equations.unforgiven(failure);
+    let mut error = describe(&failure, system.layout(), end, settings, &equations.worst_unknown());
+    if let StepError::ZeroPivot { after_pivoting, .. } = &mut error {
+        *after_pivoting = pivoted;
+    }
+    error
+}
+
+fn copy_motion(from: &Kinematics, to: &mut Kinematics) {
+    to.elapsed = from.elapsed;
+    to.nodes.copy_from_slice(&from.nodes);
+    to.coordinates.copy_from_slice(&from.coordinates);
+    to.held.copy_from_slice(&from.held);
+}
+
+/// Adds each node's displacement to its position, and the step to the time, with the remainders of earlier
+/// roundings, so that many small steps do not lose digits [Kahan 1965].
+fn compensate(start: &State, changes: &[MotionChange], end: &mut State) {
+    let step = std::mem::take(&mut end.kinematics.elapsed) + start.time_remainder;
+    let time = start.kinematics.time + step;
+    end.time_remainder = step - (time - start.kinematics.time);
+    end.kinematics.time = time;
+    for (node, change) in changes.iter().enumerate() {
+        let from = &start.kinematics.nodes[node].frame;
+        let shift = from.rotation.apply(&change.shift) + start.position_remainders[node];
+        let position = from.position + shift;
+        end.position_remainders[node] = shift - (position - from.position);
+        let frame = &mut end.kinematics.nodes[node].frame;
+        frame.position = position;
+        frame.rotation = frame.rotation.normalized();
+    }
+}

@@ -1,0 +1,23 @@
+//! Constraints that are violated by more than solving leaves, and less than what fails: they repeat or contradict each other, and
+//! yield.
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::judge::warn;
+use crate::judge::{Judge, Warning};
+
+/// Has learned nothing.
+struct ConstraintsYield;
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let has_constraints = !beginning.problem.system.layout().multiplier_rows().is_empty();
+    has_constraints.then(|| Box::new(ConstraintsYield) as Box<dyn Monitor>)
+}
+
+impl Monitor for ConstraintsYield {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let judge = Judge::new(step.problem, &step.integrator.representative);
+        if let Some(warning) = judge.regularized(step.end, step.violation) {
+            warn(warnings, warning);
+        }
+    }
+}

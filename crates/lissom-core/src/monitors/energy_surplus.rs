@@ -1,0 +1,32 @@
+//! A motion with more energy than loads and drives have put in.
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::judge::{Warning, report};
+
+/// Has learned nothing: the energy balance is kept with the state.
+struct EnergySurplus;
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    beginning.problem.settings.scheme.dynamic.then(|| Box::new(EnergySurplus) as Box<dyn Monitor>)
+}
+
+impl Monitor for EnergySurplus {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let [_, after] = step.energy_balance;
+        let (surplus, turned_over) = (after.surplus, after.turned_over);
+        let now = step.end.kinematics.time;
+        report(
+            warnings,
+            |warning| matches!(warning, Warning::EnergySurplus { .. }),
+            // What looked large at the start may turn out small beside what follows.
+            |known| {
+                let since = match known {
+                    Some(Warning::EnergySurplus { time, .. }) => *time,
+                    _ => now,
+                };
+                let is_noteworthy = after.is_noteworthy();
+                is_noteworthy.then_some(Warning::EnergySurplus { time: since, surplus, turned_over })
+            },
+        );
+    }
+}

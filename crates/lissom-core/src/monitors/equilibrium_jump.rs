@@ -1,0 +1,48 @@
+//! Load steps that leave the path of equilibria: loads do more work than the model stores.
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::bytes::{from_bytes, to_bytes};
+use crate::judge::{Warning, warn};
+
+/// Part of the work of a load step that must be missing for it to be reported as a jump: a path of equilibria that the
+/// trapezoidal rule follows badly, as with all of a load at once, misses up to a third.
+const JUMP: f64 = 0.6;
+/// Energy that the first load step may release, over what a linear model says of it.
+const RELEASED: f64 = 4.0;
+
+struct EquilibriumJump {
+    /// Energy that the first load step releases because its start is no equilibrium [J].
+    released: f64,
+    is_first: bool,
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let jump = EquilibriumJump { released: beginning.released, is_first: true };
+    (!beginning.problem.settings.scheme.dynamic).then(|| Box::new(jump) as Box<dyn Monitor>)
+}
+
+impl Monitor for EquilibriumJump {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let [before, after] = step.energy_balance;
+        let is_first = std::mem::replace(&mut self.is_first, false);
+        // A start that is no equilibrium, as one with prestress, releases energy that no load has put in.
+        let is_release = is_first && after.unexplained_work(before).abs() <= RELEASED * self.released;
+        let (start, time) = (step.start.kinematics.time, step.end.kinematics.time);
+        // Relaxation leaves the path, and has a warning of its own.
+        let is_relaxation =
+            |warning: &Warning| matches!(warning, Warning::Relaxed { time: at, .. } if *at == time);
+        let missing = after.missing_work(before);
+        if missing > JUMP && !is_release && !warnings.iter().any(is_relaxation) {
+            let work = after.loads + after.drives - before.loads - before.drives;
+            warn(warnings, Warning::Jump { start, time, work: missing * work.abs() });
+        }
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&self.is_first)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        from_bytes(saved, &mut self.is_first)
+    }
+}

@@ -1,0 +1,139 @@
+//! Monitors look at every accepted step and report reasons to doubt the motion. They change nothing of it.
+//!
+//! A monitor is one file and one line of [`KINDS`]. What it has learned is part of snapshots, under its name: a snapshot that was
+//! taken without a monitor can be restored with it.
+
+pub(crate) mod constraint_rates;
+mod constraints_yield;
+pub(crate) mod contact;
+mod drives;
+mod energy_surplus;
+mod equilibrium_jump;
+mod impacts;
+mod linear_range;
+mod monitor;
+mod pairs;
+mod resolution;
+pub(crate) mod singular_positions;
+pub(crate) mod stability;
+
+use std::any::Any;
+
+use monitor::Monitor;
+pub(crate) use monitor::{Accepted, Beginning};
+
+use crate::analysis::{Problem, StepError};
+use crate::judge::Warning;
+use crate::kinematics::Kinematics;
+
+/// A kind of monitor.
+struct Kind {
+    /// Its name in snapshots.
+    name: &'static str,
+    /// The monitor of a simulation, if there is something to look at.
+    begin: fn(&Beginning<'_>) -> Option<Box<dyn Monitor>>,
+}
+
+/// All monitors, in the order in which they look at a step.
+const KINDS: &[Kind] = &[
+    Kind { name: "contact-run", begin: contact::begin_run },
+    Kind { name: "constraint-rates", begin: constraint_rates::begin },
+    Kind { name: "resolution", begin: resolution::begin },
+    Kind { name: "contact", begin: contact::begin },
+    Kind { name: "linear-range", begin: linear_range::begin },
+    Kind { name: "constraints-yield", begin: constraints_yield::begin },
+    Kind { name: "drives", begin: drives::begin },
+    Kind { name: "energy-surplus", begin: energy_surplus::begin },
+    Kind { name: "equilibrium-jump", begin: equilibrium_jump::begin },
+    Kind { name: "singular-positions", begin: singular_positions::begin },
+    Kind { name: "impacts", begin: impacts::begin },
+    Kind { name: "stability", begin: stability::begin },
+];
+
+/// The monitors of one simulation.
+pub(crate) struct Monitors {
+    monitors: Vec<(&'static str, Box<dyn Monitor>)>,
+}
+
+impl Monitors {
+    /// Those that have something to look at.
+    pub(crate) fn new(beginning: &Beginning<'_>) -> Self {
+        let begin = |kind: &Kind| Some((kind.name, (kind.begin)(beginning)?));
+        Self { monitors: KINDS.iter().filter_map(begin).collect() }
+    }
+
+    /// Lets all look at a step.
+    pub(crate) fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        for (_, monitor) in &mut self.monitors {
+            monitor.accept(step, warnings);
+        }
+    }
+
+    /// The first cause of a failure at `time` [s] that a monitor sees.
+    pub(crate) fn cause(&mut self, problem: Problem<'_>, at: &Kinematics, time: f64) -> Option<StepError> {
+        self.monitors.iter_mut().find_map(|(_, monitor)| monitor.cause(problem, at, time))
+    }
+
+    /// The monitor of that type, if there is one.
+    pub(crate) fn get<M: Monitor>(&self) -> Option<&M> {
+        self.monitors.iter().find_map(|(_, monitor)| (&**monitor as &dyn Any).downcast_ref())
+    }
+
+    /// What all of them have learned, by name.
+    pub(crate) fn save(&self) -> Vec<(String, Vec<u8>)> {
+        let saved = |(name, monitor): &(&str, Box<dyn Monitor>)| ((*name).to_owned(), monitor.save());
+        self.monitors.iter().map(saved).filter(|(_, saved)| !saved.is_empty()).collect()
+    }
+
+    /// Goes back to what was learned; a monitor of which nothing was saved begins anew. Whether all could be read.
+    pub(crate) fn restore(&mut self, saved: &[(String, Vec<u8>)]) -> bool {
+        self.monitors.iter_mut().all(|(name, monitor)| {
+            let own = saved.iter().find(|(known, _)| known == name);
+            own.is_none_or(|(_, saved)| monitor.restore(saved))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bytes::{from_bytes, to_bytes};
+
+    /// Counts steps.
+    struct Count(u32);
+
+    impl Monitor for Count {
+        fn accept(&mut self, _: &mut Accepted<'_>, _: &mut Vec<Warning>) {
+            self.0 += 1;
+        }
+
+        fn save(&self) -> Vec<u8> {
+            to_bytes(&self.0)
+        }
+
+        fn restore(&mut self, saved: &[u8]) -> bool {
+            from_bytes(saved, &mut self.0)
+        }
+    }
+
+    fn monitors(counts: &[(&'static str, u32)]) -> Monitors {
+        let monitor =
+            |&(name, count): &(&'static str, u32)| (name, Box::new(Count(count)) as Box<dyn Monitor>);
+        Monitors { monitors: counts.iter().map(monitor).collect() }
+    }
+
+    #[test]
+    fn monitors_come_and_go_between_a_snapshot_and_its_restoration() {
+        let saved = monitors(&[("removed", 3), ("kept", 5)]).save();
+        let mut restored = monitors(&[("new", 1), ("kept", 0)]);
+        assert!(restored.restore(&saved));
+        assert_eq!(restored.save(), monitors(&[("new", 1), ("kept", 5)]).save());
+        assert!(!restored.restore(&[("kept".to_owned(), vec![0x80])]), "a number that does not end");
+    }
+
+    #[test]
+    fn names_of_monitors_differ() {
+        let names: std::collections::BTreeSet<&str> = KINDS.iter().map(|kind| kind.name).collect();
+        assert_eq!(names.len(), KINDS.len());
+    }
+}

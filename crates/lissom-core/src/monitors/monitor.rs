@@ -1,0 +1,71 @@
+//! What a monitor consists of, and what it sees.
+
+use std::any::Any;
+
+use crate::analysis::Problem;
+use crate::analysis::StepError;
+use crate::integrator::Integrator;
+use crate::judge::{EnergyBalance, Warning};
+use crate::kinematics::Kinematics;
+use crate::scaling::Representative;
+use crate::system::State;
+
+/// A simulation at its start.
+#[derive(Clone, Copy)]
+pub(crate) struct Beginning<'b> {
+    pub(crate) problem: Problem<'b>,
+    pub(crate) state: &'b State,
+    pub(crate) representative: &'b Representative,
+    /// Energy that the first load step releases because its start is no equilibrium [J].
+    pub(crate) released: f64,
+}
+
+impl Beginning<'_> {
+    /// Whether this is a motion with steps of planned size.
+    pub(super) fn is_planned_motion(&self) -> bool {
+        self.problem.settings.scheme.dynamic && self.problem.settings.control.is_none()
+    }
+}
+
+/// A step that is being accepted.
+pub(crate) struct Accepted<'s> {
+    pub(crate) problem: Problem<'s>,
+    pub(crate) integrator: &'s mut Integrator,
+    /// Where the first step began.
+    pub(crate) origin: &'s Kinematics,
+    pub(crate) start: &'s State,
+    pub(crate) end: &'s State,
+    /// Duration of the step before [s].
+    pub(crate) last_size: f64,
+    /// Before and after the step.
+    pub(crate) energy_balance: [&'s EnergyBalance; 2],
+    /// Largest violation of a constraint at the end, relative to the representative length, or in radians.
+    pub(crate) violation: f64,
+    /// Its size over that of the planned step of which it is a part.
+    pub(crate) fraction: f64,
+    /// Whether forces have switched at its start.
+    pub(crate) has_switched: bool,
+}
+
+/// Looks at every accepted step.
+pub(crate) trait Monitor: Any + Send + Sync {
+    /// Looks at a step, and adds, updates or withdraws warnings.
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>);
+
+    /// Why a step from this state has no solution however short, if what this monitor has seen says so. `time` is that of the
+    /// failure [s].
+    fn cause(&mut self, problem: Problem<'_>, at: &Kinematics, time: f64) -> Option<StepError> {
+        let _ = (problem, at, time);
+        None
+    }
+
+    /// What was learned from the steps so far; empty if nothing is.
+    fn save(&self) -> Vec<u8> {
+        Vec::new()
+    }
+
+    /// Goes back to what [`save`](Self::save) returned. Whether it could be read.
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        saved.is_empty()
+    }
+}

@@ -1,0 +1,67 @@
+//! Whether equilibria are stable: whether the stiffness, multipliers included, has negative eigenvalues among the motions
+//! that the constraints leave. They are counted by the signs of pivots [Sylvester's law of inertia].
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::analysis::Problem;
+use crate::bytes::{from_bytes, to_bytes};
+use crate::judge::Warning;
+use crate::judge::warn;
+use crate::linear::LinearModel;
+use crate::system::State;
+
+/// Stability of the equilibria of load steps.
+#[derive(Default)]
+pub(crate) struct Stability {
+    /// From which load parameter on [s] an equilibrium is unstable in how many directions; none where that cannot be
+    /// determined.
+    pub(crate) changes: Vec<(f64, Option<usize>)>,
+    /// The last load parameter at which the equilibrium was stable [s].
+    stable_at: Option<f64>,
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let is_static = !beginning.problem.settings.scheme.dynamic;
+    is_static.then(|| Box::new(Stability::default()) as Box<dyn Monitor>)
+}
+
+/// Directions in which an equilibrium is unstable; none where that cannot be determined: in motion, where the stiffness is
+/// singular, and where it belongs to no energy, as with loads that turn with the model.
+pub(crate) fn unstable_directions(Problem { system, settings }: Problem<'_>, state: &State) -> Option<usize> {
+    if settings.scheme.dynamic {
+        return None;
+    }
+    LinearModel::of_positions(system, state, settings.solver).ok()?.unstable_directions()
+}
+
+impl Monitor for Stability {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let time = step.end.kinematics.time;
+        let directions = unstable_directions(step.problem, step.end);
+        if self.changes.last().is_none_or(|(_, known)| *known != directions) {
+            self.changes.push((time, directions));
+        }
+        match directions {
+            Some(0) => self.stable_at = Some(time),
+            Some(directions) => {
+                let onset = self.stable_at;
+                let onset =
+                    onset.map_or(String::new(), |last| format!(", the one at t = {last:.6e} was stable"));
+                warn(warnings, Warning::Unstable { time, directions, onset });
+            }
+            None => {}
+        }
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&(&self.changes, self.stable_at))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let mut learned = (Vec::new(), None);
+        let is_read = from_bytes(saved, &mut learned);
+        if is_read {
+            (self.changes, self.stable_at) = learned;
+        }
+        is_read
+    }
+}
