@@ -9,7 +9,8 @@ use crate::keys::Shape as Holds;
 use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::{Located, Problem};
-use crate::sections::{Isotropic, SectionProperties, Shape, Shear, ShearTheory, mass_matrix};
+use crate::scene::Outline;
+use crate::sections::{self, Isotropic, SectionKind, SectionProperties, Shear, ShearTheory, mass_matrix};
 use crate::suggest;
 use crate::text::Value;
 
@@ -82,55 +83,34 @@ fn shear_modulus(reader: &Reader<'_, '_>, young: Option<f64>) -> Option<f64> {
 pub(super) fn sections(context: &Context<'_>, registry: &Registry, materials: &[Material]) -> Vec<Section> {
     each_of_kind(context, "sections", registry, |reader, name, form| {
         let damping = reader.number("damping");
-        let (shape, properties) = if form == "general" {
-            (None, general(reader)?)
+        let (outline, properties) = if let Some(kind) = sections::KINDS.iter().find(|kind| kind.name == form)
+        {
+            homogeneous(reader, kind, materials)?
         } else {
-            let (shape, properties) = homogeneous(reader, form, materials)?;
-            (Some(shape), properties)
+            let properties = general(reader)?;
+            (Outline::of_mass(&properties), properties)
         };
         let properties =
             SectionProperties { damping: damping.map_or(0.0, |damping| damping.value), ..properties };
-        Some(Section { name: Located::new(name.to_owned(), reader.name), shape, properties })
+        Some(Section { name: Located::new(name.to_owned(), reader.name), outline, properties })
     })
 }
 
 fn homogeneous(
     reader: &Reader<'_, '_>,
-    form: &str,
+    kind: &SectionKind,
     materials: &[Material],
-) -> Option<(Shape, SectionProperties)> {
+) -> Option<(Outline, SectionProperties)> {
     let material = reader.name_in("material");
     let shear = shear(reader);
-    let length = |key| reader.number(key).map(|number| number.value);
-    let shape = match form {
-        "rectangle" => {
-            let (width, height) = (length("width"), length("height"));
-            Shape::Rectangle { width: width?, height: height? }
-        }
-        "circle" => Shape::Circle { radius: length("radius")? },
-        _ => {
-            let (outer, thickness) = (reader.number("outer_radius"), reader.number("thickness"));
-            let (outer, thickness) = (outer?, thickness?);
-            if thickness.value >= outer.value {
-                let message = format!(
-                    "the thickness {} of {} must be less than its outer radius {}",
-                    thickness.value, reader.what, outer.value
-                );
-                let problem = Problem::error(thickness.span, message).also(outer.span, "outer radius");
-                let help = "for a solid shaft write shape = \"circle\" with its radius";
-                reader.context.report(problem.label("too thick").help(help));
-                return None;
-            }
-            Shape::Tube { outer_radius: outer.value, thickness: thickness.value }
-        }
-    };
-    let (material, shear) = (material?, shear?);
+    let shape = (kind.read)(reader);
+    let (shape, material, shear) = (shape?, material?, shear?);
     let material = materials.iter().find(|known| known.name.value == material.value)?;
-    let properties = SectionProperties::homogeneous(&shape, &material.constants, shear);
+    let properties = SectionProperties::homogeneous(&*shape, &material.constants, shear);
     let usable =
         |matrix: &Matrix6| matrix.iter().all(|entry| entry.is_finite()) && matrix.diagonal().min() > 0.0;
     if usable(&properties.stiffness) && usable(&properties.mass) {
-        return Some((shape, properties));
+        return Some((shape.outline(), properties));
     }
     let message = format!("{} has a stiffness or mass beyond all numbers", reader.what);
     reader.context.fail(reader.name, message, "check the units of its sides and of its material")

@@ -33,7 +33,8 @@ use nalgebra::DMatrix;
 use crate::expression::{Expression, Formula};
 use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
-use crate::sections::{Isotropic, SectionProperties, Shape};
+use crate::scene::Outline;
+use crate::sections::{Isotropic, SectionProperties};
 use crate::surface::Surface;
 
 pub(crate) use bodies::body_axes;
@@ -190,8 +191,8 @@ pub struct Material {
 pub struct Section {
     /// Name.
     pub name: Located<String>,
-    /// Its outline, where it was given by one.
-    pub shape: Option<Shape>,
+    /// What is drawn.
+    pub outline: Outline,
     /// Stiffness, mass and damping.
     pub properties: SectionProperties,
 }

@@ -9,6 +9,7 @@ use super::analysis_tables::analyses;
 use super::part_tables::{initial, part, placed_in, superelement};
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
+use crate::sections::{GENERAL, KINDS, NAMES};
 
 /// What stands at the top of a model file under one word.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,10 +172,9 @@ fn material() -> Vec<Key> {
 }
 
 fn sections() -> Vec<Variant> {
-    let form = |word, summary, mut own: Vec<Key>| {
-        let mut keys =
-            vec![required("shape", choice(&["rectangle", "circle", "tube", "general"]), "", "its shape")];
-        if word != "general" {
+    let form = |word: &'static str, summary: &'static str, mut own: Vec<Key>| {
+        let mut keys = vec![required("shape", choice(&NAMES), "", "its shape")];
+        if word != GENERAL {
             keys.push(required("material", Shape::Name("materials"), "", "name of a material"));
             let words =
                 "shear coefficient: one or two numbers (along 2 and 3), \"cowper\" (default) or \"renton\"";
@@ -186,38 +186,17 @@ fn sections() -> Vec<Variant> {
         Variant { word, summary, keys }
     };
     let order = "6 x 6 or its diagonal: axial, shear 2, shear 3, torsion, bending 2, bending 3";
-    vec![
-        form(
-            "rectangle",
-            "Solid rectangle.",
-            vec![
-                required("width", Shape::Positive, "m", "side along axis 2"),
-                required("height", Shape::Positive, "m", "side along axis 3"),
-            ],
+    let general = vec![
+        required("stiffness", Shape::Stiffness, "N, N m²", order),
+        required(
+            "mass",
+            Shape::SectionMass,
+            "kg/m, kg m",
+            "6 x 6, or { per_length, inertia = [J11, J22, J33], center = [c2, c3] }",
         ),
-        form("circle", "Solid circle.", vec![required("radius", Shape::Positive, "m", "radius")]),
-        form(
-            "tube",
-            "Circular tube.",
-            vec![
-                required("outer_radius", Shape::Positive, "m", "outer radius"),
-                required("thickness", Shape::Positive, "m", "thickness of the wall"),
-            ],
-        ),
-        form(
-            "general",
-            "Given by its stiffness and mass.",
-            vec![
-                required("stiffness", Shape::Stiffness, "N, N m²", order),
-                required(
-                    "mass",
-                    Shape::SectionMass,
-                    "kg/m, kg m",
-                    "6 x 6, or { per_length, inertia = [J11, J22, J33], center = [c2, c3] }",
-                ),
-            ],
-        ),
-    ]
+    ];
+    let shapes = KINDS.iter().map(|kind| form(kind.name, kind.summary, (kind.keys)()));
+    shapes.chain([form(GENERAL, "Given by its stiffness and mass.", general)]).collect()
 }
 
 fn beam() -> Vec<Key> {

@@ -116,7 +116,7 @@ pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {
             |(k, offset): (usize, &Motion)| (k, offset.position.into(), offset.rotation.quaternion());
         let station = |station: &crate::document::Station| {
             let section = document.section(&station.section.value)?;
-            let outline = Outline::of(section);
+            let outline = section.outline;
             // By columns is by rows: the matrix is symmetric.
             let stiffness = section.properties.stiffness.as_slice().to_vec();
             Some(Station { at: station.at, section: station.section.value.clone(), outline, stiffness })

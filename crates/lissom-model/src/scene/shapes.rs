@@ -3,8 +3,7 @@
 use lissom_motion::{Matrix3, Rotation, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::document::Section;
-use crate::sections::{SectionProperties, Shape};
+use crate::sections::SectionProperties;
 
 /// The outline of a cross section in its axes 2 and 3.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,21 +35,9 @@ pub enum Outline {
 }
 
 impl Outline {
-    /// The outline of a section.
-    pub(super) fn of(section: &Section) -> Self {
-        match section.shape {
-            Some(Shape::Rectangle { width, height }) => Self::Rectangle { width, height },
-            Some(Shape::Circle { radius }) => Self::Circle { radius, inner: 0.0 },
-            Some(Shape::Tube { outer_radius, thickness }) => {
-                Self::Circle { radius: outer_radius, inner: outer_radius - thickness }
-            }
-            None => Self::of_mass(&section.properties),
-        }
-    }
-
     /// From the mass matrix of a slice, whose upper right block is -m c̃ and whose lower right block is J - m c̃². A
     /// homogeneous ellipse of semi-axes w and h has J₂₂ = m h²/4 and J₃₃ = m w²/4.
-    fn of_mass(properties: &SectionProperties) -> Self {
+    pub(crate) fn of_mass(properties: &SectionProperties) -> Self {
         let m = &properties.mass;
         let mass = m[(0, 0)];
         let center = [-m[(0, 5)] / mass, m[(0, 4)] / mass];

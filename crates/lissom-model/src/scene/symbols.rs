@@ -171,7 +171,7 @@ fn thickness(document: &Document, places: &Places<'_>, node: usize) -> f64 {
     let beams = document.beams.iter().filter(ends_there);
     let sections =
         beams.flat_map(|beam| &beam.stations).filter_map(|station| document.section(&station.section.value));
-    sections.map(|section| half(Outline::of(section))).fold(0.0, f64::max)
+    sections.map(|section| half(section.outline)).fold(0.0, f64::max)
 }
 
 /// Names of the parts at both ends, and where on them; nothing where a node is missing.

@@ -1,17 +1,24 @@
 //! Cross sections: from shape and material to 6 x 6 stiffness and mass per length.
 //!
 //! Order of strains and forces: axial, shear 2, shear 3, torsion, bending 2, bending 3; of velocities:
-//! translations 1, 2, 3, then rotations 1, 2, 3. Axis 1 runs along the beam through the centroid. Knows no files.
+//! translations 1, 2, 3, then rotations 1, 2, 3. Axis 1 runs along the beam through the centroid.
+//!
+//! A shape is one file and one line of [`KINDS`].
 
+mod circle;
+mod cross_section;
+mod rectangle;
 mod shear;
 mod torsion;
+mod tube;
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, skew};
 
+pub(crate) use cross_section::{CrossSection, SectionKind};
 pub use shear::ShearTheory;
 pub use torsion::rectangle_torsion_constant;
 
-use std::f64::consts::PI;
+use cross_section::Integrals;
 
 /// An isotropic elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,29 +38,22 @@ impl Isotropic {
     }
 }
 
-/// A shape of cross section.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape {
-    /// Solid rectangle.
-    Rectangle {
-        /// Side along axis 2 [m].
-        width: f64,
-        /// Side along axis 3 [m].
-        height: f64,
-    },
-    /// Solid circle.
-    Circle {
-        /// Radius [m].
-        radius: f64,
-    },
-    /// Circular tube.
-    Tube {
-        /// Outer radius [m].
-        outer_radius: f64,
-        /// Wall thickness [m], less than the outer radius.
-        thickness: f64,
-    },
-}
+/// All shapes that a section is computed from, one line each.
+pub(crate) const KINDS: [SectionKind; 3] = [rectangle::KIND, circle::KIND, tube::KIND];
+
+/// Names of all shapes, with that of sections that are given by numbers.
+pub(crate) const NAMES: [&str; KINDS.len() + 1] = {
+    let mut names = [GENERAL; KINDS.len() + 1];
+    let mut index = 0;
+    while index < KINDS.len() {
+        names[index] = KINDS[index].name;
+        index += 1;
+    }
+    names
+};
+
+/// The shape of sections that are given by their stiffness and mass.
+pub(crate) const GENERAL: &str = "general";
 
 /// How the shear coefficients are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,49 +62,6 @@ pub enum Shear {
     Theory(ShearTheory),
     /// Given: for shear along axes 2 and 3.
     Given(f64, f64),
-}
-
-/// Integrals over the section.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Integrals {
-    /// Area [m²].
-    area: f64,
-    /// `∫ x₃² dA` and `∫ x₂² dA` [m⁴]: second moments for bending about axes 2 and 3.
-    second: [f64; 2],
-    /// St-Venant's torsion constant [m⁴].
-    torsion: f64,
-}
-
-impl Shape {
-    fn integrals(&self) -> Integrals {
-        match *self {
-            Self::Rectangle { width, height } => Integrals {
-                area: width * height,
-                second: [width * height.powi(3) / 12.0, height * width.powi(3) / 12.0],
-                torsion: rectangle_torsion_constant(width, height),
-            },
-            Self::Circle { radius } => ring(radius, 0.0),
-            Self::Tube { outer_radius, thickness } => ring(outer_radius, outer_radius - thickness),
-        }
-    }
-
-    /// Shear coefficients for shear along axes 2 and 3 [–].
-    pub(crate) fn shear_coefficients(&self, theory: ShearTheory, poisson: f64) -> [f64; 2] {
-        match *self {
-            Self::Rectangle { width, height } => {
-                [theory.rectangle(width, height, poisson), theory.rectangle(height, width, poisson)]
-            }
-            Self::Circle { .. } => [theory.ring(0.0, poisson); 2],
-            Self::Tube { outer_radius, thickness } => {
-                [theory.ring((outer_radius - thickness) / outer_radius, poisson); 2]
-            }
-        }
-    }
-}
-
-fn ring(outer: f64, inner: f64) -> Integrals {
-    let second = PI * (outer.powi(4) - inner.powi(4)) / 4.0;
-    Integrals { area: PI * (outer * outer - inner * inner), second: [second; 2], torsion: 2.0 * second }
 }
 
 /// Stiffness and mass per length of a section.
@@ -120,7 +77,7 @@ pub struct SectionProperties {
 
 impl SectionProperties {
     /// A homogeneous section of one isotropic material; without damping.
-    pub(crate) fn homogeneous(shape: &Shape, material: &Isotropic, shear: Shear) -> Self {
+    pub(crate) fn homogeneous(shape: &dyn CrossSection, material: &Isotropic, shear: Shear) -> Self {
         let Integrals { area, second, torsion } = shape.integrals();
         let [k2, k3] = match shear {
             Shear::Theory(theory) => shape.shear_coefficients(theory, material.poisson()),
@@ -178,7 +135,7 @@ mod tests {
     fn the_benchmark_beam_has_its_published_section() {
         // Bauchau, Betsch, Cardona, Gerstmayr, Jonker, Masarati, Sonneville 2016: aluminium 100 x 10 mm, with the
         // thin side along axis 2; EA 73e6 N, GJ 877.2 N m², EI 60 830 and 608.3 N m², 2.68 kg/m.
-        let shape = Shape::Rectangle { width: 0.01, height: 0.1 };
+        let shape = rectangle::Rectangle { width: 0.01, height: 0.1 };
         let section = SectionProperties::homogeneous(&shape, &ALUMINIUM, Shear::Given(5.0 / 6.0, 5.0 / 6.0));
         let k = section.stiffness;
         let close = |found: f64, wanted: f64, digits: f64| (found / wanted - 1.0).abs() < digits;
@@ -196,14 +153,16 @@ mod tests {
 
     #[test]
     fn a_tube_without_hole_is_a_circle() {
-        let tube = Shape::Tube { outer_radius: 0.015, thickness: 0.015 };
-        let circle = Shape::Circle { radius: 0.015 };
+        let tube = tube::Tube { outer: 0.015, inner: 0.0 };
+        let circle = circle::Circle { radius: 0.015 };
         for theory in [ShearTheory::Cowper, ShearTheory::Renton] {
-            let of = |shape| SectionProperties::homogeneous(shape, &ALUMINIUM, Shear::Theory(theory));
+            let of = |shape: &dyn CrossSection| {
+                SectionProperties::homogeneous(shape, &ALUMINIUM, Shear::Theory(theory))
+            };
             assert!((of(&tube).stiffness - of(&circle).stiffness).norm() < 1e-9 * of(&tube).stiffness.norm());
         }
         let polar = circle.integrals();
-        assert!((polar.torsion / (PI * 0.015_f64.powi(4) / 2.0) - 1.0).abs() < 1e-14);
+        assert!((polar.torsion / (std::f64::consts::PI * 0.015_f64.powi(4) / 2.0) - 1.0).abs() < 1e-14);
     }
 
     #[test]
@@ -221,7 +180,7 @@ mod tests {
     #[test]
     fn a_tapered_section_is_linear_between_its_stations() {
         let of = |radius| {
-            SectionProperties::homogeneous(&Shape::Circle { radius }, &ALUMINIUM, Shear::Given(1.0, 1.0))
+            SectionProperties::homogeneous(&circle::Circle { radius }, &ALUMINIUM, Shear::Given(1.0, 1.0))
         };
         let middle = of(0.01).towards(&of(0.03), 0.25);
         let wanted = 0.75 * of(0.01).stiffness[(3, 3)] + 0.25 * of(0.03).stiffness[(3, 3)];

@@ -1,0 +1,41 @@
+//! What a shape of cross sections consists of.
+
+use super::ShearTheory;
+use crate::keys::Key;
+use crate::reader::Reader;
+use crate::scene::Outline;
+
+/// Integrals over a section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Integrals {
+    /// Area [m²].
+    pub(crate) area: f64,
+    /// `∫ x₃² dA` and `∫ x₂² dA` [m⁴]: second moments for bending about axes 2 and 3.
+    pub(crate) second: [f64; 2],
+    /// St-Venant's torsion constant [m⁴].
+    pub(crate) torsion: f64,
+}
+
+/// A shape of cross section.
+pub(crate) trait CrossSection {
+    /// Its integrals about the centroid.
+    fn integrals(&self) -> Integrals;
+
+    /// Shear coefficients for shear along axes 2 and 3 [–].
+    fn shear_coefficients(&self, theory: ShearTheory, poisson: f64) -> [f64; 2];
+
+    /// What is drawn.
+    fn outline(&self) -> Outline;
+}
+
+/// A kind of shape, as the model file knows it.
+pub(crate) struct SectionKind {
+    /// Name in the model file.
+    pub(crate) name: &'static str,
+    /// One sentence.
+    pub(crate) summary: &'static str,
+    /// Its keys.
+    pub(crate) keys: fn() -> Vec<Key>,
+    /// Reads it from its table; what is wrong is reported.
+    pub(crate) read: fn(&Reader<'_, '_>) -> Option<Box<dyn CrossSection>>,
+}
