@@ -1,7 +1,7 @@
 //! `cargo xtask ablate`: switches off one feature of the nonlinear solver at a time, over all scenes, examples,
 //! verification models and random mechanisms, and prints what that costs. A feature without which nothing fails and nothing becomes
-//! dearer is to go. With `--numbers` it halves and doubles instead each number that these and the choice of steps go by. Knows
-//! no mechanics.
+//! dearer is to go. With `--numbers` it halves and doubles instead each tuning parameter of these and of step-size control. Knows no
+//! mechanics.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use lissom::core::solver_features::SOLVER_FEATURES;
 use lissom::core::tuning::{TUNING_PARAMETERS, Tuning, TuningParameter};
 use lissom::{Override, Session};
+use lissom_model::lower::lower;
 
 use crate::AblateArguments;
 use crate::bench::processor_time;
@@ -43,11 +44,10 @@ pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
     if !arguments.names.is_empty() {
         subjects.retain(|subject| arguments.names.iter().any(|name| subject.name.contains(name.as_str())));
     }
-    let whole: Vec<Finished> = subjects.iter().map(|subject| run(subject, &[], arguments.repeat)).collect();
-    let fine: Vec<Finished> = subjects
-        .iter()
-        .map(|subject| run(subject, &[("analysis.tolerance".to_owned(), FINE.to_owned())], 1))
-        .collect();
+    let whole: Vec<Finished> =
+        subjects.iter().map(|subject| run(subject, &Change::None, arguments.repeat)).collect();
+    let finer = Change::Key(("analysis.tolerance".to_owned(), FINE.to_owned()));
+    let fine: Vec<Finished> = subjects.iter().map(|subject| run(subject, &finer, 1)).collect();
     let failing: BTreeSet<&str> =
         subjects.iter().zip(&whole).filter(|(_, run)| run.failure.is_some()).map(|(s, _)| &*s.name).collect();
     println!("{} models; failing with everything: {failing:?}\n", subjects.len());
@@ -58,25 +58,36 @@ pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
     );
     print_row("nothing", &subjects, (&whole, &whole, &fine));
     for (title, change) in changes(arguments.numbers) {
-        let runs: Vec<Finished> = subjects
-            .iter()
-            .map(|subject| run(subject, std::slice::from_ref(&change), arguments.repeat))
-            .collect();
+        let runs: Vec<Finished> =
+            subjects.iter().map(|subject| run(subject, &change, arguments.repeat)).collect();
         print_row(&title, &subjects, (&runs, &whole, &fine));
     }
     Ok(true)
 }
 
+/// What is changed in a run.
+enum Change {
+    /// Nothing.
+    None,
+    /// A key of the model file.
+    Key(Override),
+    /// The tuning parameter of this word is multiplied by this factor.
+    Parameter(&'static str, f64),
+}
+
 /// What is changed in turn, with the title of its row.
-fn changes(of_numbers: bool) -> Vec<(String, Override)> {
-    let change = |key: &str, word: &str| (format!("analysis.{key}"), format!("[\"{word}\"]"));
+fn changes(of_numbers: bool) -> Vec<(String, Change)> {
     if of_numbers {
-        let halved_and_doubled = TUNING_PARAMETERS.iter().flat_map(|(_, word, ..)| {
-            [(format!("½ {word}"), change("halved", word)), (format!("2 {word}"), change("doubled", word))]
+        let halved_and_doubled = TUNING_PARAMETERS.iter().flat_map(|&(_, word, ..)| {
+            [
+                (format!("½ {word}"), Change::Parameter(word, 0.5)),
+                (format!("2 {word}"), Change::Parameter(word, 2.0)),
+            ]
         });
         return halved_and_doubled.collect();
     }
-    SOLVER_FEATURES.iter().map(|(_, word, _)| ((*word).to_owned(), change("without", word))).collect()
+    let without = |word: &str| Change::Key(("analysis.without".to_owned(), format!("[\"{word}\"]")));
+    SOLVER_FEATURES.iter().map(|(_, word, _)| ((*word).to_owned(), without(word))).collect()
 }
 
 /// One line of the table: `runs` without a feature beside those with all, and fine ones.
@@ -145,10 +156,10 @@ fn distance(values: &[f64], others: &[f64]) -> f64 {
     values.iter().zip(others).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / largest
 }
 
-fn run(subject: &Subject, further: &[Override], repeat: usize) -> Finished {
-    let mut best = run_once(subject, further);
+fn run(subject: &Subject, change: &Change, repeat: usize) -> Finished {
+    let mut best = run_once(subject, change);
     for _ in 1..repeat {
-        let next = run_once(subject, further);
+        let next = run_once(subject, change);
         if next.seconds < best.seconds {
             best = next;
         }
@@ -156,7 +167,7 @@ fn run(subject: &Subject, further: &[Override], repeat: usize) -> Finished {
     best
 }
 
-fn run_once(subject: &Subject, further: &[Override]) -> Finished {
+fn run_once(subject: &Subject, change: &Change) -> Finished {
     let failed = |failure: String| Finished {
         failure: Some(failure),
         iterations: 0.0,
@@ -165,12 +176,19 @@ fn run_once(subject: &Subject, further: &[Override]) -> Finished {
         seconds: 0.0,
         values: Vec::new(),
     };
-    let overrides = [&subject.overrides[..], further].concat();
-    let document = match subject.model.document(&overrides) {
-        Ok(document) => document,
+    let mut overrides = subject.overrides.clone();
+    if let Change::Key(further) = change {
+        overrides.push(further.clone());
+    }
+    let document = subject.model.document(&overrides);
+    let mut lowered = match document.and_then(|document| lower(&document)) {
+        Ok(lowered) => lowered,
         Err(report) => return failed(report.render(false)),
     };
-    let mut session = match Session::new(&document) {
+    if let Change::Parameter(word, factor) = change {
+        lowered.settings.limits.tuning = Tuning::default().times([*word], *factor).unwrap_or_default();
+    }
+    let mut session = match Session::start(lowered) {
         Ok(session) => session,
         Err(error) => return failed(error.to_string()),
     };

@@ -12,8 +12,7 @@
 
 use lissom_solver::{Pattern, Scalar};
 
-/// A diagonal entry below this part of its column's largest is round-off.
-const NOTHING: f64 = 1e-14;
+use crate::round_off;
 
 /// The factors of rows and columns.
 #[derive(Clone, Debug)]
@@ -60,7 +59,7 @@ impl Equilibration {
                     }
                 }
                 // A coordinate that only constraints see has no diagonal without the augmented term.
-                if diagonal > NOTHING * largest { diagonal } else { largest }
+                if diagonal > round_off::PIVOT * largest { diagonal } else { largest }
             } else {
                 let own = entries.filter(|&(row, _)| row < count);
                 own.map(|(row, value)| (value * self.factors[row]).powi(2)).sum()

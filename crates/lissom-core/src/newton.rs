@@ -6,6 +6,7 @@ use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
 use crate::interrupt;
+use crate::round_off;
 use crate::solver_features::{DisabledFeatures, SolverFeature};
 use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
@@ -103,10 +104,7 @@ impl JacobianState {
                 spent: limits.tuning.of(TuningParameter::TangentCost),
                 ..JacobianCost::default()
             };
-        } else if self
-            .cost
-            .should_refactor(outcome.iterations as f64, limits.tuning.of(TuningParameter::Novelty))
-        {
+        } else if self.cost.should_refactor(outcome.iterations as f64, NOVELTY) {
             self.forget_tangent();
         }
     }
@@ -166,8 +164,10 @@ pub enum Failure {
     Interrupted,
 }
 
-/// Corrections below this are round-off: some hundred roundings of numbers of the size of one [-].
-const ROUND_OFF: f64 = 1e-13;
+/// Weight of the last solution in what solutions have cost lately.
+const NOVELTY: f64 = 0.05;
+/// A stalled correction below this part of what the step has to find out is round-off [-].
+const STALLS_BELOW: f64 = 1e-6;
 /// Where the solution is wanted exactly, stalled corrections above this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
 /// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
@@ -219,7 +219,7 @@ pub fn solve<E: Equations>(
                 jacobian.update_cost(&outcome, limits);
                 return Ok(outcome);
             }
-            Verdict::Stalled if stalls > 0 && correction.size > ROUND_OFF => {
+            Verdict::Stalled if stalls > 0 && correction.size > round_off::CORRECTION => {
                 stalls -= 1;
                 halvings = 0;
                 jacobian.forget_tangent();
@@ -322,11 +322,10 @@ fn test_convergence(
     if remaining(credible) * size <= goal {
         return Verdict::Converged;
     }
-    // Stiff members and large places have more of it.
-    let near_round_off =
-        size <= 10.0 * ROUND_OFF || size <= limits.tuning.of(TuningParameter::Small) * reference;
+    // Stiff members and large positions have more of it.
+    let near_round_off = size <= 10.0 * round_off::CORRECTION || size <= STALLS_BELOW * reference;
     if contraction > limits.tuning.of(TuningParameter::Stalled) && near_round_off && fresh {
-        if size <= ROUND_OFF {
+        if size <= round_off::CORRECTION {
             jacobian.round_off = jacobian.round_off.max(size);
         }
         return Verdict::Stalled;

@@ -6,10 +6,8 @@
 #[repr(u8)]
 pub enum TuningParameter {
     /// What a new tangent costs, in iterations: some seven of soft-beam-64 and beam-net-4 take as long. It is renewed within
-    /// a solution that would need more of them, and when solutions with it have become dearer than a new one.
+    /// a solution that would need more of them.
     TangentCost,
-    /// Weight of the last solution in what solutions have cost lately.
-    Novelty,
     /// Where a solution is believed in without having seen its contraction, its error is to be this part of what is
     /// allowed: many such solutions in a row err to the same side.
     Unseen,
@@ -18,46 +16,23 @@ pub enum TuningParameter {
     Contraction,
     /// Corrections that shrink by less than this are round-off, once they are small.
     Stalled,
-    /// A stalled correction below this part of what the step has to find out is small.
-    Small,
-    /// Secants that are less independent of newer ones are left out.
-    SecantIndependence,
-    /// A secant is used for corrections up to so many times as large: beyond, its round-off would dominate.
-    SecantReach,
     /// A secant is kept if what the tangent has missed is below this part of it: where a tangent is worse it is to be
     /// renewed, and corrections that are round-off contain no information.
     SecantCredible,
     /// What a step counts for after another one in linear prediction: coefficients change as the motion does.
     PredictionFading,
-    /// A prediction that would have left more than this part of what the scheme's own guess missed is not followed: where
-    /// motion has just jumped, or constraints lose their rank, it leads to other branches.
-    PredictionCredible,
-    /// Iterates whose last correction is larger than this are far from equilibrium [-].
-    Far,
-    /// Corrections of rotations larger than this are cut short [rad].
-    MaxCorrection,
-    /// Departures from going straight on below this are not resolved for their own sake where states are measured beside
-    /// places [-].
-    MinDeparture,
     /// A step is chosen this much smaller than its estimated error allows, so that few are rejected.
     Safety,
-    /// A step grows by this factor at most.
-    Growth,
     /// The size of steps is kept where it would change by less than this factor: what was learned of it goes on to serve.
     Kept,
     /// What a step may err, over the tolerance to the power at which errors at the end are in proportion to it: with 1 they
     /// are about the tolerance, with a half nine in ten stay below it.
     ShareOfStep,
-    /// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
-    ShareOfFirst,
-    /// After so many parts of a planned step in a row the next one is twice as long.
-    StepsToGrow,
 }
 
 /// Every parameter with its word, its value and where it counts.
-pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 20] = [
+pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 9] = [
     (TuningParameter::TangentCost, "tangent-cost", 8.0, "iterations that a new tangent costs"),
-    (TuningParameter::Novelty, "novelty", 0.05, "weight of the last solution in the cost of solutions"),
     (
         TuningParameter::Unseen,
         "unseen",
@@ -66,9 +41,6 @@ pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 20] = [
     ),
     (TuningParameter::Contraction, "contraction", 0.05, "best contraction believed of a kept tangent"),
     (TuningParameter::Stalled, "stalled", 0.5, "contraction of corrections that are round-off"),
-    (TuningParameter::Small, "small", 1e-6, "corrections that may be round-off"),
-    (TuningParameter::SecantIndependence, "secant-independence", 3e-4, "independence of secants"),
-    (TuningParameter::SecantReach, "secant-reach", 10.0, "corrections over the secants used for them"),
     (TuningParameter::SecantCredible, "secant-credible", 0.7, "what a tangent may have missed of a secant"),
     (
         TuningParameter::PredictionFading,
@@ -76,21 +48,9 @@ pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 20] = [
         0.5,
         "weight of a step after the next one in predictions",
     ),
-    (
-        TuningParameter::PredictionCredible,
-        "prediction-credible",
-        0.5,
-        "what a prediction may leave of what was missed",
-    ),
-    (TuningParameter::Far, "far", 1e-3, "corrections that are far from equilibrium"),
-    (TuningParameter::MaxCorrection, "largest-correction", 1.0, "largest correction of a rotation"),
-    (TuningParameter::MinDeparture, "least-departure", 1e-5, "departures resolved beside states"),
     (TuningParameter::Safety, "safety", 0.8, "part of the step that the estimated error allows"),
-    (TuningParameter::Growth, "growth", 5.0, "largest growth of a step"),
     (TuningParameter::Kept, "kept", 1.2, "changes of steps that are left out"),
     (TuningParameter::ShareOfStep, "share-of-step", 0.5, "part of the tolerance that a step may err"),
-    (TuningParameter::ShareOfFirst, "share-of-first", 0.1, "the same of a first step"),
-    (TuningParameter::StepsToGrow, "parts-to-grow", 3.0, "parts of a step until they are doubled"),
 ];
 
 /// A planned step, a load step and a correction are halved so often at most.

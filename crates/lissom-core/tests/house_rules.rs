@@ -69,6 +69,18 @@ fn only_scaling_and_what_takes_steps_know_the_step_size() {
     assert!(found.is_empty(), "step size or penalty outside {allowed:?}:\n{}", found.join("\n"));
 }
 
+/// Tolerances of round-off stand in one file, by purpose.
+#[test]
+fn round_off_tolerances_stand_in_one_file() {
+    let words = ["ROUND_OFF", "EPS", "ROUNDOFF", "MACHINE_EPSILON"];
+    let found = offences(&["round_off.rs"], &words);
+    assert!(
+        found.is_empty(),
+        "name it by purpose in lissom-mechanics/src/round_off.rs:\n{}",
+        found.join("\n")
+    );
+}
+
 #[test]
 fn the_search_finds_what_it_looks_for() {
     assert!(!offences(&["analysis/"], &["h"]).is_empty(), "scaling.rs holds `h`");
@@ -167,7 +179,7 @@ fn quoted_names(text: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// Functions and types that ARCHITECTURE.md names are in the sources, and so are its short paths, such as `stepping/mod.rs`.
+/// Functions and types that ARCHITECTURE.md names are in the sources.
 #[test]
 fn names_in_the_architecture_exist() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -181,18 +193,38 @@ fn names_in_the_architecture_exist() {
         .collect();
     let names = quoted_names(&text);
     assert!(names.len() > 20, "the search must see the names: {}", names.len());
-    let of_names = names.iter().filter(|(_, name)| !known.contains(name));
-    let short = |(line, piece): (usize, &str)| {
-        let is_path = Path::new(piece).extension().is_some_and(|extension| extension == "rs");
-        let exists = files.iter().any(|file| file.ends_with(piece));
-        (is_path && !exists && !root.join(piece).exists()).then(|| (line, piece.to_owned()))
-    };
-    let pieces = text
-        .lines()
-        .enumerate()
-        .flat_map(|(number, line)| line.split('`').skip(1).step_by(2).map(move |piece| (number + 1, piece)));
-    let missing: Vec<(usize, String)> = of_names.cloned().chain(pieces.filter_map(short)).collect();
+    let missing: Vec<&(usize, String)> = names.iter().filter(|(_, name)| !known.contains(name)).collect();
     assert!(missing.is_empty(), "ARCHITECTURE.md names what does not exist: {missing:?}");
+}
+
+/// Short paths of sources in backticks, such as `stepping/mod.rs`, end the path of a source.
+#[test]
+fn short_paths_of_sources_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let (mut known, mut files) = (Vec::new(), Vec::new());
+    for folder in ["crates", "xtask", "benches", "fuzz"] {
+        sources(&root.join(folder), &mut known);
+    }
+    files.extend(["ARCHITECTURE.md", "CONTRIBUTING.md", "README.md"].map(|name| root.join(name)));
+    pages(&root.join("docs"), &mut files);
+    let (mut count, mut missing) = (0, Vec::new());
+    for file in files {
+        let text = fs::read_to_string(&file).expect("readable");
+        for (number, line) in text.lines().enumerate() {
+            for piece in line.split('`').skip(1).step_by(2) {
+                let is_source = Path::new(piece).extension().is_some_and(|extension| extension == "rs");
+                if is_source && !piece.contains(['<', '*', ' ', '{']) {
+                    count += 1;
+                    if !known.iter().any(|source| source.ends_with(piece)) {
+                        let name = file.strip_prefix(&root).expect("below the root").display();
+                        missing.push(format!("{name}:{}: `{piece}`", number + 1));
+                    }
+                }
+            }
+        }
+    }
+    assert!(count > 50, "the search must see the paths: {count}");
+    assert!(missing.is_empty(), "sources that do not exist:\n{}", missing.join("\n"));
 }
 
 #[test]
@@ -244,17 +276,18 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the mechanics, and what of their crate they may name.
-const FLOORS: [(&str, &[&str]); 10] = [
-    ("instants.rs", &[]),
-    ("kinematics/", &["kinematics"]),
+const FLOORS: [(&str, &[&str]); 11] = [
+    ("round_off.rs", &[]),
+    ("instants.rs", &["round_off"]),
+    ("kinematics/", &["kinematics", "round_off"]),
     ("dual.rs", &[]),
     ("relation.rs", &[]),
     ("registry.rs", &["kinematics", "relation"]),
-    ("contact/", &["dual", "kinematics", "registry"]),
-    ("signals/", &["instants", "kinematics"]),
-    ("joints/", &["contact", "joints", "kinematics", "registry", "relation"]),
-    ("elements/", &["contact", "dual", "elements", "kinematics", "registry"]),
-    ("evaluation/", &["elements", "evaluation", "joints", "kinematics"]),
+    ("contact/", &["dual", "kinematics", "registry", "round_off"]),
+    ("signals/", &["instants", "kinematics", "round_off"]),
+    ("joints/", &["contact", "joints", "kinematics", "registry", "relation", "round_off"]),
+    ("elements/", &["contact", "dual", "elements", "kinematics", "registry", "round_off"]),
+    ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "round_off"]),
 ];
 
 /// Names beyond the floors: the elements of an entry are of a kind that only their batch knows, and a joint that rolls reports the

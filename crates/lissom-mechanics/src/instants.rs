@@ -1,16 +1,16 @@
 //! When two instants are the same: those of samples, breakpoints, records and ends of steps are computed in different ways and
 //! differ by round-off. A step between two of them would be so short that its accelerations are round-off.
 
+use crate::round_off;
+
 /// Instants closer than this part of a step, or of a sample period, are the same [-].
 pub const SAME: f64 = 1e-9;
-/// Round-off of a time that is the result of a few operations, relative to its size.
-const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// Round-off that accumulates in a clock may reach this part of its step before it is taken for an intended difference.
 const MAX_ACCUMULATED: f64 = 1e-3;
 
 /// Distance below which two instants near `time` [s] are the same where steps, or sample periods, are `duration` [s] long.
 pub fn tolerance(time: f64, duration: f64) -> f64 {
-    SAME * duration + ROUND_OFF * time.abs()
+    SAME * duration + round_off::OPERATIONS * time.abs()
 }
 
 /// The same for an instant at a distance of `elapsed` [s] from the start which a clock outside of the program has reached in

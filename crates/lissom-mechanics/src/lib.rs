@@ -12,4 +12,5 @@ pub mod joints;
 pub mod kinematics;
 pub mod registry;
 pub mod relation;
+pub mod round_off;
 pub mod signals;

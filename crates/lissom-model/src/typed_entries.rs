@@ -254,10 +254,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
 
 /// The name of the type that holds the words of a key.
 fn word_type(key: &Key, known: &[&'static str], words: &mut Words) -> String {
-    let mut name = match key.name {
-        "halved" | "doubled" => "StudiedNumber".to_owned(),
-        key => camel(key),
-    };
+    let mut name = camel(key.name);
     if known.contains(&"positive") {
         name.insert_str(0, "Signed");
     }

@@ -18,6 +18,10 @@ use crate::tuning::{Tuning, TuningParameter};
 
 /// Most secants in use.
 const MAX_SECANTS: usize = 5;
+/// Secants that are less independent of newer ones are left out.
+const INDEPENDENT: f64 = 3e-4;
+/// A secant is used for corrections up to so many times as large: beyond, its round-off would dominate.
+const REACH: f64 = 10.0;
 
 /// The last corrections, of all stages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -99,7 +103,7 @@ impl Anderson {
         }
         self.goes_on = true;
         std::mem::swap(&mut self.last_weighted, &mut self.weighted);
-        self.take(&self.shares(tuning));
+        self.take(&self.shares());
         for (corrections, taken) in corrections.iter_mut().zip(self.taken.chunks(rows)) {
             for (value, taken) in corrections.iter_mut().zip(taken) {
                 *value -= taken;
@@ -177,7 +181,7 @@ impl Anderson {
 
     /// γ by slot: least squares through a factorisation L D Lᵀ of the products, newest first.
     #[inline(always)]
-    fn shares(&self, tuning: &Tuning) -> [f64; MAX_SECANTS] {
+    fn shares(&self) -> [f64; MAX_SECANTS] {
         let mut shares = [0.0; MAX_SECANTS];
         // L D, 1/D, and L⁻¹ of the right-hand side.
         let mut lower = [[0.0; MAX_SECANTS]; MAX_SECANTS];
@@ -185,9 +189,7 @@ impl Anderson {
         let mut forward = [0.0; MAX_SECANTS];
         let mut slots = [0; MAX_SECANTS];
         let mut used = 0;
-        let (reach, independent) =
-            (tuning.of(TuningParameter::SecantReach), tuning.of(TuningParameter::SecantIndependence));
-        let smallest = product(&self.last_weighted, &self.last_weighted) / (reach * reach);
+        let smallest = product(&self.last_weighted, &self.last_weighted) / (REACH * REACH);
         for back in 1..=self.known {
             let slot = (self.next + self.most - back) % self.most;
             let own = self.products[slot][slot];
@@ -205,7 +207,7 @@ impl Anderson {
                 pivot -= sum * sum * inverse[k];
                 value -= sum * inverse[k] * forward[k];
             }
-            if pivot > independent * own {
+            if pivot > INDEPENDENT * own {
                 lower[used] = row;
                 inverse[used] = 1.0 / pivot;
                 forward[used] = value;

@@ -17,8 +17,14 @@ use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, Sta
 use crate::schemes::{Increments, Scheme, Stage, Tableau};
 use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
-use crate::tuning::TuningParameter;
 
+/// Iterates whose last correction is larger than this are far from equilibrium [-].
+pub(super) const FAR: f64 = 1e-3;
+/// Corrections of rotations larger than this are cut short [rad].
+const MAX_ROTATION: f64 = 1.0;
+/// Departures from going straight on below this are not resolved for their own sake where states are measured beside
+/// positions [-].
+const MIN_DEPARTURE: f64 = 1e-5;
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
 
@@ -202,8 +208,7 @@ impl StepEquations<'_> {
 
     /// Whether the iterate is far from equilibrium.
     pub(super) fn is_far(&self) -> bool {
-        self.work.correction > self.work.tuning.of(TuningParameter::Far)
-            && self.work.disabled.allows(SolverFeature::StartStresses)
+        self.work.correction > FAR && self.work.disabled.allows(SolverFeature::StartStresses)
     }
 
     /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
@@ -229,7 +234,7 @@ impl StepEquations<'_> {
         if !places.size.is_finite() {
             return places;
         }
-        let largest = self.work.tuning.of(TuningParameter::MaxCorrection);
+        let largest = MAX_ROTATION;
         if places.size > largest {
             self.work.anderson.interrupt();
             let cut = largest / places.size;
@@ -259,14 +264,16 @@ impl StepEquations<'_> {
         let is_known = largest > 0.0 && change > round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
         // What a joint sees change is rounded as the whole way that parts go in the step, of which accelerations are a part.
-        let decides = multipliers > size;
-        let multipliers = if decides && change <= self.travel_round_off() { 0.0 } else { multipliers };
+        let is_travel = multipliers > size && change <= self.travel_round_off();
+        let multipliers = if is_travel { 0.0 } else { multipliers };
         self.with_states(Correction { size: size.max(multipliers), reference })
     }
 
     /// Round-off of multipliers from how far parts go straight on in the step.
-    fn travel_round_off(&self) -> f64 {
-        self.round_off_of_travel() * self.scaled.multiplier_factor() * self.scaling.1.length
+    fn travel_round_off(&mut self) -> f64 {
+        let round_off = self.work.travel_round_off.unwrap_or_else(|| self.round_off_of_travel());
+        self.work.travel_round_off = Some(round_off);
+        round_off * self.scaled.multiplier_factor() * self.scaling.1.length
     }
 
     /// Round-off of displacements from how far parts go straight on in the step, scaled.
@@ -310,7 +317,7 @@ impl StepEquations<'_> {
         if layout.state_count() == 0 {
             return places;
         }
-        let least = self.work.tuning.of(TuningParameter::MinDeparture);
+        let least = MIN_DEPARTURE;
         let reference = places.reference.max(least);
         let mut size = places.size;
         for (row, coordinate, magnitude) in layout.states() {
@@ -387,7 +394,7 @@ impl StepEquations<'_> {
         });
         let mut worst = (0, -1.0);
         // States are measured apart, as in `with_states`.
-        let least = self.work.tuning.of(TuningParameter::MinDeparture);
+        let least = MIN_DEPARTURE;
         let states: Vec<(usize, f64)> = layout
             .states()
             .map(|(row, coordinate, magnitude)| {

@@ -7,10 +7,8 @@ use lissom_motion::Vector3;
 
 use super::loops;
 use crate::joints::Equations;
+use crate::round_off;
 use crate::system::{State, System};
-
-/// Entries below this part of a row's largest count as round-off.
-const ROUND_OFF: f64 = 1e-9;
 
 /// A pivot is at least this part of its row's largest entry.
 const LARGE_ENOUGH: f64 = 0.1;
@@ -193,7 +191,7 @@ fn eliminate(
     while let Some(earlier) = waiting.pop_first() {
         let row = &reduced[earlier];
         let Some(&value) = entries.get(&row.pivot) else { continue };
-        if value.abs() > ROUND_OFF * largest {
+        if value.abs() > round_off::FORCE * largest {
             let factor = value / row.entries[&row.pivot];
             for (&column, &entry) in &row.entries {
                 *entries.entry(column).or_insert(0.0) -= factor * entry;
@@ -207,7 +205,7 @@ fn eliminate(
         }
         entries.remove(&row.pivot);
     }
-    entries.retain(|_, value| value.abs() > ROUND_OFF * largest);
+    entries.retain(|_, value| value.abs() > round_off::FORCE * largest);
     // Any entry that is not small will do: the joint's own coordinate, or else the first, so that eliminating along
     // a chain does not lead back to its beginning.
     let left = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));

@@ -14,12 +14,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::corrections::{Processor, SIDE_BY_SIDE, sum};
+use crate::round_off;
 use crate::tuning::{Tuning, TuningParameter};
 
 /// Steps that are looked back at most, K.
 const MAX_STEPS: usize = 8;
-/// What depends on later steps but for this part is round-off.
-const DEPENDENT: f64 = 1e-13;
+/// A prediction that would have left more than this part of what the scheme's own guess missed is not followed: where
+/// motion has just jumped, or constraints lose their rank, it leads to other branches.
+const CREDIBLE: f64 = 0.5;
 
 type Block = [f64; SIDE_BY_SIDE];
 
@@ -266,8 +268,7 @@ impl pulp::WithSimd for Learn<'_> {
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
         let Learn { memory, products, tuning } = self;
-        let (fading, credible) =
-            (tuning.of(TuningParameter::PredictionFading), tuning.of(TuningParameter::PredictionCredible));
+        let fading = tuning.of(TuningParameter::PredictionFading);
         memory.lengths = [1.0, memory.lengths[0]];
         // The oldest was looked back at for the last time.
         let toward: [f64; MAX_STEPS] = std::array::from_fn(|ago| products[memory.place(ago)]);
@@ -278,7 +279,7 @@ impl pulp::WithSimd for Learn<'_> {
             }
         }
         let is_credible =
-            memory.left(&toward, products[MAX_STEPS]) <= credible * credible * products[MAX_STEPS];
+            memory.left(&toward, products[MAX_STEPS]) <= CREDIBLE * CREDIBLE * products[MAX_STEPS];
         let before = memory.products;
         memory.products[0][0] = products[MAX_STEPS];
         for i in 1..MAX_STEPS {
@@ -307,7 +308,7 @@ fn coefficients(
     let (mut rows, mut values) = (*matrix, *vector);
     let mut solved = [0.0; MAX_STEPS];
     for k in 0..most {
-        if rows[k][k] > DEPENDENT * matrix[k][k] {
+        if rows[k][k] > round_off::PREDICTION * matrix[k][k] {
             let inverse = 1.0 / rows[k][k];
             let (row, value) = (rows[k].map(|entry| entry * inverse), values[k] * inverse);
             for i in 0..MAX_STEPS {

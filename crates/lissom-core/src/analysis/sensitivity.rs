@@ -17,13 +17,10 @@ use super::{StepError, Unwatched};
 use crate::analysis::Problem;
 use crate::integrator::{Start, step_equations};
 use crate::newton::Equations;
+use crate::round_off;
 
 /// Most corrections of a neighbour's step.
 const MAX_CORRECTIONS: usize = 12;
-/// A correction below this part of what the step finds out is round-off.
-const ROUND_OFF: f64 = 1e-13;
-/// A correction below this is round-off whatever the step finds out [-, rad].
-const MIN_CORRECTION: f64 = 1e-13;
 /// Corrections still to come, by their contraction, may be this part of the first one. The derivatives of reactions err by more:
 /// a small displacement is a large force across a constraint.
 const TO_COME: f64 = 1e-11;
@@ -84,7 +81,7 @@ impl Simulation {
             let correction = equations.correct();
             made += 1;
             let relative = correction.size / correction.reference.max(f64::MIN_POSITIVE);
-            let is_found = relative <= FOUND || correction.size <= MIN_CORRECTION;
+            let is_found = relative <= FOUND || correction.size <= round_off::CORRECTION;
             let contraction = correction.size / size_of_last;
             if made == 1 {
                 first = correction.size;
@@ -94,8 +91,10 @@ impl Simulation {
                 && contraction <= CONTRACTS
                 && contraction * correction.size <= TO_COME * first;
             // What no longer shrinks is round-off.
-            let is_done =
-                is_exact || relative <= ROUND_OFF || correction.size == 0.0 || (is_found && relative >= last);
+            let is_done = is_exact
+                || relative <= round_off::CORRECTION
+                || correction.size == 0.0
+                || (is_found && relative >= last);
             (last, size_of_last) = (relative, correction.size);
             if is_done || !relative.is_finite() {
                 break;
@@ -105,7 +104,7 @@ impl Simulation {
         let correction = equations.work.correction;
         std::mem::swap(&mut work.factorization, &mut leading.factorization);
         std::mem::swap(&mut work.equilibration, &mut leading.equilibration);
-        if !(last <= FOUND || size_of_last <= MIN_CORRECTION) {
+        if !(last <= FOUND || size_of_last <= round_off::CORRECTION) {
             let time = self.state.kinematics.time + size;
             let hint = "the neighbouring model has no solution near this one";
             return Err(StepError::NotConverged { time, iterations: made, correction, worst, hint });

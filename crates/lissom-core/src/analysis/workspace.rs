@@ -63,6 +63,8 @@ pub(crate) struct Workspace {
     pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
     /// The unknown whose pivot vanished, and the pivot, once it was needed.
     pub(crate) fell_back: Option<(usize, f64)>,
+    /// Round-off of displacements from how far parts go straight on in the present step, scaled; none until it is needed.
+    pub(crate) travel_round_off: Option<f64>,
     /// Forces below this are round-off of the stiffest elements' strains [N].
     pub(crate) force_round_off: f64,
     /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
@@ -137,6 +139,7 @@ impl Workspace {
             filtered: vec![0.0; layout.size()],
             fall_back: None,
             fell_back: None,
+            travel_round_off: None,
             force_round_off: 0.0,
             regularization: None,
             solver,

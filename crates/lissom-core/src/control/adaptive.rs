@@ -16,6 +16,10 @@ use crate::integrator::Attempt;
 use crate::integrator::error_estimate::{ErrorOrder, MIN_ERROR, MIN_REFERENCE, driven, excursion};
 use crate::tuning::{Tuning, TuningParameter};
 
+/// A step grows by this factor at most.
+const MAX_GROWTH: f64 = 5.0;
+/// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
+const FIRST: f64 = 0.1;
 /// Steps shorter than this part of the largest one are not tried [-].
 const SHORTEST: f64 = 1e-12;
 
@@ -71,9 +75,7 @@ impl Adaptive {
         let tuning = &settings.limits.tuning;
         let share = tuning.of(TuningParameter::ShareOfStep);
         let (allowed, power) = match order {
-            ErrorOrder::Third if is_third_order => {
-                (tuning.of(TuningParameter::ShareOfFirst) * tolerance, 1.0)
-            }
+            ErrorOrder::Third if is_third_order => (FIRST * tolerance, 1.0),
             ErrorOrder::Third => (share * tolerance.powf(3.0 / 2.0), 1.0),
             ErrorOrder::Fourth => (share * tolerance.powf(4.0 / scheme_order), 3.0 / 4.0),
         };
@@ -197,7 +199,7 @@ impl Controller {
 
     /// A step of `taken` [s] had an estimated error of `error` times the tolerance, and is accepted.
     fn accept(&mut self, taken: f64, error: f64, max_step: f64, tuning: &Tuning) {
-        let largest = if self.has_failed { 1.0 } else { tuning.of(TuningParameter::Growth) };
+        let largest = if self.has_failed { 1.0 } else { MAX_GROWTH };
         let factor = (tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER)).min(largest);
         self.has_failed = false;
         let kept = tuning.of(TuningParameter::Kept);

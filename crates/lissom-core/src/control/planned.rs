@@ -7,8 +7,10 @@ use super::interface::Control;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::integrator::Attempt;
 use crate::solver_features::{DisabledFeatures, SolverFeature};
-use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
+use crate::tuning::{MAX_HALVINGS, Tuning};
 
+/// After so many parts of a planned step in a row the next one is twice as long.
+const PARTS_TO_GROW: u32 = 3;
 /// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
 const SHORT_PART: f64 = 1e-3;
 
@@ -61,8 +63,8 @@ impl Control for Planned {
         self.may_bisect && self.bisection.halve()
     }
 
-    fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool {
-        attempt.size == self.propose() && self.bisection.accept(tuning)
+    fn accept(&mut self, attempt: &Attempt, _: &Tuning) -> bool {
+        attempt.size == self.propose() && self.bisection.accept()
     }
 
     fn restart(&mut self) {
@@ -121,7 +123,7 @@ impl StepBisection {
     }
 
     /// A part was taken. Whether the end of the planned step is reached.
-    fn accept(&mut self, tuning: &Tuning) -> bool {
+    fn accept(&mut self) -> bool {
         self.done += self.size;
         let is_complete = self.done >= MAX_PARTS;
         if is_complete {
@@ -129,10 +131,7 @@ impl StepBisection {
         }
         self.taken += 1;
         // A doubled part must end where whole doubled parts end.
-        if f64::from(self.taken) >= tuning.of(TuningParameter::StepsToGrow)
-            && self.size < MAX_PARTS
-            && self.done.is_multiple_of(2 * self.size)
-        {
+        if self.taken >= PARTS_TO_GROW && self.size < MAX_PARTS && self.done.is_multiple_of(2 * self.size) {
             self.size *= 2;
             self.taken = 0;
         }
@@ -168,7 +167,7 @@ mod tests {
             }
             sizes.push(size);
             time += size;
-            if bisection.accept(&Tuning::default()) {
+            if bisection.accept() {
                 planned += 1;
                 assert_eq!(time, f64::from(planned));
             }

@@ -143,6 +143,7 @@ impl Integrator {
         }
         let start = attempt.start(state);
         self.scaled.to_unit_step(system.layout(), &settings.scheme, start, &mut self.work.unit);
+        self.work.travel_round_off = None;
         system.begin_step(&start.kinematics, &mut self.work.joint_starts);
         Ok(())
     }

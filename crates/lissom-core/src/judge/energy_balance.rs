@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::StepError;
 use crate::elements::Energy;
 use crate::kinematics::Kinematics;
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
@@ -27,8 +28,6 @@ const GROSS: f64 = 0.25;
 const PLACE: f64 = 1e-7;
 /// Changes of places are known to this part of the representative length.
 const CHANGE: f64 = 1e-12;
-/// Part of the largest single energy that its round-off may reach.
-const ROUND_OFF: f64 = 1e-10;
 
 /// A state as the energy balance sees it.
 pub(crate) struct Entry<'a> {
@@ -117,7 +116,7 @@ impl EnergyBalance {
     /// Energies below this are round-off, or held by constraints.
     fn least_known(&self) -> f64 {
         let largest = self.most.max(self.potential[0].abs()).max(self.potential[1].abs());
-        self.floor + self.constraint_energy + ROUND_OFF * largest + f64::MIN_POSITIVE
+        self.floor + self.constraint_energy + round_off::ENERGY * largest + f64::MIN_POSITIVE
     }
 
     fn balance(&self, is_motion: bool) -> f64 {

@@ -22,6 +22,7 @@ use super::schur::schur;
 use super::shifted::{GeneralShift, Shift, small_square};
 use crate::interrupt;
 use crate::kinematics::Quantity;
+use crate::round_off;
 
 const BLOCK: usize = 6;
 const TOLERANCE: f64 = 1e-8;
@@ -31,10 +32,6 @@ const BETWEEN: usize = 12;
 const BEYOND: usize = 4;
 /// A basis with so many vectors, and three times as many as eigenvalues are wanted, is large.
 const LARGE_BASIS: usize = 100;
-/// Eigenvalues of the operator below this part of the largest one are round-off.
-const NOTHING: f64 = 1e-9;
-/// Eigenvalues whose imaginary part is below this part of their size are real.
-const REAL: f64 = 1e-9;
 /// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
 const DEFECTIVE: f64 = 16.0;
 /// The same of a solve, relative to the shift: the root of the round-off.
@@ -388,7 +385,8 @@ fn search<S: Field>(
         if are_enough || *is_exhausted {
             let largest = estimates.first().map_or(0.0, |estimate| estimate.value.norm());
             estimates.retain(|estimate| {
-                estimate.value.norm() > NOTHING * largest && (*is_exhausted || converged(estimate))
+                estimate.value.norm() > round_off::ITERATED_EIGENVALUE * largest
+                    && (*is_exhausted || converged(estimate))
             });
             return Ok(estimates);
         }
@@ -438,7 +436,9 @@ fn mode<S: Field>(
 ) -> Option<Mode> {
     let eigenvalue = complex(operator.shift) + estimate.value.inv();
     // The conjugate is among the estimates.
-    if eigenvalue.im < -REAL * eigenvalue.norm() && !is_defective(eigenvalue, operator.shift.size()) {
+    if eigenvalue.im < -round_off::ITERATED_EIGENVALUE * eigenvalue.norm()
+        && !is_defective(eigenvalue, operator.shift.size())
+    {
         return None;
     }
     let vector = krylov.combine_complex(&estimate.weights);
@@ -461,7 +461,7 @@ pub(super) fn mode_of<S: Field>(
     value: Complex64,
 ) -> Option<Mode> {
     let mut eigenvalue = complex(operator.shift) + value.inv();
-    if eigenvalue.im.abs() <= REAL * eigenvalue.norm() {
+    if eigenvalue.im.abs() <= round_off::ITERATED_EIGENVALUE * eigenvalue.norm() {
         eigenvalue.im = 0.0;
     }
     let square_of_shift = operator.shift.size().powi(2);

@@ -14,6 +14,7 @@ use super::mode::Completeness;
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
 use crate::interrupt;
+use crate::round_off;
 
 /// Vectors to start with.
 const BLOCK: usize = 6;
@@ -21,8 +22,6 @@ const BLOCK: usize = 6;
 const BETWEEN: usize = 8;
 /// Modes sought beyond those asked for, so that a factor of several modes at the last one is seen whole.
 const BEYOND: usize = 4;
-/// Eigenvalues of the operator below this part of the largest one are round-off.
-const NOTHING: f64 = 1e-9;
 /// Load factor below which no mode is believed to be where none is found, over the magnitude of the lowest negative one.
 const FAR_AWAY: f64 = 1e3;
 /// A search that has so many vectors, and eight times as many as modes are sought, is ended: there are no more modes.
@@ -225,8 +224,10 @@ fn search(
         since = 0;
         let estimates = ritz(krylov);
         let largest = estimates.first().map_or(0.0, |estimate| estimate.0.abs());
-        let mut positive: Vec<_> =
-            estimates.into_iter().filter(|estimate| estimate.0 > NOTHING * largest).collect();
+        let mut positive: Vec<_> = estimates
+            .into_iter()
+            .filter(|estimate| estimate.0 > round_off::ITERATED_EIGENVALUE * largest)
+            .collect();
         positive.sort_by(|a, b| b.0.total_cmp(&a.0));
         *is_exhausted |= krylov.order() > MAX_VECTORS.max(8 * wanted);
         let are_enough = positive.len() >= wanted && positive[..wanted].iter().all(is_converged);

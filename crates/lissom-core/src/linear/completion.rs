@@ -12,14 +12,12 @@ use super::mode::Mode;
 use super::model::LinearModel;
 use super::shifted::GeneralShift;
 
+use crate::round_off;
+
 /// States of a model whose eigenvalues are all computed, at most.
 const MAX_STATES: usize = 200;
-/// Eigenvalues of the search and of the full matrix that differ by less than this part are the same …
+/// Eigenvalues of the search and of the full matrix that differ by less than this part, and by round-off of the largest, are the same.
 const EQUAL: f64 = 1e-4;
-/// … or by less than this part of the largest one.
-const ROUND_OFF: f64 = 1e-11;
-/// Eigenvalues whose squares are below this part of that of the largest one cannot be distinguished from zero.
-const ZERO: f64 = 1e-13;
 /// Eigenvalues of the search and of an inverse iteration that differ by less than this part are the same.
 const SAME: f64 = 1e-6;
 /// What an inverse iteration may leave of an eigenvector.
@@ -54,7 +52,7 @@ impl Spectrum {
 
     /// Distance at which eigenvalues are the same.
     fn tolerance(&self, value: Complex64) -> f64 {
-        EQUAL * value.norm() + ROUND_OFF * self.largest
+        EQUAL * value.norm() + round_off::MATRIX_ENTRY * self.largest
     }
 
     /// Adds to `modes` those near `shift` that are missing among the `count` nearest ones.
@@ -69,8 +67,8 @@ impl Spectrum {
             .values
             .iter()
             .copied()
-            .filter(|value| value.im >= -ROUND_OFF * self.largest)
-            .filter(|value| value.norm() > ZERO.sqrt() * self.largest)
+            .filter(|value| value.im >= -round_off::MATRIX_ENTRY * self.largest)
+            .filter(|value| value.norm() > round_off::PREDICTION.sqrt() * self.largest)
             .collect();
         let distance = |value: Complex64| (value - shift).norm();
         wanted.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
@@ -136,7 +134,9 @@ impl Spectrum {
         let found = operator.shift + quotient.inv();
         let is_known = known.iter().any(|mode| {
             let is_alike = (mode.eigenvalue - value).norm() <= self.tolerance(value);
-            !is_alike && (mode.eigenvalue - found).norm() <= SAME * found.norm() + ROUND_OFF * self.largest
+            !is_alike
+                && (mode.eigenvalue - found).norm()
+                    <= SAME * found.norm() + round_off::MATRIX_ENTRY * self.largest
         });
         let is_settled = {
             let rest = image.iter().zip(&vector).map(|(image, own)| (image - quotient * own).norm_sqr());

@@ -23,9 +23,8 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::elements::superelement::{GeometricMatrices, Shortening};
+use crate::round_off;
 
-/// Squares of frequencies below this part of the largest one are those of mechanisms.
-const MECHANISM: f64 = 1e-12;
 /// ε: modes that bend count by this part.
 const BENDING: f64 = 1e-3;
 /// Terms below this part of the largest one, in modes of equal energy, are left out.
@@ -90,7 +89,7 @@ impl Modes {
         shapes.rows_mut(6, count).copy_from(&own);
         let mut inverse = DMatrix::zeros(count, size);
         inverse.columns_mut(6, count).copy_from(&(eigenvectors.transpose() * lower.transpose()));
-        let least = MECHANISM * eigenvalues.amax();
+        let least = round_off::EIGENVALUE * eigenvalues.amax();
         let squares = eigenvalues.map(|square| if square > least { square } else { 0.0 });
         let stretches = DVector::zeros(count);
         Some(Self { shapes, inverse, squares, stretches })

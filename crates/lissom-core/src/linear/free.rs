@@ -11,6 +11,7 @@ use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, small_square};
 use crate::kinematics::{LOCKED, Quantity};
+use crate::round_off;
 
 /// s² over the small square of the model at first …
 const SHIFT: f64 = 1e-4;
@@ -22,12 +23,8 @@ const SOLUTIONS: usize = 12;
 /// Corrections of each, which are to leave at most this violation of constraints [-].
 const REFINEMENTS: usize = 4;
 const VIOLATED: f64 = 1e-13;
-/// A stiffness below this part of the terms that it is made of is round-off …
-const NO_STIFFNESS: f64 = 1e-11;
-/// … and so is one whose square of a rate is this part of the small square.
+/// A stiffness is none where the square of its rate is this part of the small square, as where it is round-off of its terms.
 const NO_RATE: f64 = 1e-10;
-/// Work below this part of the terms that it is made of is round-off.
-const NO_WORK: f64 = 1e-9;
 /// Levers below this part of the model's length are what an equilibrium is found to: neither the work of forces along it nor
 /// the stiffness that forces make of it means anything.
 const NO_LEVER: f64 = 1e-9;
@@ -59,11 +56,11 @@ impl LinearModel<'_> {
         let forces = self.forces_along(&motion);
         let (stiffness, of_terms) = self.form(&self.parts.stiffness, &motion);
         let (mass, _) = self.form(&self.parts.mass, &motion);
-        let is_unresisted = stiffness.abs() <= NO_STIFFNESS * of_terms
+        let is_unresisted = stiffness.abs() <= round_off::MATRIX_ENTRY * of_terms
             || stiffness.abs() <= NO_LEVER * forces.possible * forces.way / self.length()
             || stiffness.abs() <= NO_RATE * small_square(&self.representative) * mass;
-        let is_unforced =
-            forces.work.abs() <= NO_WORK * forces.of_terms || forces.work.abs() <= NO_LEVER * forces.possible;
+        let is_unforced = forces.work.abs() <= round_off::FORCE * forces.of_terms
+            || forces.work.abs() <= NO_LEVER * forces.possible;
         (is_unresisted && is_unforced).then(|| self.names_of(&motion))
     }
 

@@ -15,6 +15,7 @@ use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, SMALL, small_square};
 use crate::kinematics::{Kinematics, LOCKED, Quantity};
+use crate::round_off;
 
 /// Directions that are tried.
 const DIRECTIONS: usize = 3;
@@ -26,8 +27,6 @@ const FALLS: f64 = 0.5;
 const MATTERS: f64 = 1e-6;
 /// How much the stiffness counts beside the damping for forces that depend on velocities.
 const BESIDE_DAMPING: f64 = 1e-3;
-/// Round-off of forces, relative to the terms that they are made of.
-const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 
 /// A kink or a jump of a force at the state of a linear model.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -164,7 +163,7 @@ impl LinearModel<'_> {
                     ),
                     (false, _) => (constrained[row], 1.0 / self.unit_of(row)),
                 };
-                MATTERS * terms + ROUND_OFF * (forces + stiff[row]) / STEPS[2]
+                MATTERS * terms + round_off::FORCES * (forces + stiff[row]) / STEPS[2]
             })
             .collect()
     }

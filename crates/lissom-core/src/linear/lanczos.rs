@@ -13,6 +13,7 @@ use super::mode::{Completeness, ModeOptions};
 use super::model::{LinearError, LinearModel};
 use super::shifted::{RealShift, SMALL};
 use crate::interrupt;
+use crate::round_off;
 
 /// Vectors to start with: eigenvalues of this multiplicity are found at once.
 const BLOCK: usize = 6;
@@ -34,10 +35,6 @@ const FAR_AWAY: [f64; 3] = [1e2, 1e5, 1e8];
 const SOLVED: f64 = 1e-10;
 /// A shape that violates a constraint by this part of the terms of the constraints is no mode.
 pub(super) const VIOLATED: f64 = 1e-5;
-/// Eigenvalues of the operator below this part of the largest one are round-off.
-const NOTHING: f64 = 1e-14;
-/// Round-off of a stiffness over the terms it is the sum of.
-const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
 
 /// An eigenvalue λ [1/s²] and its shape, normalised to unit modal mass.
 pub(super) struct Pair {
@@ -246,7 +243,7 @@ fn search<'a>(
         // eigenvalues.
         let mut pairs: Vec<Pair> = estimates
             .iter()
-            .filter(|estimate| estimate.0.abs() > NOTHING * estimates[0].0.abs())
+            .filter(|estimate| estimate.0.abs() > round_off::PIVOT * estimates[0].0.abs())
             .filter(|estimate| is_exhausted || is_converged(estimate))
             .map(|(value, weights, residual)| {
                 pair(model, &mut solver, &krylov, shift, (*value, weights, *residual))
@@ -406,5 +403,5 @@ pub(super) fn round_off(model: &LinearModel<'_>, shape: &[f64], modal_mass: f64)
             .sum();
         sum += terms * value.abs();
     }
-    ROUND_OFF * sum / modal_mass
+    round_off::STIFFNESS * sum / modal_mass
 }

@@ -15,17 +15,13 @@ use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::interrupt::{self, Interrupted};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
-/// An entry and its mirror image differ if by more than this part of the larger one …
+/// An entry and its mirror image differ if by more than this part of the larger one, and by more than round-off of their rows.
 const UNEQUAL: f64 = 1e-9;
-/// … and by more than this part of the largest entries of their rows, below which they are round-off.
-const ROUND_OFF: f64 = 1e-11;
 
-/// Accelerations in steady motion below this, relative to the squares of rates, are round-off, and so are those of larger ones
-/// whose forces displace the model by no more than this.
-const NEARLY_STEADY: f64 = 1e-8;
 /// The rate at which that displacement is found, over the rate of rotation: free motions count as large ones.
 const SLOW: f64 = 1e-3;
 /// Squares of rates below this part of the small one that stands for zero are zero.
@@ -145,9 +141,10 @@ impl<'a> LinearModel<'a> {
         parts.fold_multipliers();
         take_forces(system, &mut parts, is_at_rest);
         if !is_at_rest {
-            if unsteadiness > NEARLY_STEADY {
+            if unsteadiness > round_off::STEADY_MOTION {
                 let displaced = displacement_by_inertia(system, &state.kinematics, (&parts, &representative));
-                unsteadiness = displaced.filter(|&size| size <= NEARLY_STEADY).unwrap_or(unsteadiness);
+                unsteadiness =
+                    displaced.filter(|&size| size <= round_off::STEADY_MOTION).unwrap_or(unsteadiness);
             }
             add_accelerated_mass(system, &state.kinematics, &mut parts);
         }
@@ -556,7 +553,7 @@ pub(super) fn is_symmetric(system: &System, representative: &Representative, par
                 let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
                 let difference = (value - mirror).abs();
                 difference <= UNEQUAL * value.abs().max(mirror.abs())
-                    || difference <= ROUND_OFF * (largest[row] * largest[column]).sqrt()
+                    || difference <= round_off::MATRIX_ENTRY * (largest[row] * largest[column]).sqrt()
                     || difference <= f64::EPSILON * usual * unit(row) * unit(column)
             })
         })

@@ -26,14 +26,13 @@ use super::velocity_constraints::refuse;
 use crate::elements::superelement::{Damping, ReducedMatrices};
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeId};
+use crate::round_off;
 use crate::system::{Linearization, State, System};
 
 /// Forces on parts between the interfaces that displace them by less than this part of the model's length are round-off.
 const BALANCED: f64 = 1e-7;
 /// Forces of rigid displacements below this part of the terms they are made of are round-off.
 const RIGID: f64 = 1e-6;
-/// Forces of rigid displacements below this part of the norm of the stiffness are round-off.
-const ROUND_OFF: f64 = 1e-12;
 /// Preload that displaces by less than this part of the model's length is none.
 const NO_PRELOAD: f64 = 1e-9;
 
@@ -403,8 +402,9 @@ impl Whole {
             pattern.multiply(&sizes, &motion, &mut terms);
             // Terms may be round-off themselves: the norm of the stiffness, scaled to one unit by its diagonal, bounds that.
             let norm = motion.iter().zip(&scale).map(|(own, scale)| own * scale).fold(0.0, f64::max);
-            let wrong = (0..layout.coordinate_count())
-                .find(|&row| forces[row].abs() > RIGID * terms[row] + ROUND_OFF * scale[row] * norm);
+            let wrong = (0..layout.coordinate_count()).find(|&row| {
+                forces[row].abs() > RIGID * terms[row] + round_off::EIGENVALUE * scale[row] * norm
+            });
             if let Some(row) = wrong {
                 return Err(ReductionError::Held {
                     unknown: layout.name_of(row),

@@ -22,23 +22,18 @@ use super::velocity_constraints::refuse;
 use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeMotion, Quantity};
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// Most corrections.
+/// Most corrections; one that is round-off ends them, and one that is no smaller than the last.
 const MAX_CORRECTIONS: usize = 60;
-/// A correction below this, of angles and of parts of the model's length, ends it …
-const STILL: f64 = 1e-13;
-/// … and so does one that is no smaller than the last, if it is below this.
-const ROUND_OFF: f64 = 1e-8;
 /// The small s, over the rate of rotation.
 const SMALL: f64 = 1e-3;
 /// How far a state is turned to see whether coefficients are constant [rad].
 const TURN: f64 = 0.7;
 /// The shift at which that is seen, relative to the eigenvalue.
 const BESIDE: f64 = 0.9;
-/// Round-off of a row, relative to the terms that it is made of.
-const ROUND_OFF_OF_TERMS: f64 = 4.0 * f64::EPSILON;
 /// Samples of what round-off does to a mode.
 const SAMPLES: usize = 3;
 
@@ -125,7 +120,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         for (multiplier, change) in state.multipliers.iter_mut().zip(&right[count..]) {
             *multiplier += shifted.multiplier_factor() * change.re;
         }
-        if size <= STILL || (size <= ROUND_OFF && size >= last) {
+        if size <= round_off::CORRECTION || (size <= round_off::STEADY_MOTION && size >= last) {
             return Ok(state);
         }
         if !size.is_finite() {
@@ -133,7 +128,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         }
         last = size;
     }
-    if last <= ROUND_OFF { Ok(state) } else { Err(SteadyError::NotConverged(last)) }
+    if last <= round_off::STEADY_MOTION { Ok(state) } else { Err(SteadyError::NotConverged(last)) }
 }
 
 /// Largest rate at which a node turns [rad/s].
@@ -255,7 +250,7 @@ impl<'a> LinearModel<'a> {
         for _ in 0..SAMPLES {
             let forces = terms
                 .iter()
-                .map(|term| Complex64::new(noise.number(), noise.number()) * (ROUND_OFF_OF_TERMS * term));
+                .map(|term| Complex64::new(noise.number(), noise.number()) * (round_off::SUM * term));
             round_off = round_off.max(departure_by(forces.collect()));
         }
         Ok(Departure { size: departure_by(right), round_off })

@@ -8,10 +8,9 @@ use crate::joints::attached::AttachedJoint;
 use crate::judge::Warning;
 use crate::judge::warn;
 use crate::kinematics::Kinematics;
+use crate::round_off;
 use crate::system::{State, System};
 
-/// Forces below this part of the largest multiplier are round-off.
-const ROUND_OFF: f64 = 1e-9;
 /// A point of contact that runs round by this angle in a step is not resolved: all schemes miss a twelfth of its third power
 /// in a step, here 1 % of the circle's radius [rad].
 const MAX_RUN: f64 = 0.5;
@@ -64,7 +63,7 @@ fn doubt(system: &System, state: &State) -> Option<Warning> {
     let largest = || state.multipliers.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let on_rails = system.joints().iter().find_map(|joint| {
         joint.joint().rail_contact()?;
-        rail_doubt(joint, state, ROUND_OFF * largest())
+        rail_doubt(joint, state, round_off::FORCE * largest())
     });
     on_rails.or_else(|| on_planes(system, state, &largest))
 }
@@ -88,7 +87,7 @@ fn on_planes(system: &System, state: &State, largest: &dyn Fn() -> f64) -> Optio
         // The multiplier is the force that pulls the wheel to the plane.
         let normal = -state.multipliers[joint.first_multiplier];
         let (time, joint_name) = (state.kinematics.time, joint.name.clone());
-        if normal < -ROUND_OFF * largest() {
+        if normal < -round_off::FORCE * largest() {
             return Some(Warning::WheelLifts { time, joint: joint_name, force: -normal });
         }
         if contact.friction.is_infinite() {
@@ -96,7 +95,7 @@ fn on_planes(system: &System, state: &State, largest: &dyn Fn() -> f64) -> Optio
         }
         let wrench = Rolling::new(joint.frames, joint.impulses.clone(), contact).wrench(&state.kinematics);
         let friction = wrench.fixed_rows::<3>(0).norm();
-        let is_round_off = friction <= ROUND_OFF * largest();
+        let is_round_off = friction <= round_off::FORCE * largest();
         (friction > contact.friction * normal && !is_round_off).then_some(Warning::WheelSlides {
             time,
             joint: joint_name,

@@ -8,7 +8,9 @@ use crate::system::{State, System};
 /// Reports the first superelement that leaves its linear range in each way. Has learned nothing.
 struct LinearRanges;
 
-pub(super) fn begin(_: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    // Every superelement has a deformation.
+    beginning.problem.system.linear_range(LinearLimit::Deformation, &beginning.state.kinematics)?;
     Some(Box::new(LinearRanges))
 }
 

@@ -19,8 +19,7 @@ use super::scheme::{
     Combination, Coupling, Decoupled, Increments, MAX_STAGES, Scheme, Stage, StageSystem, Weights,
 };
 
-/// Imaginary parts of eigenvalues below this part of their size are round-off.
-const REAL: f64 = 1e-10;
+use crate::round_off;
 
 /// A stiffly accurate scheme with stages at these abscissae, the last of them 1, from A⁻¹. Its constants for step control are to be set.
 pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rate: [[f64; S]; S]) -> Scheme {
@@ -55,8 +54,8 @@ pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rat
 fn decouple<const S: usize>(matrix: &SMatrix<f64, S, S>) -> Coupling {
     let eigenvalues = nalgebra::DMatrix::from_fn(S, S, |i, j| matrix[(i, j)]).complex_eigenvalues();
     let mut systems = Vec::new();
-    for &eigenvalue in eigenvalues.iter().filter(|value| value.im > -REAL * value.norm()) {
-        let is_real = eigenvalue.im.abs() <= REAL * eigenvalue.norm();
+    for &eigenvalue in eigenvalues.iter().filter(|value| value.im > -round_off::COUPLING * value.norm()) {
+        let is_real = eigenvalue.im.abs() <= round_off::COUPLING * eigenvalue.norm();
         let value = if is_real { Complex64::new(eigenvalue.re, 0.0) } else { eigenvalue };
         let column = null_vector(matrix, value);
         let row = null_vector(&matrix.transpose(), value);

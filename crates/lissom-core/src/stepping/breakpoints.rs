@@ -6,12 +6,11 @@
 
 use crate::instants::SAME;
 use crate::registry::Function;
+use crate::round_off;
 use crate::system::System;
 
 /// A value that changes by more than this times what slopes on both sides let expect has jumped [-].
 const STEEP: f64 = 10.0;
-/// Changes below this part of the value are round-off [-].
-const ROUND_OFF: f64 = 1e-12;
 /// A step ends this many roundings of the time before a jump.
 const ROUNDINGS: f64 = 8.0;
 
@@ -73,7 +72,7 @@ fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
     let change = (function.value(after) - function.value(before)).abs();
     let slope = function.first_derivative(before).abs().max(function.first_derivative(after).abs());
     let size = function.value(after).abs().max(function.value(before).abs());
-    change > STEEP * 2.0 * aside * slope + ROUND_OFF * size
+    change > STEEP * 2.0 * aside * slope + round_off::FUNCTION * size
 }
 
 /// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of one of these breakpoints between; a

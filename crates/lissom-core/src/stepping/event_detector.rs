@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dense;
 use crate::kinematics::Kinematics;
+use crate::round_off;
 use crate::signals::event::{Event, Occurrence};
 use crate::system::{State, System};
 
@@ -38,8 +39,6 @@ const ACCURACY: f64 = 1e-10;
 const CLOSE: f64 = 1e-6;
 /// How far from the end of a step the rate of what is watched is looked at, in parts of the step.
 const BESIDE: f64 = 1e-3;
-/// Round-off of a watched number, relative to the largest seen.
-const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// Steps solved anew for one root: three are usual.
 const MAX_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the surface that is passed.
@@ -243,7 +242,7 @@ impl EventDetector {
                 continue;
             }
             let beyond = -end / rate;
-            if end.abs() <= ROUND_OFF * self.known.largest[k] || beyond.abs() <= ACCURACY {
+            if end.abs() <= round_off::OPERATIONS * self.known.largest[k] || beyond.abs() <= ACCURACY {
                 roots.push((k, 1.0));
             } else if beyond < 0.0 && beyond > BEFORE_END - 1.0 {
                 roots.push((k, 1.0 + beyond));

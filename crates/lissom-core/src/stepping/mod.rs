@@ -84,7 +84,9 @@ impl Simulation {
         let result = result.or_else(|error| self.recover(error, progress));
         if let Some(step) = self.control.planned() {
             let unseen = self.stops.passed_unseen(&self.system, self.state.kinematics.time, step);
-            unseen.into_iter().for_each(|unseen| warn(&mut self.warnings, unseen));
+            if let Some(unseen) = unseen {
+                warn(&mut self.warnings, unseen);
+            }
         }
         let effort = self.integrator.work.effort;
         report.iterations = effort.iterations - before.iterations;

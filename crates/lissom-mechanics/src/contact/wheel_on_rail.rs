@@ -20,6 +20,7 @@ use lissom_motion::{Matrix3, Vector3};
 
 use super::profile::{RailProfile, WheelProfile};
 use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
+use crate::round_off;
 
 /// Added to C², so that it never vanishes.
 const NEVER_ZERO: f64 = 1e-14;
@@ -31,8 +32,6 @@ const MAX_ITERATIONS: usize = 40;
 const STEEPEST: f64 = 0.5;
 /// Clearances below this part of the wheel's radius are contacts.
 const NEARLY_TOUCHING: f64 = 1e-6;
-/// Changes below this part of the wheel's radius are round-off.
-const ROUND_OFF: f64 = 1e-15;
 
 /// A wheel and a rail.
 #[derive(Clone, Debug)]
@@ -218,12 +217,13 @@ impl RailContact {
                     Place { along: place.along - share * along, on_rail: place.on_rail - share * on_rail };
                 let next_rows = self.linearized(pose, &next);
                 let after = size(&next_rows.map(Number::value));
-                if after <= before || share < 1e-3 || before <= ROUND_OFF {
+                if after <= before || share < 1e-3 || before <= round_off::CURVATURE_CENTRE {
                     break (next, next_rows, after);
                 }
                 share *= 0.5;
             };
-            let is_round_off = share * along.hypot(on_rail) <= 4.0 * ROUND_OFF * self.radius;
+            let is_round_off =
+                share * along.hypot(on_rail) <= 4.0 * round_off::CURVATURE_CENTRE * self.radius;
             if is_round_off || (before < 1e-13 && after >= before) {
                 return Found { place, is_common_normal: true };
             }

@@ -15,9 +15,7 @@ use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-
-/// Eigenvalues of symmetric matrices below this part of the largest are round-off.
-const ROUND_OFF: f64 = 1e-10;
+use crate::round_off;
 
 /// Coordinates of one entry: its matrices are full.
 const MAX_COORDINATES: usize = 100;
@@ -93,7 +91,7 @@ fn build(
         ));
     }
     let asymmetry = (&mass - mass.transpose()).amax();
-    if asymmetry > ROUND_OFF * mass.amax() {
+    if asymmetry > round_off::COUPLING * mass.amax() {
         return Err(ParameterError::new("mass", "must be symmetric: it is the matrix of a kinetic energy"));
     }
     if is_indefinite(&mass) {
@@ -146,7 +144,7 @@ fn is_indefinite(matrix: &DMatrix<f64>) -> bool {
     let scaled =
         DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * scale[i] * scale[j]);
     let eigenvalues = scaled.symmetric_eigenvalues();
-    eigenvalues.min() < -ROUND_OFF * eigenvalues.amax().max(1.0)
+    eigenvalues.min() < -round_off::COUPLING * eigenvalues.amax().max(1.0)
 }
 
 /// A matrix of the size of the coordinates: zeros where it is not given; a single number stands for all of the diagonal.

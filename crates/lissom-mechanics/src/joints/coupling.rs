@@ -11,10 +11,10 @@ use std::sync::Arc;
 
 use super::constraint::{Constraint, Port, Visit};
 use super::evaluation_point::Increments;
-use super::step_stages::ROUND_OFF;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 pub use crate::relation::{Coupled, MAX_COUPLED, Relation, RelationPoint};
+use crate::round_off;
 
 /// A relation with its place in the system.
 #[derive(Debug)]
@@ -220,7 +220,7 @@ impl Constraint for Coupling {
             shares = [1.0 / whole; STAGES];
         }
         // What is below round-off counts in the violations but would be noise in the forces.
-        let known = missed * above_round_off(missed.abs(), ROUND_OFF * way);
+        let known = missed * above_round_off(missed.abs(), round_off::OPERATIONS * way);
         let violations =
             step.at_stages(0.0, [0, 1].map(|j| rates[j] + shares[j] * missed + before[0] / whole));
         for j in 0..STAGES {

@@ -15,9 +15,7 @@ use super::{Equations, MAX_EQUATIONS};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::Quantity;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh};
-
-/// Round-off of a change of violation, in units of what its terms cancel from.
-pub const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+use crate::round_off;
 
 /// Velocities and violations of a joint at a stage.
 pub struct Visit {
@@ -75,7 +73,7 @@ impl AttachedJoint {
             shares = [1.0 / whole; STAGES];
         }
         // What is below round-off counts in the violations but would be noise in the forces.
-        let known = missed.map(|value| value * above_round_off(value.abs(), ROUND_OFF * way));
+        let known = missed.map(|value| value * above_round_off(value.abs(), round_off::OPERATIONS * way));
         let before = SVector::<f64, MAX_EQUATIONS>::from_column_slice(before);
         let violations =
             step.at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));

@@ -2,7 +2,6 @@
 
 use lissom_core::registry::{Parameter, Parameters};
 use lissom_core::solver_features::DisabledFeatures;
-use lissom_core::tuning::Tuning;
 
 use super::decode::of_kind;
 use crate::context::Context;
@@ -144,8 +143,6 @@ pub struct Analysis {
     pub max_iterations: usize,
     /// What is left out of the search for a step's solution, for studies.
     pub disabled: DisabledFeatures,
-    /// Parameters of the nonlinear solver and of step-size control, changed for studies.
-    pub tuning: Tuning,
     /// Steps from one record to the next.
     pub output_every: usize,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
@@ -235,7 +232,6 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
         disabled: disabled(&reader),
-        tuning: tuning(&reader),
         output_every: if is_run { count("output_every", 1) } else { 1 },
         frames_per_second: if is_run {
             reader.number("frames_per_second").map(|rate| rate.value)
@@ -258,12 +254,6 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
 fn disabled(reader: &Reader<'_, '_>) -> DisabledFeatures {
     let words = reader.choices("without").unwrap_or_default();
     DisabledFeatures::of_words(words.iter().map(String::as_str)).unwrap_or_default()
-}
-
-fn tuning(reader: &Reader<'_, '_>) -> Tuning {
-    let [halved, doubled] = ["halved", "doubled"].map(|key| reader.choices(key).unwrap_or_default());
-    let halved = Tuning::default().times(halved.iter().map(String::as_str), 0.5);
-    halved.and_then(|halved| halved.times(doubled.iter().map(String::as_str), 2.0)).unwrap_or_default()
 }
 
 fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {

@@ -1,7 +1,6 @@
 //! The keys of `[analysis]`, by kind of analysis.
 
 use lissom_core::solver_features::WORDS;
-use lissom_core::tuning;
 
 use super::tables::Variant;
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
@@ -45,15 +44,8 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "without",
                 Shape::Choices(&WORDS),
                 "",
-                "mechanisms left out of the search for a step's solution, for studies; default none",
+                "optional features of the nonlinear solver to be switched off, for studies; default none",
             ),
-            optional(
-                "halved",
-                Shape::Choices(&tuning::WORDS),
-                "",
-                "numbers of the search and of the choice of steps to be halved, for studies; default none",
-            ),
-            optional("doubled", Shape::Choices(&tuning::WORDS), "", "the same to be doubled; default none"),
             optional(
                 "output_every",
                 Shape::Count(1, 1_000_000_000),

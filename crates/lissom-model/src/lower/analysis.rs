@@ -77,7 +77,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             tolerance: analysis.tolerance,
             max_iterations: analysis.max_iterations,
             disabled: analysis.disabled,
-            tuning: analysis.tuning,
+            tuning: lissom_core::tuning::Tuning::default(),
         },
         solver,
         threads: 1,

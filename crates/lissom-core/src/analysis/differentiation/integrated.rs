@@ -22,6 +22,7 @@ use crate::analysis::simulation::Simulation;
 use crate::joints::evaluation_point::Augmentation;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::round_off;
 use crate::scaling::{StageIncrements, StageMotion, UnitStepState};
 use crate::schemes::Tableau;
 use crate::system::{State, StepPoint, System};
@@ -32,8 +33,6 @@ const PLACES: f64 = 1e-3;
 /// squares of rates, which are far from linear. With 1e-3 derivatives of a double pendulum are wrong by 1e-5, with 1e-4 by 1e-9;
 /// those of a turbine whose blades hardly bend by 2e-7 of round-off, and by 6e-7.
 const CHANGES: f64 = 2e-4;
-/// Round-off of the increments that a step is solved for [-, rad].
-const ROUND_OFF: f64 = 1e-12;
 /// Shares of the variation, and their weights in its derivative.
 const SIDES: [(f64, f64); 4] =
     [(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)];
@@ -180,7 +179,7 @@ impl IntegratedStep {
 
 /// What rounding leaves of derivatives of increments in the lane.
 pub(super) fn round_off(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
-    ROUND_OFF / share(base, lanes, lane)
+    round_off::INCREMENT / share(base, lanes, lane)
 }
 
 /// The share of the variation in a lane over which residuals are differentiated.

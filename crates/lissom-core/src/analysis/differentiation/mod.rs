@@ -27,6 +27,7 @@ use lissom_motion::{Block, WIDTH};
 use super::StepError;
 use super::simulation::Simulation;
 use crate::kinematics::Quantity;
+use crate::round_off;
 use crate::schemes::Tableau;
 use crate::system::{ParameterDifference, State};
 use integrated::Neighbour;
@@ -41,8 +42,6 @@ const TO_COME: f64 = 1e-10;
 const CREDIBLE: f64 = 1e-5;
 /// Corrections that shrink by less than this are round-off, if they are small.
 const STALLED: f64 = 0.5;
-/// Stalled corrections are to be smaller than this part of the first, and of what they find out.
-const ROUND_OFF: f64 = 1e-7;
 /// Increments below this part of how far the state moves are rounded by it.
 const ROUNDED: f64 = 1e-3;
 /// Most corrections.
@@ -218,7 +217,7 @@ fn step(
         let is_done = |lane: usize| {
             let contraction = sizes[lane] / before[lane].max(f64::MIN_POSITIVE);
             if contraction > STALLED {
-                return sizes[lane] <= (ROUND_OFF * reference[lane]).max(left(lane));
+                return sizes[lane] <= (round_off::DERIVATIVE * reference[lane]).max(left(lane));
             }
             contraction.max(CREDIBLE) * sizes[lane] <= TO_COME * reference[lane]
         };

@@ -7,6 +7,7 @@ use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern};
 
 use super::super::StepError;
+use super::super::equations::FAR;
 use super::super::regularization::{Refinement, Regularization};
 use super::super::step_error::{NO_STEP_HELPS, pivot_hint};
 use super::super::workspace::sizes;
@@ -16,18 +17,15 @@ use crate::equilibration::Equilibration;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
 use crate::newton::{Correction, Equations, Failure};
+use crate::round_off;
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Scratch, State, Sum, System, TangentAssembler};
-use crate::tuning::{Tuning, TuningParameter};
 
 /// Corrections larger than this are cut short [-, rad].
 const MAX_CORRECTION: f64 = 0.5;
 /// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
 const INVERSE_ITERATIONS: usize = 4;
-
-/// Violations below this, of angles and of parts of the model's length, are round-off.
-const ROUND_OFF: f64 = 1e-14;
 
 /// Entries of the equilibrated tangent that differ from their mirror images by more have no energy.
 const UNEQUAL: f64 = 1e-7;
@@ -525,7 +523,7 @@ impl Equations for PathEquations<'_> {
             for ((value, unit), allowance) in
                 rows[count..].iter_mut().zip(&work.violation_sizes).zip(allowances)
             {
-                if (*value * unit).abs() <= ROUND_OFF && value.abs() <= allowance {
+                if (*value * unit).abs() <= round_off::VIOLATION && value.abs() <= allowance {
                     *value = 0.0;
                 }
             }
@@ -577,7 +575,7 @@ impl Equations for PathEquations<'_> {
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         // The stresses of an iterate far from equilibrium are no guide.
-        let is_far = self.work.correction > Tuning::default().of(TuningParameter::Far);
+        let is_far = self.work.correction > FAR;
         self.factor(is_far)
     }
 

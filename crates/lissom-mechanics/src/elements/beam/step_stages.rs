@@ -9,15 +9,11 @@ use lissom_motion::{
 use super::{Beam, Relative, Station, combine};
 use crate::kinematics::Kinematics;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh};
+use crate::round_off;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
 /// formulas for small changes are good to round-off.
 const SMALL: f64 = 1e-3;
-
-/// Strains that rates miss are noise below this part of the way that the nodes come, in element lengths. Where an
-/// element moves nearly as a rigid body its relative rates are round-off of the nodes' twists, through which strains of
-/// a thousand roundings are divided.
-const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
 
 /// Two Gauss points on 0 … 1.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
@@ -100,7 +96,7 @@ impl<const N: usize> Beam<N> {
         let [from, to] = [step.start, step.end].map(|at| self.relative(at));
         let (inverse, shares) = step.shares([visits[0].square, visits[1].square]);
         let moved = self.coordinate_changes(step, &from, &to);
-        let round_off = ROUND_OFF * self.way(step) / length;
+        let round_off = round_off::RIGID_MOTION * self.way(step) / length;
         for station in &self.stations {
             let strain = |relative: &Relative<N>| {
                 station.strain(&combine(&station.shape, relative), &combine(&station.slope, relative))

@@ -30,12 +30,12 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::part::Part;
 use super::vectors::three;
 
+use crate::round_off;
+
 /// Share of the stiffness from which on a warning reports it.
 pub(super) const MAX_SHARE: f64 = 0.005;
 /// Bending below this part of the size of the element, and of its elongation, is nothing to be right about.
 const NO_BENDING: [f64; 2] = [1e-7, 1.0];
-/// Eigenvalues below this part of the largest are those of mechanisms.
-const ROUND_OFF: f64 = 1e-12;
 
 /// An interface seen from the floating frame.
 #[derive(Clone, Debug)]
@@ -76,7 +76,8 @@ pub fn flexibility(stiffness: &DMatrix<f64>, frame: usize) -> DMatrix<f64> {
     });
     let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(scaled);
     let largest = eigenvalues.amax();
-    let inverse = eigenvalues.map(|value| if value > ROUND_OFF * largest { value.recip() } else { 0.0 });
+    let inverse =
+        eigenvalues.map(|value| if value > round_off::EIGENVALUE * largest { value.recip() } else { 0.0 });
     let found = &eigenvectors * DMatrix::from_diagonal(&inverse) * eigenvectors.transpose();
     DMatrix::from_fn(size, size, |i, j| factor(i) * factor(j) * found[(i, j)])
 }

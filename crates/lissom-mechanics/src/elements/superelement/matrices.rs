@@ -6,14 +6,13 @@ use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
 
 use super::geometric::GeometricMatrices;
 use crate::registry::ParameterError;
+use crate::round_off;
 
 /// Entries differ from their mirror images by no more than this part of their rows' diagonals.
 const UNEQUAL: f64 = 1e-5;
 /// Forces of a rigid displacement are no more than this part of the terms they are made of; so is what a mass differs from that of a
 /// rigid body.
 const RIGID: f64 = 1e-4;
-/// Eigenvalues below this part of the size of scaled matrices are round-off.
-const ROUND_OFF: f64 = 1e-12;
 /// Negative eigenvalues of a stiffness of so small a part of the size are those of numbers that were written with few digits.
 const FEW_DIGITS: f64 = 1e-6;
 
@@ -142,7 +141,7 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
             let terms = column.iter().enumerate().map(|(j, value)| matrix[(row, j)] * value);
             let (sum, most) =
                 terms.fold((0.0_f64, 0.0_f64), |(sum, most), term| (sum + term, most + term.abs()));
-            let least = ROUND_OFF * scale[row] * norm;
+            let least = round_off::EIGENVALUE * scale[row] * norm;
             if sum.abs() > RIGID * most + least {
                 return problem(
                     name,
@@ -203,7 +202,7 @@ impl ReducedMatrices {
         if let Some(row) = (0..size).find(|&k| mass[(k, k)] <= 0.0) {
             return problem("mass", format!("has no positive entry on the diagonal of row {}", row + 1));
         }
-        if scaled_eigenvalues(&mass).into_iter().fold(f64::INFINITY, f64::min) <= ROUND_OFF {
+        if scaled_eigenvalues(&mass).into_iter().fold(f64::INFINITY, f64::min) <= round_off::EIGENVALUE {
             return problem(
                 "mass",
                 "is not positive definite: some motion of the part would have no kinetic energy, or less",
@@ -257,7 +256,7 @@ impl ReducedMatrices {
         let scaled = lower.solve_lower_triangular(&half.transpose())?;
         let squares = SymmetricEigen::new(0.5 * (&scaled + scaled.transpose())).eigenvalues;
         let largest = squares.amax();
-        let least = squares.iter().copied().filter(|square| *square > ROUND_OFF * largest);
+        let least = squares.iter().copied().filter(|square| *square > round_off::EIGENVALUE * largest);
         least.reduce(f64::min).map(f64::sqrt)
     }
 
@@ -278,7 +277,8 @@ impl ReducedMatrices {
         // M φ = L v for φ = L⁻ᵀ v.
         let momenta = lower * eigenvectors;
         let largest = eigenvalues.amax();
-        let rates = eigenvalues.map(|square| if square > ROUND_OFF * largest { square.sqrt() } else { 0.0 });
+        let rates = eigenvalues
+            .map(|square| if square > round_off::EIGENVALUE * largest { square.sqrt() } else { 0.0 });
         let weighted = &momenta * DMatrix::from_diagonal(&(rates * (2.0 * ratio)));
         Ok(weighted * momenta.transpose())
     }

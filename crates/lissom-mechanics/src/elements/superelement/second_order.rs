@@ -29,9 +29,7 @@ use super::turning::{MeanRotation, PartMotion, Turning, TurningLaw, TurningSlope
 use super::vectors::add;
 use crate::elements::{Energy, Tangents};
 use crate::kinematics::Kinematics;
-
-/// Part of the geometric mean of two stiffnesses below which their coupling is round-off.
-const UNCOUPLED: f64 = 1e-10;
+use crate::round_off;
 
 /// What is shortened.
 #[derive(Clone, Debug)]
@@ -81,7 +79,7 @@ impl SecondOrder {
         // Shortenings along natural modes are uncoupled except for round-off: products of all pairs would take most of the time.
         let stiffness = DMatrix::from_fn(shortening.len(), shortening.len(), |k, l| {
             let own = along(k, l);
-            if own.abs() > UNCOUPLED * (along(k, k) * along(l, l)).abs().sqrt() { own } else { 0.0 }
+            if own.abs() > round_off::COUPLING * (along(k, k) * along(l, l)).abs().sqrt() { own } else { 0.0 }
         });
         Self {
             first_moment: element.moment,

@@ -9,9 +9,8 @@ use super::element_scratch::ElementScratch;
 use super::part::Part;
 use super::vectors::{product, three};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::round_off;
 
-/// What rates miss of u is noise below this part of the way that the element comes.
-const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
 /// Turns below this lose digits in a difference of two logarithms [rad].
 const SMALL: f64 = 1e-3;
 
@@ -32,7 +31,7 @@ impl Part {
         let squares =
             [0, 1].map(|j| self.weighted(&stages[j].rate).zip(&stages[j].rate).map(|(w, v)| w * v).sum());
         let (inverse, shares) = step.shares(squares);
-        let noise = ROUND_OFF * self.way(step, stages);
+        let noise = round_off::RIGID_MOTION * self.way(step, stages);
         // The remainder lies in the stress of the start, which nothing else needs.
         let size = self.weighted(&start.stress).zip(&start.stress).map(|(w, r)| w * r).sum::<f64>().sqrt();
         let weight = above_round_off(size, noise);

@@ -106,12 +106,8 @@ keys! {
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
-    /// Mechanisms left out of the search for a step's solution, for studies; default none.
+    /// Optional features of the nonlinear solver to be switched off, for studies; default none.
     without: Vec<words::Without> = "without";
-    /// Numbers of the search and of the choice of steps to be halved, for studies; default none.
-    halved: Vec<words::StudiedNumber> = "halved";
-    /// The same to be doubled; default none.
-    doubled: Vec<words::StudiedNumber> = "doubled";
 }
 
 keys! {

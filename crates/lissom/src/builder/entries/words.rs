@@ -104,38 +104,11 @@ words! {
 }
 
 words! {
-    /// One of `tangent-cost`, `novelty`, `unseen`, `contraction`, `stalled`, `small`, `secant-independence`, `secant-reach`, `secant-credible`, `prediction-fading`, `prediction-credible`, `far`, `largest-correction`, `least-departure`, `safety`, `growth`, `kept`, `share-of-step`, `share-of-first`, `parts-to-grow`.
-    StudiedNumber;
-    TangentCost = "tangent-cost";
-    Novelty = "novelty";
-    Unseen = "unseen";
-    Contraction = "contraction";
-    Stalled = "stalled";
-    Small = "small";
-    SecantIndependence = "secant-independence";
-    SecantReach = "secant-reach";
-    SecantCredible = "secant-credible";
-    PredictionFading = "prediction-fading";
-    PredictionCredible = "prediction-credible";
-    Far = "far";
-    LargestCorrection = "largest-correction";
-    LeastDeparture = "least-departure";
-    Safety = "safety";
-    Growth = "growth";
-    Kept = "kept";
-    ShareOfStep = "share-of-step";
-    ShareOfFirst = "share-of-first";
-    PartsToGrow = "parts-to-grow";
-}
-
-words! {
-    /// One of `prediction`, `secants`, `single-correction`, `account`, `back-off`, `start-stresses`, `parts`.
+    /// One of `prediction`, `secants`, `single-correction`, `back-off`, `parts`.
     Without;
     Prediction = "prediction";
     Secants = "secants";
     SingleCorrection = "single-correction";
-    Account = "account";
     BackOff = "back-off";
-    StartStresses = "start-stresses";
     Parts = "parts";
 }
