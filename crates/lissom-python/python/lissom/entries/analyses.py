@@ -30,7 +30,7 @@ class Dynamics(Analysis):
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"back-off"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"energy-decaying"`, or nothing.
@@ -54,7 +54,7 @@ class Dynamics(Analysis):
     solver: Literal["sparse", "skyline", "pivoting", "dense"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "back-off", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
     scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] | None = None
@@ -81,7 +81,7 @@ class Statics(Analysis):
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"back-off"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         end: last time, default 1 [s]; a number, or nothing.
@@ -100,7 +100,7 @@ class Statics(Analysis):
     solver: Literal["sparse", "skyline", "pivoting", "dense"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "back-off", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
     end: Number | None = None
@@ -122,7 +122,7 @@ class Path(Analysis):
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"back-off"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given; a number, or nothing.
         step: first step of the load factor or of the number, default a fiftieth of the way to `end`; a number > 0, or nothing.
         steps: most steps, default 1000; a whole number from 1 to 1000000, or nothing.
@@ -140,7 +140,7 @@ class Path(Analysis):
     solver: Literal["sparse", "skyline", "pivoting", "dense"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "back-off", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     end: Number | None = None
     step: Number | None = None
     steps: Count | None = None
@@ -161,7 +161,7 @@ class Buckling(Analysis):
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"back-off"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of load factors, default 5; a whole number from 1 to 10000, or nothing.
     """
 
@@ -175,7 +175,7 @@ class Buckling(Analysis):
     solver: Literal["sparse", "skyline", "pivoting", "dense"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "back-off", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     count: Count | None = None
 
 
@@ -192,7 +192,7 @@ class Modes(Analysis):
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"back-off"`, `"parts"`, or nothing.
+        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of modes, default 20; a whole number from 1 to 100000, or nothing.
         about: about static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity; `"static"`, `"undeformed"`, or nothing.
         shift: frequency near which modes are sought; default: the lowest ones [Hz]; a number ≥ 0, or nothing.
@@ -208,7 +208,7 @@ class Modes(Analysis):
     solver: Literal["sparse", "skyline", "pivoting", "dense"] | None = None
     tolerance: Number | None = None
     max_iterations: Count | None = None
-    without: list[Literal["prediction", "secants", "single-correction", "back-off", "parts"]] | None = None
+    without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     count: Count | None = None
     about: Literal["static", "undeformed"] | None = None
     shift: Number | None = None

@@ -104,11 +104,13 @@ words! {
 }
 
 words! {
-    /// One of `prediction`, `secants`, `single-correction`, `back-off`, `parts`.
+    /// One of `prediction`, `secants`, `single-correction`, `account`, `back-off`, `start-stresses`, `parts`.
     Without;
     Prediction = "prediction";
     Secants = "secants";
     SingleCorrection = "single-correction";
+    Account = "account";
     BackOff = "back-off";
+    StartStresses = "start-stresses";
     Parts = "parts";
 }
