@@ -29,12 +29,13 @@ impl<S: Scalar> Factored<S> {
 
     /// Solves for the combination Σ left_i r_i of residuals.
     fn solve(&mut self, left: &[S], stages: &[Vec<f64>]) {
-        for (row, value) in self.right_hand_side.iter_mut().enumerate() {
-            let mut sum = left[0] * S::from_real(stages[0][row]);
-            for (factor, residual) in left.iter().zip(stages).skip(1) {
-                sum += *factor * S::from_real(residual[row]);
+        // Stage by stage, as the numbers lie.
+        for (index, (factor, residual)) in left.iter().zip(stages).enumerate() {
+            let [re, im] = factor.parts();
+            for (sum, residual) in self.right_hand_side.iter_mut().zip(residual) {
+                let own = S::from_parts(re * residual, im * residual);
+                *sum = if index == 0 { own } else { *sum + own };
             }
-            *value = sum;
         }
         self.solver.solve(&mut self.right_hand_side);
     }
@@ -42,9 +43,12 @@ impl<S: Scalar> Factored<S> {
     /// Adds Re(right_i w) to the corrections, or begins them with it.
     fn add(&self, right: &[S], is_first: bool, real: impl Fn(S) -> f64, stages: &mut [Vec<f64>]) {
         for (factor, corrections) in right.iter().zip(stages) {
-            for (correction, value) in corrections.iter_mut().zip(&self.right_hand_side) {
-                let own = real(*factor * *value);
-                *correction = if is_first { own } else { *correction + own };
+            let solutions = self.right_hand_side.iter().map(|value| real(*factor * *value));
+            let pairs = corrections.iter_mut().zip(solutions);
+            if is_first {
+                pairs.for_each(|(correction, own)| *correction = own);
+            } else {
+                pairs.for_each(|(correction, own)| *correction += own);
             }
         }
     }
