@@ -1,6 +1,6 @@
 //! Monitors look at every accepted step and report reasons to doubt the motion. They change nothing of it.
 //!
-//! A monitor is one file and one line of [`KINDS`]. What it has learned is part of snapshots, under its name: a snapshot that was
+//! A monitor is one file and one line of `KINDS`. What it has learned is part of snapshots, under its name: a snapshot that was
 //! taken without a monitor can be restored with it.
 
 pub(crate) mod constraint_rates;

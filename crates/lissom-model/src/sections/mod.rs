@@ -3,7 +3,7 @@
 //! Order of strains and forces: axial, shear 2, shear 3, torsion, bending 2, bending 3; of velocities:
 //! translations 1, 2, 3, then rotations 1, 2, 3. Axis 1 runs along the beam through the centroid.
 //!
-//! A shape is one file and one line of [`KINDS`].
+//! A shape is one file and one line of `KINDS`.
 
 mod circle;
 mod cross_section;
