@@ -7,7 +7,7 @@ use lissom::buckling::BucklingRunError;
 use lissom::campbell::{CampbellError, CampbellRequest};
 use lissom::gradient::{GradientError, Target};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
-use lissom::modes::{OperatingPoint, ModeReport, ModeRequest, ModesError};
+use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
 use lissom::response::{FrequencyError, ResponseRequest};
 use lissom::{Document, Record, Session};
