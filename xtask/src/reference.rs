@@ -3,7 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom::FileError;
+use lissom::core::diagnostics::{Entry, Severity};
+use lissom::{FileError, catalogue};
 use lissom_model::lower::registry::registry;
 use lissom_model::{files, manual, python_entries, typed_entries};
 
@@ -17,6 +18,8 @@ const RUST_NOTE: &str = "// Made by `cargo xtask reference` of the program's own
 /// All files with what they would hold.
 fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
     let mut made = vec![(root.join("docs/reference.md"), reference_text())];
+    let warnings = root.join("docs/warnings.md");
+    made.push((warnings.clone(), with_tables(&files::read_text(&warnings).unwrap_or_default())));
     let folder = root.join("crates/lissom/src/builder/entries");
     for (name, text) in typed_entries(&registry()) {
         made.push((folder.join(format!("{name}.rs")), format!("{RUST_NOTE}{}\n", text.trim_end())));
@@ -24,6 +27,24 @@ fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
     let folder = root.join("crates/lissom-python/python/lissom/entries");
     made.extend(python_entries(&registry()).into_iter().map(|(name, text)| (folder.join(name), text)));
     made
+}
+
+/// The chapter on warnings with the tables of the catalogue between its marks.
+fn with_tables(chapter: &str) -> String {
+    let mut chapter = chapter.to_owned();
+    for (name, severity) in [("warnings", Severity::Warning), ("failures", Severity::Failure)] {
+        let [begin, end] = ["begin", "end"]
+            .map(|word| format!("<!-- {word} of {name}, made by `cargo xtask reference` -->\n"));
+        let row = |entry: &Entry| format!("| `{}` | {} | {} |\n", entry.code, entry.meaning, entry.advice);
+        let rows: String = catalogue().filter(|entry| entry.severity == severity).map(row).collect();
+        let table = format!("{begin}\n| code | meaning | remedy |\n|---|---|---|\n{rows}\n{end}");
+        chapter = match (chapter.find(&begin), chapter.find(&end)) {
+            (Some(from), Some(to)) => format!("{}{table}{}", &chapter[..from], &chapter[to + end.len()..]),
+            // A chapter without its marks is out of date.
+            _ => chapter + &table,
+        };
+    }
+    chapter
 }
 
 fn reference_text() -> String {

@@ -10,7 +10,9 @@ pub use lissom_system as system;
 
 pub mod analysis;
 mod bytes;
+pub mod catalogue;
 pub(crate) mod control;
+pub mod diagnostics;
 pub(crate) mod equilibration;
 pub(crate) mod integrator;
 pub mod interrupt;

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use lissom::sweep::{SweepError, SweepFolderError};
-use lissom::{Diagnosis, FileError, FolderError, Located, Report, SessionError};
+use lissom::{Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -49,31 +49,30 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     py.get_type::<SolutionError>().setattr("result", py.None())
 }
 
-/// Puts what the text says into attributes.
-fn with(error: PyErr, diagnosis: &Diagnosis) -> PyErr {
+/// Adds time, part and remedy as attributes.
+fn with(error: PyErr, diagnostic: &Diagnostic) -> PyErr {
     let result = Python::attach(|py| {
         let value = error.value(py);
-        value.setattr("time", diagnosis.time)?;
-        value.setattr("part", &diagnosis.part)?;
-        value.setattr("remedy", &diagnosis.remedy)
+        value.setattr("time", diagnostic.time)?;
+        value.setattr("part", diagnostic.part())?;
+        value.setattr("remedy", diagnostic.remedy())
     });
     result.err().unwrap_or(error)
 }
 
 /// A question that makes no sense for a model.
 pub(crate) fn question(words: impl Into<String>) -> PyErr {
-    let diagnosis = Diagnosis::of_text(&words.into());
-    with(ModelError::new_err(diagnosis.text.clone()), &diagnosis)
+    let words = words.into();
+    with(ModelError::new_err(words.clone()), &Diagnostic::uncatalogued(&words))
 }
 
 /// A model without a solution.
-pub(crate) fn solution(error: &(impl Located + Display)) -> PyErr {
-    let diagnosis = Diagnosis::of(error);
-    with(SolutionError::new_err(diagnosis.text.clone()), &diagnosis)
+pub(crate) fn solution(error: &(impl Diagnose + Display)) -> PyErr {
+    with(SolutionError::new_err(error.to_string()), &error.diagnostic())
 }
 
 /// A wrong question, or a model without a solution.
-pub(crate) fn refused(is_of_question: bool, error: &(impl Located + Display)) -> PyErr {
+pub(crate) fn refused(is_of_question: bool, error: &(impl Diagnose + Display)) -> PyErr {
     if is_of_question { question(error.to_string()) } else { solution(error) }
 }
 

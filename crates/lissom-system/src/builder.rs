@@ -33,7 +33,7 @@ use lissom_mechanics::joints::derivatives::{LOCAL, OWN, TIP};
 use lissom_mechanics::joints::{Build, Geometry, JointKind};
 use lissom_mechanics::kinematics::{
     CarriedFrame, CoordinateId, CoordinateMotion, Freedoms, GROUND, Kinematics, LOCKED, Layout, NodeId,
-    NodeMotion, Quantity,
+    NodeMotion, Quantity, Subject,
 };
 use lissom_mechanics::registry::{Function, ParameterError, Parameters};
 use lissom_mechanics::signals::{Graph, HeldId, SignalId};
@@ -81,7 +81,7 @@ pub struct Builder {
     free_coordinates: Vec<CoordinateId>,
     /// Inputs that engage latches.
     latches: Vec<HeldId>,
-    functions: Vec<(String, Function)>,
+    functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
     /// Where parts are given approximately: the values of coordinates at the start that joints are given.
@@ -501,8 +501,8 @@ impl Builder {
     }
 
     /// Lets a failure name a function of time, in words such as "`scale` of load `push`".
-    pub fn name_function(&mut self, words: String, function: Function) {
-        self.functions.push((words, function));
+    pub fn name_function(&mut self, subject: Subject, function: Function) {
+        self.functions.push((subject, function));
     }
 
     /// The ground's index, for symmetry with [`Self::add_node`].

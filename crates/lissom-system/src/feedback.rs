@@ -22,7 +22,7 @@ use lissom_mechanics::evaluation::threads::Threads;
 use lissom_mechanics::evaluation::work::{power, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_mechanics::kinematics::step_stages::StepStages;
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject};
 use lissom_mechanics::signals::measurement::Measurement;
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
@@ -178,7 +178,7 @@ impl Feedback {
         layout: &Layout,
     ) -> Result<Self, TouchesTooMuch> {
         let driven = targets.into_iter().map(|(target, signal)| {
-            let touches = || TouchesTooMuch { name: graph.signals[signal].name.clone() };
+            let touches = || TouchesTooMuch { name: graph.signals[signal].subject.to_string() };
             Driven::new(target, signal, &graph, layout).ok_or_else(touches)
         });
         let driven = driven.collect::<Result<_, _>>()?;
@@ -397,7 +397,7 @@ impl AnyBatch for DrivenBatch {
         // Those of signals are watched with their sides.
     }
 
-    fn name_switches(&self, _: &Layout, _: &mut Vec<String>) {}
+    fn name_switches(&self, _: &Layout, _: &mut Vec<Subject>) {}
 
     fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
         None

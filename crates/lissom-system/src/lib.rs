@@ -37,7 +37,7 @@ use lissom_mechanics::joints::blocks::{Batches, JointBatch};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
-use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId};
+use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId, Subject};
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
 
@@ -61,7 +61,7 @@ pub struct System {
     /// Inputs that engage latches.
     pub latches: Vec<HeldId>,
     /// Functions of time, in words, by which loads, springs and drives are given.
-    pub functions: Vec<(String, Function)>,
+    pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.
     pub structure: Structure,
     /// Where every joint's local matrix lies in the pattern.
@@ -205,11 +205,11 @@ impl System {
 
     /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its words and the
     /// value.
-    pub fn function_without_value(&self, time: f64) -> Option<(&str, f64)> {
+    pub fn function_without_value(&self, time: f64) -> Option<(&Subject, f64)> {
         self.functions.iter().find_map(|(words, function)| {
             let values =
                 [function.value(time), function.first_derivative(time), function.second_derivative(time)];
-            values.into_iter().find(|value| !value.is_finite()).map(|value| (words.as_str(), value))
+            values.into_iter().find(|value| !value.is_finite()).map(|value| (words, value))
         })
     }
 
@@ -232,10 +232,10 @@ impl System {
     }
 
     /// What changes where the switch of this index has its zero, in words: those of signals come first.
-    pub fn name_of_switch(&self, which: usize) -> String {
+    pub fn name_of_switch(&self, which: usize) -> Subject {
         let mut names = self.signals().names_of_switches();
         self.batches.iter().for_each(|batch| batch.name_switches(self.layout(), &mut names));
-        names.get(which).cloned().unwrap_or_else(|| "a force with a kink or a jump".to_owned())
+        names.get(which).cloned().unwrap_or_else(|| Subject::nameless("a force with a kink or a jump"))
     }
 
     /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.

@@ -9,6 +9,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
+use lissom_core::diagnostics::{Entry, Severity};
 use lissom_model::document::AnalysisKind;
 use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
@@ -427,6 +428,30 @@ fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Do
     }
     Ok(document)
 }
+
+/// Entries of the catalogue for derivatives.
+pub(crate) const ENTRIES: &[Entry] = &[
+    Entry {
+        code: "gradient-unconfirmed",
+        variant: "Confirmation",
+        severity: Severity::Warning,
+        message: "runs of the model with numbers changed a little neither confirm nor deny the derivatives",
+        meaning: "The finite-difference check, which runs the model with slightly changed parameters, neither confirms nor refutes the derivatives of \
+        `lissom gradient`.",
+        advice: "The output changes by less than the error of a run, or not smoothly: use another output, or another time.",
+    },
+    Entry {
+        code: REFUTED,
+        variant: "GradientError::Denied",
+        severity: Severity::Failure,
+        message: "the derivatives add up to a change of {expected} where runs of the model change by {found}",
+        meaning: "The finite-difference check refutes the derivatives of `lissom gradient`: the output has a jump or a kink nearby.",
+        advice: "Use another time; if that does not help, it is an error of the program: please report it.",
+    },
+];
+
+/// The code of derivatives that runs refute.
+pub(crate) const REFUTED: &str = "gradient-refuted";
 
 impl GradientReport {
     /// The table `gradient.csv`: path, number, derivative.

@@ -117,7 +117,7 @@ mod operating_point;
 
 pub mod campbell;
 mod checkpoint;
-mod diagnosis;
+mod diagnostic;
 pub mod export;
 pub mod fmu;
 mod folder;
@@ -150,10 +150,11 @@ mod timings;
 pub mod view;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
-pub use diagnosis::{Diagnosis, Located};
+pub use diagnostic::catalogue;
 pub use folder::{FolderError, ResultFolder, protect_results};
 pub use folder_page::RecordedRun;
 pub use lissom_core as core;
+pub use lissom_core::diagnostics::{Diagnose, Diagnostic, Severity};
 pub use lissom_model::files::FileError;
 pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};

@@ -23,7 +23,7 @@ use lissom_model::scene::Scene;
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
-use crate::diagnosis::Diagnosis;
+use crate::diagnostic;
 use crate::model::{Model, Override};
 use crate::session::columns;
 use number::Varied;
@@ -335,7 +335,7 @@ impl PathSession {
         insert("warnings", Value::Array(warnings));
         if let PathEnd::Failed(error) = &report.end {
             insert("error", json!(error.to_string()));
-            insert("failure", Diagnosis::of(error).to_value());
+            insert("failure", diagnostic::facts(error));
         }
         let value = if self.varied.is_some() { "value" } else { "load_factor" };
         insert("varied", json!(report.name));

@@ -11,7 +11,7 @@ use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
-use crate::diagnosis::Diagnosis;
+use crate::diagnostic;
 use crate::model::{Model, Override};
 use crate::report::RunReport;
 use crate::session::{Session, columns};
@@ -140,7 +140,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     insert("events", of_events(session));
     if let Some(error) = report.error() {
         insert("error", json!(error.to_string()));
-        insert("failure", Diagnosis::of(error).to_value());
+        insert("failure", diagnostic::facts(error));
     }
     insert("time", json!(report.time));
     insert("records", json!(report.records));
@@ -227,7 +227,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
 pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
     insert(summary, "stopped", json!("failed"));
     insert(summary, "error", json!(error.to_string()));
-    insert(summary, "failure", Diagnosis::of(error).to_value());
+    insert(summary, "failure", diagnostic::facts(error));
     for name in ["records", "rejected_steps", "stagnated_steps", "newton_iterations", "factorizations"] {
         insert(summary, name, json!(0));
     }

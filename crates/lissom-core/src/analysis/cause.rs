@@ -4,6 +4,7 @@ use super::simulation::Simulation;
 use super::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE, StepError};
 use crate::analysis::Problem;
 use crate::judge::{MAX_TURN, degenerate_joint};
+use crate::kinematics::Subject;
 
 impl Simulation {
     /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
@@ -46,7 +47,7 @@ impl Simulation {
 
     /// What changes its side between the state and the last iterate, in words: steps of planned size look for no
     /// side that can stay.
-    fn switching(&self) -> Option<String> {
+    fn switching(&self) -> Option<Subject> {
         let reached = &self.integrator.work.motions.last()?.at;
         let [before, after] = [&self.state.kinematics, reached].map(|at| {
             let mut values = Vec::new();

@@ -1,5 +1,6 @@
 //! Starts a simulation, tries steps and accepts them: `control` decides about their length.
 
+use crate::kinematics::Subject;
 use std::sync::Arc;
 
 use lissom_solver::FactorError;
@@ -119,7 +120,7 @@ impl Simulation {
 
     /// A failed factorisation, with names.
     pub(super) fn describe_factor(&self, error: &FactorError, time: f64) -> StepError {
-        describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, "")
+        describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, &Subject::nameless(""))
     }
 
     /// Solves a step of `size` [s] from the state, and judges what it has led to.
@@ -201,9 +202,9 @@ fn event_detector(system: &System, state: &State, settings: &Settings) -> EventD
 
 /// Fails where equations hold rates, of which statics know nothing.
 fn refuse_rates(system: &System) -> Result<(), InitialError> {
-    let of_row = system.layout().rate_rows().next().map(|row| system.layout().name_of(row));
-    let of_creep = || system.sees_multipliers().then(|| "the creep of a wheel on a rail".to_owned());
-    of_row.or_else(of_creep).map_or(Ok(()), |name| Err(InitialError::StateInStatics(name)))
+    let of_row = system.layout().rate_rows().next().map(|row| system.layout().subject_of(row));
+    let of_creep = || system.sees_multipliers().then(|| Subject::nameless("the creep of a wheel on a rail"));
+    of_row.or_else(of_creep).map_or(Ok(()), |state| Err(InitialError::StateInStatics { state }))
 }
 
 /// Makes velocities, accelerations and multipliers of a motion's start consistent. Gives the largest change of a velocity, and what finds

@@ -11,7 +11,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::StepStages;
-use crate::kinematics::{Kinematics, LOCKED, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Stage, Tableau};
@@ -384,7 +384,7 @@ impl StepEquations<'_> {
 
     /// Name of the unknown with the largest entry in the last corrections, or the first that is not
     /// finite.
-    pub(crate) fn worst_unknown(&self) -> String {
+    pub(crate) fn worst_unknown(&self) -> Subject {
         let layout = self.system.layout();
         let corrections = self.work.residuals.iter().flat_map(|residual| {
             residual[..layout.coordinate_count()]
@@ -409,13 +409,13 @@ impl StepEquations<'_> {
         let corrections = corrections.filter(|(row, _)| !is_state(*row)).chain(states.iter().copied());
         for (row, size) in corrections {
             if !size.is_finite() {
-                return layout.name_of(row);
+                return layout.subject_of(row);
             }
             if size > worst.1 {
                 worst = (row, size);
             }
         }
-        layout.name_of(worst.0)
+        layout.subject_of(worst.0)
     }
 }
 

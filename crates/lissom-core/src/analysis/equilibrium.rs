@@ -1,6 +1,7 @@
 //! Start from static equilibrium: places at which the model would stay at rest under its loads at the first instant.
 //! Velocities that were given stay.
 
+use crate::kinematics::Subject;
 use std::sync::Arc;
 
 use lissom_solver::SolverKind;
@@ -56,7 +57,7 @@ pub(crate) fn start_at_rest(
 }
 
 /// What nothing holds at the places of `state`, in words.
-fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<String> {
+fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Subject> {
     let mut still = state.clone();
     for node in &mut still.kinematics.nodes {
         node.twist.fill(0.0);

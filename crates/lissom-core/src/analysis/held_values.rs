@@ -6,41 +6,56 @@
 use super::initial_conditions::{ConsistentInitialConditions, InitialError};
 use super::settings::Settings;
 use super::simulation::Simulation;
+use crate::diagnostics::diagnostics;
 use crate::elements::latch::holds;
-use crate::kinematics::{Kinematics, LOCKED, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
 use crate::signals::SignalError;
 use crate::system::{State, System};
 
-/// An input that cannot be set.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum InputError {
-    /// The model has no such input.
-    #[error("the model has no input `{name}`; its inputs are: {}", list(.known))]
-    Unknown {
-        /// The name that was given.
-        name: String,
-        /// Names of all inputs.
-        known: Vec<String>,
-    },
-    /// The value is not finite.
-    #[error("input `{name}` cannot be {value}: give a finite number")]
-    NotFinite {
-        /// The input.
-        name: String,
-        /// The value that was given.
-        value: f64,
-    },
-    /// A signal is not finite with this value.
-    #[error("with this input {0}")]
-    Signal(SignalError),
-    /// There are no consistent accelerations with it.
-    #[error(transparent)]
-    Initial(#[from] InitialError),
+diagnostics! {
+    /// An input that cannot be set.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure InputError {
+        /// The model has no such input.
+        Unknown {
+            /// The name that was given.
+            name: String,
+            /// Names of all inputs.
+            known: String,
+        } => "unknown-input" {
+            subject: Subject::new("input", name),
+            cause: ("the model has no input `{name}`"),
+            remedy: "its inputs are: {known}",
+            meaning: "An input was set that the model does not have.",
+            advice: "Use a name of the section `[inputs]`.",
+        }
+        /// The value is not finite.
+        NotFinite {
+            /// The input.
+            name: String,
+            /// The value that was given.
+            value: f64,
+        } => "input-not-finite" {
+            subject: Subject::new("input", name),
+            cause: ("input `{name}` cannot be {value}"),
+            remedy: "give a finite number",
+            meaning: "An input was set to a value that is not finite.",
+            advice: "Use a finite number.",
+        }
+    }
+    wraps {
+        /// A signal is not finite with this value.
+        Signal(SignalError), (error) => error.diagnostic().within("with this input"),
+        /// There are no consistent accelerations with it.
+        Initial(InitialError), (error) => error.diagnostic(),
+    }
 }
 
-fn list(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+impl From<InitialError> for InputError {
+    fn from(error: InitialError) -> Self {
+        Self::Initial(error)
+    }
 }
 
 /// Takes the first samples, and makes the rates of states, accelerations and multipliers fit places and velocities.
@@ -68,7 +83,8 @@ impl Simulation {
     pub fn set_input(&mut self, name: &str, value: f64) -> Result<(), InputError> {
         let graph = self.system.signals();
         let Some(held) = graph.input(name) else {
-            let known = graph.input_names().map(str::to_owned).collect();
+            let names: Vec<&str> = graph.input_names().collect();
+            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             return Err(InputError::Unknown { name: name.to_owned(), known });
         };
         if !value.is_finite() {

@@ -186,11 +186,11 @@ impl ConsistentInitialConditions {
         result.map_err(|error| match error {
             FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
                 pivot,
-                unknown: layout.name_of(unknown),
+                unknown: layout.subject_of(unknown),
                 hint: pivot_hint(unknown, layout, true),
             },
             FactorError::NotFinite { unknown } => {
-                InitialError::NotFinite { unknown: layout.name_of(unknown) }
+                InitialError::NotFinite { unknown: layout.subject_of(unknown) }
             }
         })
     }

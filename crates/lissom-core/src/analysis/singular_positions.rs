@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::loops::{self, Gradient, Loop};
 use crate::judge::Warning;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Subject};
 use crate::system::System;
 
 /// Pivots below this part of their equation's square are round-off: the equation repeats others.
@@ -104,8 +104,8 @@ impl SingularPositions {
 
     /// The loop that is closest to a singular position, where one is close: its joints in words, and how far it is from
     /// there [rad].
-    pub(crate) fn closest(&mut self, system: &System, at: &Kinematics) -> Option<(String, f64)> {
-        let mut closest: Option<(String, f64)> = None;
+    pub(crate) fn closest(&mut self, system: &System, at: &Kinematics) -> Option<(Subject, f64)> {
+        let mut closest: Option<(Subject, f64)> = None;
         for (found, known) in self.loops.iter().zip(&self.known) {
             found.gradient(system, at, self.length, &mut self.gradient);
             self.pivots.of(&mut self.gradient, found.multipliers.len());
@@ -312,22 +312,22 @@ impl Pivots {
     }
 
     /// Joints whose equations give the one that vanishes: its row of L, through those before it.
-    fn names(&self, system: &System, found: &Loop, equation: usize) -> String {
+    fn names(&self, system: &System, found: &Loop, equation: usize) -> Subject {
         let mut shares: Vec<f64> = (0..equation).map(|k| self.factor[(equation, k)]).collect();
         for k in (0..equation).rev() {
             for j in k + 1..equation {
                 shares[k] -= self.factor[(j, k)] * shares[j];
             }
         }
-        let mut names: Vec<String> = Vec::new();
+        let mut joints: Vec<Subject> = Vec::new();
         let takes_part = |k: &usize| shares[*k].abs() > TAKES_PART && self.pivots[*k] > REPEATS;
         for k in (0..equation).filter(takes_part).chain([equation]) {
             let (joint, _) = system.layout().constraint_name(found.multipliers[k]);
-            let name = format!("`{joint}`");
-            if !names.contains(&name) {
-                names.push(name);
+            let joint = Subject::new("joint", joint).called(format!("`{joint}`"));
+            if !joints.contains(&joint) {
+                joints.push(joint);
             }
         }
-        names.join(", ")
+        Subject::list(joints)
     }
 }

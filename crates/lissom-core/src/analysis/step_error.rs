@@ -3,249 +3,327 @@
 use lissom_solver::FactorError;
 
 use super::settings::Settings;
-use crate::kinematics::Layout;
+use crate::diagnostics::diagnostics;
+use crate::kinematics::{Layout, Subject};
 use crate::newton::Failure;
 
-/// A step that could not be completed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepError {
-    /// Newton's iterations did not converge.
-    #[error(
-        "step to t = {time:.6e} s did not converge in {iterations} iterations: last correction {correction:.1e}, \
-         worst equation: {worst}; {hint}"
-    )]
-    NotConverged {
-        /// End of the step [s].
-        time: f64,
-        /// Iterations made.
-        iterations: usize,
-        /// Size of the last correction [-].
-        correction: f64,
-        /// Name of the unknown whose equation is worst.
-        worst: String,
-        /// What to try.
-        hint: &'static str,
-    },
-    /// Numbers that are not finite appeared.
-    #[error(
-        "step to t = {time:.6e} s: numbers that are not finite after {iterations} iterations, first in: {worst}; {hint}"
-    )]
-    NotFinite {
-        /// End of the step [s].
-        time: f64,
-        /// Iterations made.
-        iterations: usize,
-        /// Name of the first unknown affected.
-        worst: String,
-        /// What to try.
-        hint: &'static str,
-    },
-    /// A joint has come to a place where one of its equations vanishes.
-    #[error(
-        "step to t = {time:.6e} s did not converge: the `{kind}` joint `{joint}` has come to where its parts are turned by \
-         {angle:.1} degrees against each other, and there its equation {equation} vanishes and holds nothing; keep it away from \
-         there by a stop, by other lengths or by another start, or use a joint of another kind"
-    )]
-    JointLosesHold {
-        /// End of the step [s].
-        time: f64,
-        /// Name of the joint.
-        joint: String,
-        /// Its kind.
-        kind: &'static str,
-        /// Its equation.
-        equation: &'static str,
-        /// Angle of the relative rotation of its parts [degrees].
-        angle: f64,
-    },
-    /// A closed loop has come to a singular position.
-    #[error(
-        "step to t = {time:.6e} s did not converge: {beside:.2} degrees before it the mechanism has a singular position, where \
-         the equations of {joints} repeat each other and it locks or may go on in more than one way; keep it away from there by \
-         other lengths, another drive or another start"
-    )]
-    LoopIsSingular {
-        /// End of the step [s].
-        time: f64,
-        /// Joints whose equations repeat each other there, in words.
-        joints: String,
-        /// How far it is from there [degrees].
-        beside: f64,
-    },
-    /// Something changes its side within a step that has no solution however short.
-    #[error(
-        "step to t = {time:.6e} s did not converge, nor do its shortest parts: within it {what} switches, and on neither side of the \
-         switch the motion can go on; give the jump a width (`tanh(v/0.01)` instead of `sign(v)`), use a kind made for it, such as \
-         friction, or set `relative_tolerance` instead of `step`, which ends steps where forces switch"
-    )]
-    Switches {
-        /// End of the step [s].
-        time: f64,
-        /// What switches.
-        what: String,
-    },
-    /// The estimated error stays above the tolerance however short the step.
-    #[error(
-        "from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most \
-         in the {unknown}; look for a load or drive that jumps there, or allow a larger error"
-    )]
-    TooInaccurate {
-        /// Start of the step [s].
-        time: f64,
-        /// Size of the last attempt [s].
-        size: f64,
-        /// Name of the unknown with the largest estimated error.
-        unknown: String,
-    },
-    /// Something passes through zero again and again.
-    #[error(
-        "at t = {time:.6e} s {what} switches again and again, a thousand times within one step: the motion slides along \
-         the surface where it switches; give it a width (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), \
-         or use a kind made for it, such as friction"
-    )]
-    Chatters {
-        /// Time [s].
-        time: f64,
-        /// What switches.
-        what: String,
-    },
-    /// A time to be stepped to is not finite.
-    #[error("a session cannot be stepped to the time {target} s: give a finite time")]
-    NoTime {
-        /// What was asked for [s].
-        target: f64,
-    },
-    /// A signal is not finite.
-    #[error("{0}")]
-    Signal(crate::signals::SignalError),
-    /// A function of time is not finite.
-    #[error(
-        "step to t = {time:.6e} s: {what} is {value} at t = {at:.6e} s, or its derivative is: an argument is outside of what its \
-         functions allow; keep it within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
-    )]
-    FunctionNotFinite {
-        /// End of the step [s].
-        time: f64,
-        /// The function, in words.
-        what: String,
-        /// What it, or its derivative, comes to.
-        value: f64,
-        /// Where [s].
-        at: f64,
-    },
-    /// Constraints are not held, though the equations were solved.
-    #[error(
-        "at t = {time:.6e} s constraints contradict each other: violated are {violated}: a drive asks for a place that \
-         the joints do not allow, or two of them ask for different ones; remove one, or change what is prescribed"
-    )]
-    Contradiction {
-        /// End of the step [s].
-        time: f64,
-        /// Names and violations of the constraints that are violated most.
-        violated: String,
-    },
-    /// A node turns further than a step resolves.
-    #[error(
-        "step to t = {time:.6e} s: node `{node}` turns by {angle:.2} rad in it, and angles beyond a quarter of a turn a \
-         step are not resolved; take a smaller step, or set `relative_tolerance`"
-    )]
-    TurnsTooFar {
-        /// End of the step [s].
-        time: f64,
-        /// Name of the node.
-        node: String,
-        /// Angular velocity times step [rad].
-        angle: f64,
-    },
-    /// Nodes of an element are turned against each other by nearly half a turn.
-    #[error(
-        "at t = {time:.6e} s the beam element between `{}` and `{}` turns by {turns:.2} of half a turn or more: beyond \
-         half a turn it would be taken for a turn the other way; use more elements", nodes[0], nodes[1]
-    )]
-    ElementTurns {
-        /// Time [s].
-        time: f64,
-        /// Names of the two nodes.
-        nodes: [String; 2],
-        /// Angle between them over π, at most 1.
-        turns: f64,
-    },
-    /// A slider has left its beam.
-    #[error(
-        "step to t = {time:.6e} s: slider `{joint}` passes the end of its beam: it is at {place:.6e} m of {length:.6e} m; make the \
-         beam longer, hold it with a spring of kind `axial_stop`, or end the run before with an event"
-    )]
-    BeyondBeam {
-        /// Time [s].
-        time: f64,
-        /// Name of the slider.
-        joint: String,
-        /// Its coordinate [m].
-        place: f64,
-        /// Length of the beam [m].
-        length: f64,
-    },
-    /// The kinetic energy of a superelement is negative in some motion.
-    #[error(
-        "step to t = {time:.6e} s: the superelement with the interface `{interface}` is deformed beyond the range of its second-order \
-         matrices: its kinetic energy is no longer positive; reduce the part in several pieces or without corrections (`--modes-alone`), or \
-         model it by beams"
-    )]
-    NegativeKineticEnergy {
-        /// End of the step [s].
-        time: f64,
-        /// Name of the first interface.
-        interface: String,
-    },
-    /// Energy that nothing put in.
-    #[error(
-        "step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are \
-         turned over, because the step does not resolve the motion, which is most restless at node `{node}`; make it smaller, set `relative_tolerance`, or choose \
-         `scheme = \"radau-iia\"`; `energy_check = false` lets such a run go on"
-    )]
-    EnergyFromNowhere {
-        /// End of the step [s].
-        time: f64,
-        /// Energy that nothing put in, since the start [J].
-        surplus: f64,
-        /// Energy turned over since the start [J].
-        turned_over: f64,
-        /// Whether most of it came in this step.
-        in_this_step: bool,
-        /// Name of the node whose velocity changes most in the step.
-        node: String,
-    },
-    /// It was interrupted while a step was tried again.
-    #[error("interrupted after t = {time:.6e} s")]
-    Interrupted {
-        /// Where the simulation stands [s].
-        time: f64,
-    },
-    /// The velocities at the end of the step could not be made consistent.
-    #[error("step to t = {time:.6e} s, velocities at its end: {error}")]
-    Velocities {
-        /// End of the step [s].
-        time: f64,
-        /// What went wrong.
-        error: super::InitialError,
-    },
-    /// A pivot vanished.
-    #[error(
-        "step to t = {time:.6e} s: elimination stops at a pivot of {pivot:.1e} for the {unknown}; {hint}"
-    )]
-    ZeroPivot {
-        /// End of the step [s].
-        time: f64,
-        /// The pivot.
-        pivot: f64,
-        /// Name of the unknown.
-        unknown: String,
-        /// What to try.
-        hint: &'static str,
-        /// Whether a pivoting solver went on from there, and Newton's iteration failed with it.
-        after_pivoting: bool,
-    },
+diagnostics! {
+    /// A step that could not be completed.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure StepError {
+        /// Newton's iterations did not converge.
+        NotConverged {
+            /// End of the step [s].
+            time: f64,
+            /// Iterations made.
+            iterations: usize,
+            /// Size of the last correction [-].
+            correction: f64,
+            /// Name of the unknown whose equation is worst.
+            worst: Subject,
+            /// What to try.
+            hint: &'static str,
+        } => "not-converged" {
+            time: *time,
+            subject: worst,
+            cause: ("step to t = {time:.6e} s did not converge in {iterations} iterations: last correction {correction:.1e}, worst \
+                    equation: {worst}"),
+            remedy: "{hint}",
+            meaning: "Newton's iteration did not converge in a step. In statics, a limit point of the load is a frequent cause: snap-through or \
+                buckling.",
+            advice: "Look for a force that jumps at the reported equation, for inconsistent units, and for a joint close to a position where \
+                it locks; in statics, follow the path beyond a limit point (`kind = \"path\"`).",
+        }
+        /// Numbers that are not finite appeared.
+        NotFinite {
+            /// End of the step [s].
+            time: f64,
+            /// Iterations made.
+            iterations: usize,
+            /// Name of the first unknown affected.
+            worst: Subject,
+            /// What to try.
+            hint: &'static str,
+        } => "not-finite" {
+            time: *time,
+            subject: worst,
+            cause: ("step to t = {time:.6e} s: numbers that are not finite after {iterations} iterations, first in: {worst}"),
+            remedy: "{hint}",
+            meaning: "A force, an acceleration or a position is not a finite number.",
+            advice: "Look at the reported equation for a force that grows without bound, for masses or stiffnesses that differ by too many \
+                orders of magnitude, and for inconsistent units.",
+        }
+        /// A joint has come to a place where one of its equations vanishes.
+        JointLosesHold {
+            /// End of the step [s].
+            time: f64,
+            /// Name of the joint.
+            joint: String,
+            /// Its kind.
+            kind: &'static str,
+            /// Its equation.
+            equation: &'static str,
+            /// Angle of the relative rotation of its parts [degrees].
+            angle: f64,
+        } => "joint-degenerate" {
+            time: *time,
+            subject: Subject::new("joint", joint),
+            cause: ("step to t = {time:.6e} s did not converge: the `{kind}` joint `{joint}` has come to where its parts are turned by \
+                    {angle:.1} degrees against each other, and there its equation {equation} vanishes and holds nothing"),
+            remedy: "keep it away from there by a stop, by other lengths or by another start, or use a joint of another kind",
+            meaning: "A joint is in a position where one of its equations vanishes, such as a `constant_velocity` joint that is bent by half a \
+                turn.",
+            advice: "Use a stop, other lengths, another start, or a joint of another kind.",
+        }
+        /// A closed loop has come to a singular position.
+        LoopIsSingular {
+            /// End of the step [s].
+            time: f64,
+            /// Joints whose equations repeat each other there, in words.
+            joints: Subject,
+            /// How far it is from there [degrees].
+            beside: f64,
+        } => "loop-singular" {
+            time: *time,
+            subject: joints,
+            cause: ("step to t = {time:.6e} s did not converge: {beside:.2} degrees before it the mechanism has a singular position, where \
+                    the equations of {joints} repeat each other and it locks or may go on in more than one way"),
+            remedy: "keep it away from there by other lengths, another drive or another start",
+            meaning: "A closed loop is close to a locking position, such as a slider crank at its dead centre.",
+            advice: "Use other lengths, another drive, or another start.",
+        }
+        /// Something changes its side within a step that has no solution however short.
+        Switches {
+            /// End of the step [s].
+            time: f64,
+            /// What switches.
+            what: Subject,
+        } => "switches-within-step" {
+            time: *time,
+            subject: what,
+            cause: ("step to t = {time:.6e} s did not converge, nor do its shortest parts: within it {what} switches, and on neither side \
+                    of the switch the motion can go on"),
+            remedy: "give the jump a width (`tanh(v/0.01)` instead of `sign(v)`), use a kind made for it, such as friction, or set \
+                `relative_tolerance` instead of `step`, which ends steps where forces switch",
+            meaning: "A force changes its sign at a threshold and drives the motion back to it from both sides.",
+            advice: "Give the jump a width, for example `tanh(v/0.01)` instead of `sign(v)`, use a kind such as friction, or set \
+                `relative_tolerance`.",
+        }
+        /// The estimated error stays above the tolerance however short the step.
+        TooInaccurate {
+            /// Start of the step [s].
+            time: f64,
+            /// Size of the last attempt [s].
+            size: f64,
+            /// Name of the unknown with the largest estimated error.
+            unknown: Subject,
+        } => "tolerance-not-met" {
+            time: *time,
+            subject: unknown,
+            cause: ("from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most in \
+                    the {unknown}"),
+            remedy: "look for a load or drive that jumps there, or allow a larger error",
+            meaning: "The estimated error exceeds `relative_tolerance` with the shortest steps, as at a discontinuous load or drive.",
+            advice: "Look for a load or drive that jumps at that time, or allow a larger error.",
+        }
+        /// Something passes through zero again and again.
+        Chatters {
+            /// Time [s].
+            time: f64,
+            /// What switches.
+            what: Subject,
+        } => "chattering" {
+            time: *time,
+            subject: what,
+            cause: ("at t = {time:.6e} s {what} switches again and again, a thousand times within one step: the motion slides along the \
+                    surface where it switches"),
+            remedy: "give it a width (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a kind made for it, such as \
+                friction",
+            meaning: "A signal, an event or a force switches a thousand times within one step: the motion slides along the surface where it \
+                switches.",
+            advice: "Give the switch a width or a hysteresis, or use a kind such as friction.",
+        }
+        /// A time to be stepped to is not finite.
+        NoTime {
+            /// What was asked for [s].
+            target: f64,
+        } => "time-not-finite" {
+            cause: ("a session cannot be stepped to the time {target} s"),
+            remedy: "give a finite time",
+            meaning: "A session was asked to go to a time that is not finite.",
+            advice: "Use a finite time.",
+        }
+        /// A function of time is not finite.
+        FunctionNotFinite {
+            /// End of the step [s].
+            time: f64,
+            /// The function, in words.
+            what: Subject,
+            /// What it, or its derivative, comes to.
+            value: f64,
+            /// Where [s].
+            at: f64,
+        } => "function-not-finite" {
+            time: *time,
+            subject: what,
+            cause: ("step to t = {time:.6e} s: {what} is {value} at t = {at:.6e} s, or its derivative is: an argument is outside of what \
+                    its functions allow"),
+            remedy: "keep it within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before",
+            meaning: "A function of time is not finite: a root of a negative number, a division by zero.",
+            advice: "Restrict the argument, for example by `max(…, 0)` or `clamp`, or end the run before.",
+        }
+        /// Constraints are not held, though the equations were solved.
+        Contradiction {
+            /// End of the step [s].
+            time: f64,
+            /// Names and violations of the constraints that are violated most.
+            violated: Subject,
+        } => "constraints-contradict" {
+            time: *time,
+            subject: violated,
+            cause: ("at t = {time:.6e} s constraints contradict each other: violated are {violated}: a drive asks for a place that the \
+                    joints do not allow, or two of them ask for different ones"),
+            remedy: "remove one, or change what is prescribed",
+            meaning: "Constraints cannot be satisfied together: two drives of one coordinate, or a drive beyond the reach of its links.",
+            advice: "Remove one of the constraints, or change the prescribed motion.",
+        }
+        /// A node turns further than a step resolves.
+        TurnsTooFar {
+            /// End of the step [s].
+            time: f64,
+            /// Name of the node.
+            node: String,
+            /// Angular velocity times step [rad].
+            angle: f64,
+        } => "rotation-per-step" {
+            time: *time,
+            subject: Subject::new("node", node),
+            cause: ("step to t = {time:.6e} s: node `{node}` turns by {angle:.2} rad in it, and angles beyond a quarter of a turn a step \
+                    are not resolved"),
+            remedy: "take a smaller step, or set `relative_tolerance`",
+            meaning: "A node rotates by more than a quarter of a turn in a step, which is too long for the angular velocity.",
+            advice: "Use a smaller step, or `relative_tolerance`.",
+        }
+        /// Nodes of an element are turned against each other by nearly half a turn.
+        ElementTurns {
+            /// Time [s].
+            time: f64,
+            /// Names of the two nodes.
+            nodes: [String; 2],
+            /// Angle between them over π, at most 1.
+            turns: f64,
+        } => "rotation-in-element" {
+            time: *time,
+            subject: Subject::new("node", &nodes[0]),
+            cause: ("at t = {time:.6e} s the beam element between `{}` and `{}` turns by {turns:.2} of half a turn or more: beyond half a \
+                    turn it would be taken for a turn the other way", nodes[0], nodes[1]),
+            remedy: "use more elements",
+            meaning: "The nodes of a beam element are rotated against each other by nearly half a turn or more: there are too few elements for \
+                the twist or the bend.",
+            advice: "Use more elements.",
+        }
+        /// A slider has left its beam.
+        BeyondBeam {
+            /// Time [s].
+            time: f64,
+            /// Name of the slider.
+            joint: String,
+            /// Its coordinate [m].
+            place: f64,
+            /// Length of the beam [m].
+            length: f64,
+        } => "slider-off-beam" {
+            time: *time,
+            subject: Subject::new("slider", joint),
+            cause: ("step to t = {time:.6e} s: slider `{joint}` passes the end of its beam: it is at {place:.6e} m of {length:.6e} m"),
+            remedy: "make the beam longer, hold it with a spring of kind `axial_stop`, or end the run before with an event",
+            meaning: "A slider has left its beam.",
+            advice: "Use a longer beam, a stop, or an event before the end.",
+        }
+        /// The kinetic energy of a superelement is negative in some motion.
+        NegativeKineticEnergy {
+            /// End of the step [s].
+            time: f64,
+            /// Name of the first interface.
+            interface: String,
+        } => "kinetic-energy-negative" {
+            time: *time,
+            subject: Subject::new("interface", interface),
+            cause: ("step to t = {time:.6e} s: the superelement with the interface `{interface}` is deformed beyond the range of its \
+                    second-order matrices: its kinetic energy is no longer positive"),
+            remedy: "reduce the part in several pieces or without corrections (`--modes-alone`), or model it by beams",
+            meaning: "A superelement is deformed beyond the range of its second-order matrices.",
+            advice: "Divide the part into several superelements, reduce it with `--modes-alone`, or model it by beams.",
+        }
+        /// Energy that nothing put in.
+        EnergyFromNowhere {
+            /// End of the step [s].
+            time: f64,
+            /// Energy that nothing put in, since the start [J].
+            surplus: f64,
+            /// Energy turned over since the start [J].
+            turned_over: f64,
+            /// Whether most of it came in this step.
+            in_this_step: bool,
+            /// Name of the node whose velocity changes most in the step.
+            node: String,
+        } => "energy-gain" {
+            time: *time,
+            subject: Subject::new("node", node),
+            cause: ("step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are turned \
+                    over, because the step does not resolve the motion, which is most restless at node `{node}`"),
+            remedy: "make it smaller, set `relative_tolerance`, or choose `scheme = \"radau-iia\"`; `energy_check = false` lets such a run go \
+                on",
+            meaning: "Energy grew beyond the work of loads and drives: the step is too long, or there is little numerical damping with masses \
+                that differ by orders of magnitude.",
+            advice: "Use a smaller step, `relative_tolerance`, or `scheme = \"radau-iia\"`; `energy_check = false` switches the check off.",
+        }
+        /// It was interrupted while a step was tried again.
+        Interrupted {
+            /// Where the simulation stands [s].
+            time: f64,
+        } => "interrupted" {
+            time: *time,
+            cause: ("interrupted after t = {time:.6e} s"),
+            remedy: "",
+            meaning: "The run was interrupted.",
+            advice: "Run it again; with `--resume` it continues from its last checkpoint.",
+        }
+        /// A pivot vanished.
+        ZeroPivot {
+            /// End of the step [s].
+            time: f64,
+            /// The pivot.
+            pivot: f64,
+            /// Name of the unknown.
+            unknown: Subject,
+            /// What to try.
+            hint: &'static str,
+            /// Whether a pivoting solver went on from there, and Newton's iteration failed with it.
+            after_pivoting: bool,
+        } => "zero-pivot" {
+            time: *time,
+            subject: unknown,
+            cause: ("step to t = {time:.6e} s: elimination stops at a pivot of {pivot:.1e} for the {unknown}"),
+            remedy: "{hint}",
+            meaning: "Elimination stops at a vanishing pivot: a part is not constrained, or an equation is redundant.",
+            advice: "Add a mass, a stiffness or a joint, or remove the redundant constraint.",
+        }
+    }
+    wraps {
+        /// A signal is not finite.
+        Signal(crate::signals::SignalError), (error) => error.diagnostic(),
+        /// The velocities at the end of the step could not be made consistent.
+        Velocities {
+            /// End of the step [s].
+            time: f64,
+            /// What went wrong.
+            error: super::InitialError,
+        }, { time, error } => {
+            error.diagnostic().within(&format!("step to t = {time:.6e} s, velocities at its end")).at(*time)
+        },
+    }
 }
 
 impl StepError {
@@ -313,28 +391,28 @@ pub(crate) fn describe(
     layout: &Layout,
     time: f64,
     settings: &Settings,
-    worst: &str,
+    worst: &Subject,
 ) -> StepError {
     match failure {
         Failure::NotConverged { iterations, correction } => StepError::NotConverged {
             time,
             iterations: *iterations,
             correction: *correction,
-            worst: worst.to_owned(),
+            worst: worst.clone(),
             hint: convergence_hint(settings.scheme.dynamic),
         },
         Failure::NotFinite { iterations } => {
-            StepError::NotFinite { time, iterations: *iterations, worst: worst.to_owned(), hint: SMALLER }
+            StepError::NotFinite { time, iterations: *iterations, worst: worst.clone(), hint: SMALLER }
         }
         Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
             time,
             pivot: *pivot,
-            unknown: layout.name_of(*unknown),
+            unknown: layout.subject_of(*unknown),
             hint: pivot_hint(*unknown, layout, settings.scaling.augmented),
             after_pivoting: false,
         },
         Failure::Factor(FactorError::NotFinite { unknown }) => {
-            StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown), hint: SMALLER }
+            StepError::NotFinite { time, iterations: 0, worst: layout.subject_of(*unknown), hint: SMALLER }
         }
         Failure::Interrupted => StepError::Interrupted { time },
     }

@@ -21,7 +21,7 @@
 use super::Integrator;
 use crate::analysis::Problem;
 use crate::elements::contribution::CoordinateMass;
-use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity, Subject};
 use crate::scaling::UnitStepState;
 use crate::schemes::Stage;
 use crate::system::{Drive, System};
@@ -187,11 +187,11 @@ impl Integrator {
         work.error = error;
     }
 
-    /// Name of the unknown with the largest estimated error of the last attempt.
-    pub(crate) fn most_inaccurate(&self, system: &System) -> String {
+    /// The unknown with the largest estimated error of the last attempt.
+    pub(crate) fn most_inaccurate(&self, system: &System) -> Subject {
         let errors =
             self.work.filtered.iter().zip(&self.work.sizes).map(|(error, size)| (error * size).abs());
         let most = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        system.layout().name_of(most.map_or(0, |(row, _)| row))
+        system.layout().subject_of(most.map_or(0, |(row, _)| row))
     }
 }

@@ -285,7 +285,7 @@ fn describe_failure(
         let instants = equations.work.motions.iter().map(|motion| motion.at.time);
         let found = instants.filter_map(|at| {
             let (what, value) = system.function_without_value(at)?;
-            Some(StepError::FunctionNotFinite { time: end, what: what.to_owned(), value, at })
+            Some(StepError::FunctionNotFinite { time: end, what: what.clone(), value, at })
         });
         if let Some(error) = found.take(1).next() {
             return error;

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 use crate::analysis::Problem;
 use crate::analysis::StepError;
-use crate::kinematics::{Kinematics, Quantity};
+use crate::kinematics::{Kinematics, Quantity, Subject};
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
@@ -143,13 +143,13 @@ impl Judge<'_> {
     }
 
     /// The constraints that are violated most, and by how much.
-    fn names_of_violated(&self, end: &State, worst: f64) -> String {
+    fn names_of_violated(&self, end: &State, worst: f64) -> Subject {
         let mut named: Vec<(f64, usize)> =
             self.violations(end).enumerate().map(|(k, size)| (size, k)).collect();
         // Constraints that miss as much as each other are named in the model's order, not by their last digits.
         let rank = |size: f64| (20.0 * size / worst).round();
         named.sort_by(|a, b| rank(b.0).total_cmp(&rank(a.0)));
-        let mut words: Vec<String> = Vec::new();
+        let mut violated: Vec<Subject> = Vec::new();
         for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MAX_LISTED) {
             let (joint, equation) = self.system.layout().constraint_name(k);
             let unit = match self.quantities()[k] {
@@ -157,9 +157,10 @@ impl Judge<'_> {
                 Quantity::Angle => "rad",
                 Quantity::State => "",
             };
-            words.push(format!("`{joint}` ({equation}) by {:.3e} {unit}", end.violations[k].abs()));
+            let words = format!("`{joint}` ({equation}) by {:.3e} {unit}", end.violations[k].abs());
+            violated.push(Subject::new("joint", joint).called(words));
         }
-        words.join(", ")
+        Subject::list(violated)
     }
 
     /// Fails where a slider has come off the end of its beam.

@@ -4,7 +4,7 @@ use lissom_motion::Vector3;
 
 use super::Warning;
 use crate::analysis::InitialError;
-use crate::kinematics::{Kinematics, NodeMotion, Quantity, split};
+use crate::kinematics::{Kinematics, NodeMotion, Quantity, Subject, split};
 use crate::scaling::Representative;
 use crate::system::System;
 
@@ -57,7 +57,7 @@ pub(crate) fn velocities(
     };
     let worst = (0..given.len()).max_by(|&a, &b| changed(a).total_cmp(&changed(b))).unwrap_or(0);
     if changed(worst) > NOTEWORTHY * largest {
-        let part = system.layout().name_of_node(worst).to_owned();
+        let part = Subject::new("node", system.layout().name_of_node(worst));
         let energy = |nodes: &[NodeMotion]| -> f64 {
             let of = |inertia: &crate::elements::inertia::Inertia| {
                 let twist = nodes[inertia.node()].twist;
@@ -109,7 +109,7 @@ fn rates_of_coordinates(
         Quantity::State => "1/s",
     };
     let [given, used] = [specified, used].map(|at| at.coordinates[worst].rate);
-    let part = system.layout().coordinate_name(worst).to_owned();
+    let part = Subject::new("coordinate", system.layout().coordinate_name(worst));
     let words = |rate: f64| format!("{rate:.6} {unit}");
     if used.abs() < NOTHING * given.abs() {
         return Err(InitialError::VelocityImpossible { part, given: words(given) });
@@ -140,21 +140,23 @@ pub(crate) fn rates(
     if worst <= (MAX_RATE * largest).max(negligible) {
         return Ok(());
     }
-    let mut violated: Vec<String> = Vec::new();
+    let mut violated: Vec<Subject> = Vec::new();
     for k in (0..rates.len()).filter(|&k| relative(k) > 0.1 * worst) {
         let (joint, equation) = layout.constraint_name(k);
-        let name = format!("`{joint}` ({equation})");
+        let name = Subject::new("joint", joint).called(format!("`{joint}` ({equation})"));
         if violated.len() < super::MAX_LISTED && !violated.contains(&name) {
             violated.push(name);
         }
     }
-    let cause = if system.drives().is_empty() {
-        "because the joints exclude each other's motion; remove one, or look at their axes"
+    let [cause, remedy] = if system.drives().is_empty() {
+        ["because the joints exclude each other's motion", "remove one, or look at their axes"]
     } else {
-        "because two drives prescribe the same motion differently, or one prescribes what the joints exclude; remove one, or change \
-         what is prescribed"
+        [
+            "because two drives prescribe the same motion differently, or one prescribes what the joints exclude",
+            "remove one, or change what is prescribed",
+        ]
     };
-    Err(InitialError::RatesContradict { violated: violated.join(", "), cause })
+    Err(InitialError::RatesContradict { violated: Subject::list(violated), cause, remedy })
 }
 
 impl Representative {

@@ -13,6 +13,7 @@ use super::lanczos::{is_converged, ritz, whole_clusters};
 use super::mode::Completeness;
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
+use crate::diagnostics::{Diagnose, Diagnostic};
 use crate::interrupt;
 use crate::round_off;
 
@@ -65,6 +66,15 @@ pub enum BucklingError {
     /// A factorisation stopped.
     #[error(transparent)]
     Linear(#[from] LinearError),
+}
+
+impl Diagnose for BucklingError {
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::Linear(error) => error.diagnostic(),
+            _ => Diagnostic::uncatalogued(self),
+        }
+    }
 }
 
 struct Inverse<'m, 's, 'a> {

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, small_square};
-use crate::kinematics::{LOCKED, Quantity};
+use crate::kinematics::{LOCKED, Quantity, Subject};
 use crate::round_off;
 
 /// s² over the small square of the model at first …
@@ -48,7 +48,7 @@ struct ForcesAlong {
 impl LinearModel<'_> {
     /// Names of what moves where nothing holds: coordinates of joints, and nodes of parts whose joints have none that
     /// moves. None if everything is held, or if the state is not at rest.
-    pub(crate) fn free_motion(&self) -> Option<String> {
+    pub(crate) fn free_motion(&self) -> Option<Subject> {
         if !self.is_at_rest() || self.system.layout().state_count() > 0 {
             return None;
         }
@@ -161,7 +161,7 @@ impl LinearModel<'_> {
     }
 
     /// Coordinates of joints that move; where none does, the freedom of each part that moves most.
-    fn names_of(&self, motion: &[f64]) -> String {
+    fn names_of(&self, motion: &[f64]) -> Subject {
         let layout = self.system.layout();
         let size = |row: usize| self.way(motion, row);
         let count = self.coordinate_count();
@@ -184,8 +184,7 @@ impl LinearModel<'_> {
             }
         }
         let more = rows.len().saturating_sub(MAX_LISTED);
-        let named: Vec<String> = rows.iter().take(MAX_LISTED).map(|&row| layout.name_of(row)).collect();
-        let named = named.join(", ");
-        if more > 0 { format!("{named} and {more} more") } else { named }
+        let named = Subject::list(rows.iter().take(MAX_LISTED).map(|&row| layout.subject_of(row)).collect());
+        if more > 0 { named.clone().called(format!("{named} and {more} more")) } else { named }
     }
 }

@@ -118,7 +118,7 @@ impl LinearModel<'_> {
             self.system.switches(at, values);
         }
         let which = a.iter().zip(&b).position(|(a, b)| (*a > 0.0) != (*b > 0.0))?;
-        Some(self.system.name_of_switch(which))
+        Some(self.system.name_of_switch(which).to_string())
     }
 
     /// Forces of all rows, and violations of the constraints.

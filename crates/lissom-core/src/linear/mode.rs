@@ -1,5 +1,6 @@
 //! Natural modes: options, results and errors.
 
+use crate::diagnostics::{Diagnose, Diagnostic};
 use num_complex::Complex64;
 
 use super::model::LinearError;
@@ -119,6 +120,15 @@ pub enum ModeError {
         "the search for modes did not converge; ask for fewer modes, or for those near another frequency by `shift`"
     )]
     NotConverged,
+}
+
+impl Diagnose for ModeError {
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::Linear(error) => error.diagnostic(),
+            _ => Diagnostic::uncatalogued(self),
+        }
+    }
 }
 
 impl Mode {

@@ -1,5 +1,6 @@
 //! Mass, damping, stiffness and constraints of a system at a state, as sparse values on the tangent's pattern.
 
+use crate::diagnostics::{Diagnose, Diagnostic};
 use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector3, Vector6, lie_bracket_matrix};
@@ -14,7 +15,7 @@ use crate::analysis::InitialError;
 use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::interrupt::{self, Interrupted};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
-use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity, Subject};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
@@ -63,7 +64,7 @@ pub enum LinearError {
         /// Time of the state [s].
         time: f64,
         /// Name of the unknown.
-        unknown: String,
+        unknown: Subject,
         /// The pivot, relative to the terms it is made of; not a number if it is not finite.
         pivot: f64,
     },
@@ -78,6 +79,24 @@ pub enum LinearError {
     /// It was interrupted.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
+}
+
+impl Diagnose for LinearError {
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::Rolls { joint } => Diagnostic::uncatalogued(self).about(Subject::new("joint", joint)),
+            Self::Latched { coordinate } => {
+                Diagnostic::uncatalogued(self).about(Subject::new("coordinate", coordinate))
+            }
+            Self::Factor { time, unknown, .. } => {
+                Diagnostic::uncatalogued(self).at(*time).about(unknown.clone())
+            }
+            Self::Accelerations { time, error } => {
+                error.diagnostic().within(&format!("the linear model at t = {time:.6e} s")).at(*time)
+            }
+            Self::Sampled | Self::Interrupted(_) => Diagnostic::uncatalogued(self),
+        }
+    }
 }
 
 /// Coefficients of the linearised equations, each on the values of the tangent's pattern.
@@ -328,7 +347,7 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
         FactorError::ZeroPivot { unknown, pivot, largest } => (unknown, pivot / largest),
         FactorError::NotFinite { unknown } => (unknown, f64::NAN),
     };
-    LinearError::Factor { time, unknown: system.layout().name_of(unknown), pivot }
+    LinearError::Factor { time, unknown: system.layout().subject_of(unknown), pivot }
 }
 
 /// Whether nothing moves; rates of impulses are forces.

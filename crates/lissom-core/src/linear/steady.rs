@@ -9,6 +9,7 @@
 //!
 //! with a small s, so that free rotations have no share in the corrections.
 
+use crate::diagnostics::{Diagnose, Diagnostic};
 use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
 use lissom_solver::SolverKind;
 use num_complex::Complex64;
@@ -62,6 +63,15 @@ pub enum SteadyError {
          speed there may be none, or the velocities at the start are no steady rotation"
     )]
     NotConverged(f64),
+}
+
+impl Diagnose for SteadyError {
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::Linear(error) => error.diagnostic(),
+            _ => Diagnostic::uncatalogued(self),
+        }
+    }
 }
 
 /// The state of steady rotation with the velocities of `state`, which the constraints may correct.

@@ -156,7 +156,7 @@ impl Monitor for Resolution {
                 Some(Warning::Unresolved { time, unknown, .. }) => (*time, Some(unknown.clone())),
                 _ => (end.time, None),
             };
-            let unknown = unknown.filter(|_| !is_pair).unwrap_or_else(|| system.layout().name_of(row));
+            let unknown = unknown.filter(|_| !is_pair).unwrap_or_else(|| system.layout().subject_of(row));
             Some(Warning::Unresolved { time, error: part, unknown })
         });
     }

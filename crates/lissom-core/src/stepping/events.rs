@@ -2,6 +2,7 @@
 
 use super::event_detector::LocatedRoot;
 use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
+use crate::kinematics::Subject;
 use crate::signals::event::Occurrence;
 
 /// What becomes of an attempt that has a solution.
@@ -126,7 +127,7 @@ impl Simulation {
         let events = self.system.signals().events();
         let what = events.get(which).map_or_else(
             || self.system.name_of_switch(which - events.len()),
-            |event| format!("event `{}`", event.name),
+            |event| Subject::new("event", &event.name),
         );
         StepError::Chatters { time: self.state.kinematics.time, what }
     }

@@ -19,7 +19,7 @@ use crate::scaling::Scaled;
 use crate::system::State;
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 14;
+const VERSION: u32 = 15;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

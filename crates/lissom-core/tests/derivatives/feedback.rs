@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
-use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
+use lissom_core::kinematics::{CoordinateId, NodeId, Quantity, Subject};
 use lissom_core::registry::{Constant, ParameterType, Value};
 use lissom_core::signals::coordinate::{self, Coordinate};
 use lissom_core::signals::point::{self, Point};
@@ -35,7 +35,7 @@ impl SignalFunction for Waves {
 
 fn signal(arguments: Vec<Argument>, sampling: Option<Sampling>) -> Signal {
     Signal {
-        name: "waves".to_owned(),
+        subject: Subject::new("signal", "waves").called("waves"),
         text: "waves".to_owned(),
         function: Arc::new(Waves),
         arguments,

@@ -18,7 +18,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId, Subject};
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -85,7 +85,7 @@ pub trait AnyBatch: Send + Sync {
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
     /// Appends where each switch acts, in words.
-    fn name_switches(&self, layout: &Layout, out: &mut Vec<String>);
+    fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>);
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
     /// What goes furthest beyond the range of an element's linear law.
@@ -414,13 +414,14 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.iter().for_each(|item| item.switches(at, out));
     }
 
-    fn name_switches(&self, layout: &Layout, out: &mut Vec<String>) {
+    fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>) {
         for item in &self.items {
             let coordinates = item.coordinates().iter().map(|&own| layout.coordinate_names[own].as_str());
             let places: Vec<&str> =
                 coordinates.chain(item.nodes().iter().map(|&node| layout.name_of_node(node))).collect();
-            let name = format!("the force on `{}`", places.join("` and `"));
-            out.extend(std::iter::repeat_n(name, item.switch_count()));
+            let words = format!("the force on `{}`", places.join("` and `"));
+            let subject = Subject::new("", places.first().copied().unwrap_or_default()).called(words);
+            out.extend(std::iter::repeat_n(subject, item.switch_count()));
         }
     }
 

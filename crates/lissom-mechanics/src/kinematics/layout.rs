@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::motion::{CoordinateId, NodeId};
+use super::subject::Subject;
 use crate::kinematics::Quantity;
 
 /// Marks a freedom that is locked: it has no row.
@@ -150,17 +151,24 @@ impl Layout {
 
     /// Name of the unknown in `row`, as a person would call it.
     pub fn name_of(&self, row: usize) -> String {
+        self.subject_of(row).to_string()
+    }
+
+    /// The unknown in `row`, for messages.
+    pub fn subject_of(&self, row: usize) -> Subject {
         const FREEDOMS: [&str; 6] =
             ["translation 1", "translation 2", "translation 3", "rotation 1", "rotation 2", "rotation 3"];
         if row >= self.coordinate_count {
             return self.multiplier_names.get(row - self.coordinate_count).map_or_else(
-                || format!("unknown {row}"),
-                |(joint, equation)| format!("multiplier of joint `{joint}` ({equation})"),
+                || Subject::nameless(format!("unknown {row}")),
+                |(joint, equation)| {
+                    Subject::new("joint", joint).called(format!("multiplier of joint `{joint}` ({equation})"))
+                },
             );
         }
         for (node, rows) in self.node_rows.iter().enumerate() {
             if let Some(k) = rows.iter().position(|&r| r as usize == row && r != LOCKED) {
-                return format!("{} of node `{}`", FREEDOMS[k], self.node_names[node]);
+                return Subject::new("node", &self.node_names[node]).component(FREEDOMS[k]);
             }
         }
         for (coordinate, &r) in self.coordinate_rows.iter().enumerate() {
@@ -170,9 +178,9 @@ impl Layout {
                     Quantity::State => "state",
                     Quantity::Length | Quantity::Angle => "coordinate",
                 };
-                return format!("{what} `{}`", self.coordinate_names[coordinate]);
+                return Subject::new(what, &self.coordinate_names[coordinate]);
             }
         }
-        format!("unknown {row}")
+        Subject::nameless(format!("unknown {row}"))
     }
 }

@@ -7,6 +7,7 @@ mod layout;
 mod motion;
 mod quantity;
 pub mod step_stages;
+mod subject;
 pub mod work;
 
 pub use carried_frame::CarriedFrame;
@@ -17,3 +18,4 @@ pub use motion::{
 };
 pub use quantity::Quantity;
 pub use step_stages::StepStages;
+pub use subject::Subject;

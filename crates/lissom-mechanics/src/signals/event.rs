@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{Graph, HeldId, SignalId};
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Subject};
 
 /// Which way a signal passes through zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,12 +80,10 @@ impl Graph {
     }
 
     /// What each switch of a signal belongs to, in the order of the switches.
-    pub fn names_of_switches(&self) -> Vec<String> {
+    pub fn names_of_switches(&self) -> Vec<Subject> {
         let sampled_apart = self.signals.iter().filter(|signal| signal.sampling.is_none());
-        let names = |signal: &super::Signal| {
-            let name = format!("{} = {}", signal.name, signal.text);
-            std::iter::repeat_n(name, signal.function.switch_count())
-        };
+        let names =
+            |signal: &super::Signal| std::iter::repeat_n(signal.in_words(), signal.function.switch_count());
         sampled_apart.flat_map(names).collect()
     }
 

@@ -21,7 +21,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::instants;
-use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject};
 use measurement::Measurement;
 
 pub use crate::kinematics::HeldId;
@@ -78,8 +78,8 @@ pub struct Sampling {
 /// A signal of a system.
 #[derive(Clone, Debug)]
 pub struct Signal {
-    /// What messages call it.
-    pub name: String,
+    /// What messages are about: the signal, or the entry of which this is an expression.
+    pub subject: Subject,
     /// Its expression, for messages.
     pub text: String,
     /// How it is computed.
@@ -90,28 +90,22 @@ pub struct Signal {
     pub sampling: Option<Sampling>,
 }
 
+impl Signal {
+    /// The signal with its expression.
+    fn in_words(&self) -> Subject {
+        self.subject.clone().called(format!("{} = {}", self.subject, self.text))
+    }
+}
+
 /// A signal that is not finite.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "signal {name} = {text} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow; keep it \
-     within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
-)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SignalError {
-    /// Name of the signal.
-    pub name: String,
-    /// Its expression.
-    pub text: String,
+    /// The signal with its expression.
+    pub signal: Subject,
     /// What it comes to.
     pub value: f64,
     /// Time [s].
     pub time: f64,
-}
-
-impl SignalError {
-    /// Name of the signal, or of the load or joint that it belongs to, without the marks around it.
-    pub fn part(&self) -> &str {
-        self.name.rsplit('`').nth(1).unwrap_or(&self.name)
-    }
 }
 
 /// All signals of a system, each after those it names.
@@ -152,7 +146,7 @@ impl Graph {
 
     /// The signal called `name`.
     pub fn signal(&self, name: &str) -> Option<SignalId> {
-        self.signals.iter().position(|signal| signal.name == name)
+        self.signals.iter().position(|signal| signal.subject.kind == "signal" && signal.subject.name == name)
     }
 
     /// Whether any signal is sampled.
@@ -380,9 +374,8 @@ impl Graph {
         self.evaluate(at, |values| match values.iter().position(|value| !value.is_finite()) {
             None => Ok(()),
             Some(index) => {
-                let Signal { name, text, .. } = &self.signals[index];
-                let (name, text) = (name.clone(), text.clone());
-                Err(SignalError { name, text, value: values[index], time: at.time })
+                let signal = self.signals[index].in_words();
+                Err(SignalError { signal, value: values[index], time: at.time })
             }
         })
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build, JointKind};
-use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
+use lissom_core::kinematics::{CoordinateId, NodeId, Quantity, Subject};
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_core::signals::Argument;
 use lissom_core::signals::coordinate::Of;
@@ -73,12 +73,12 @@ pub(super) fn add(
 }
 
 /// Lets failures name the functions of time of a component.
-fn name_functions(what: &str, component: &Component, builder: &mut Builder) {
+fn name_functions(what: &'static str, component: &Component, builder: &mut Builder) {
     for (parameter, function) in
         component.parameters.functions().filter(|(_, function)| !function.is_constant())
     {
-        let words = format!("`{parameter}` of {what} `{}`", component.name.value);
-        builder.name_function(words, Function::clone(function));
+        let subject = Subject::new(what, &component.name.value).component(&format!("`{parameter}`"));
+        builder.name_function(subject, Function::clone(function));
     }
 }
 
@@ -332,8 +332,8 @@ fn element(
     let element = match &component.signal {
         None => builder.add_of_kind(kind, attached, parameters).map_err(fault)?,
         Some((key, formula)) => {
-            let name = format!("`{key}` of load `{}`", component.name.value);
-            let signal = super::signals::add_formula(document, builder, names, &name, formula)?;
+            let subject = Subject::new("load", &component.name.value).component(&format!("`{key}`"));
+            let signal = super::signals::add_formula(document, builder, names, &subject, formula)?;
             let load = (kind.build)(builder.model(), attached, parameters).map_err(fault)?;
             builder.add_driven(signal, load)
         }

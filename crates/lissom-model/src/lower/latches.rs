@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{self, Attached};
+use lissom_core::kinematics::Subject;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::signals::coordinate::{Coordinate, Of};
 use lissom_core::signals::event::{Direction, Event};
@@ -67,7 +68,7 @@ pub(super) fn add(
     let released = builder.add_held(&format!("{name}, released"), 0.0);
     let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {
         let signal = Signal {
-            name: format!("latch of joint `{name}`"),
+            subject: Subject::new("joint", name).component("latch"),
             text: String::new(),
             function,
             arguments: vec![Argument::Held(released)],
@@ -78,7 +79,7 @@ pub(super) fn add(
     if let Some(at) = &component.latch {
         let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
         let root = Signal {
-            name: format!("latch of joint `{name}`"),
+            subject: Subject::new("joint", name).component("latch"),
             text: format!("{name} - {}", at.value),
             function: Arc::new(Line { at_zero: -at.value, slope: 1.0 }),
             arguments: vec![Argument::Measured(measured)],
@@ -91,7 +92,7 @@ pub(super) fn add(
         builder.add_event(event).map_err(fault)?;
     }
     if let Some(release) = &component.release {
-        let what = format!("`release` of joint `{name}`");
+        let what = Subject::new("joint", name).component("`release`");
         let root = super::signals::add_formula(document, builder, names, &what, release)?;
         let constant = |value| Arc::new(Line { at_zero: value, slope: 0.0 });
         let sets =

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{CoordinateId, Quantity};
+use lissom_core::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_core::signals::coordinate::{Coordinate, Of};
 use lissom_core::signals::event::Event;
 use lissom_core::signals::{Argument, HeldId, Sampling, Signal, SignalId};
@@ -57,8 +57,8 @@ pub(super) fn add(
         return;
     }
     for (state, coordinate) in sorted_states.into_iter().zip(states) {
-        let name = format!("`derivative` of state `{}`", state.name.value);
-        match add_formula(document, builder, names, &name, &state.derivative) {
+        let subject = Subject::new("state", &state.name.value).component("`derivative`");
+        match add_formula(document, builder, names, &subject, &state.derivative) {
             Ok(signal) => builder.drive_state(coordinate, signal),
             Err(problem) => problems.push(problem),
         }
@@ -76,11 +76,12 @@ fn add_event(
     names: &mut Names,
     entry: &EventEntry,
 ) -> Result<(), Problem> {
-    let what = format!("`zero_of` of event `{}`", entry.name.value);
+    let event = Subject::new("event", &entry.name.value);
+    let what = event.clone().component("`zero_of`");
     let root = add_formula(document, builder, names, &what, &entry.zero_of)?;
     let mut sets = Vec::new();
     for (input, becomes) in &entry.set {
-        let what = format!("`set.{}` of event `{}`", input.value, entry.name.value);
+        let what = event.clone().component(&format!("`set.{}`", input.value));
         let signal = add_formula(document, builder, names, &what, becomes)?;
         if let Some(&Argument::Held(held)) = names.signals.get(&input.value) {
             sets.push((held, signal));
@@ -144,8 +145,14 @@ fn add_signal(
 ) -> Result<(), Problem> {
     let name = &entry.name.value;
     let own = entry.sampling.map(|(period, start)| Sampling { held: builder.add_held(name, start), period });
-    let (signal, line) =
-        formula(document, builder, names, (name, &entry.value), own.map(|own| (name.as_str(), own.held)))?;
+    let subject = Subject::new("signal", name).called(name);
+    let (signal, line) = formula(
+        document,
+        builder,
+        names,
+        (&subject, &entry.value),
+        own.map(|own| (name.as_str(), own.held)),
+    )?;
     let signal = builder
         .add_signal(Signal { sampling: own, ..signal })
         .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
@@ -155,15 +162,15 @@ fn add_signal(
     Ok(())
 }
 
-/// Adds an expression that has no name in the model file as a signal; messages call it `name`.
+/// Adds an expression that has no name in the model file as a signal; messages are about `subject`.
 pub(super) fn add_formula(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
-    name: &str,
+    subject: &Subject,
     expression: &Located<Formula>,
 ) -> Result<SignalId, Problem> {
-    let (signal, _) = formula(document, builder, names, (name, expression), None)?;
+    let (signal, _) = formula(document, builder, names, (subject, expression), None)?;
     builder.add_signal(signal).map_err(|error| Problem::error(expression.span, error.to_string()))
 }
 
@@ -172,14 +179,14 @@ fn formula(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
-    (name, expression): (&str, &Located<Formula>),
+    (subject, expression): (&Subject, &Located<Formula>),
     own: Option<(&str, HeldId)>,
 ) -> Result<(Signal, Line), Problem> {
     let mut arguments = Vec::new();
     for argument in expression.value.arguments() {
         arguments.push(match own {
             Some((name, held)) if name == argument.text => Argument::Held(held),
-            _ => resolve(document, builder, names, (name, expression), argument)?,
+            _ => resolve(document, builder, names, (subject, expression), argument)?,
         });
     }
     let line = |argument: &Argument| match argument {
@@ -190,7 +197,7 @@ fn formula(
     let function = OverTime::new(expression.value.clone(), &lines);
     let line = function.line();
     let signal = Signal {
-        name: name.to_owned(),
+        subject: subject.clone(),
         text: expression.value.text().to_owned(),
         function: Arc::new(function),
         arguments,
@@ -204,7 +211,7 @@ fn resolve(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
-    (what, expression): (&str, &Located<Formula>),
+    (what, expression): (&Subject, &Located<Formula>),
     name: &Name,
 ) -> Result<Argument, Problem> {
     if let Some(&known) = names.signals.get(&name.text) {

@@ -43,11 +43,11 @@ impl Builder {
             Argument::Measured(measurement) => measurement < self.graph.measurements.len(),
         };
         if !signal.arguments.iter().all(is_there) {
-            return Err(ParameterError::new(&signal.name, "names what is not there yet"));
+            return Err(ParameterError::new(&signal.subject.to_string(), "names what is not there yet"));
         }
         if signal.arguments.len() > MAX_ARGUMENTS {
             let problem = format!("names more than {MAX_ARGUMENTS} quantities");
-            return Err(ParameterError::new(&signal.name, problem));
+            return Err(ParameterError::new(&signal.subject.to_string(), problem));
         }
         self.graph.signals.push(signal);
         Ok(next)

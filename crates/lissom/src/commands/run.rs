@@ -11,7 +11,7 @@ use clap::Args;
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::{
-    Checkpoint, CheckpointEvery, CheckpointFile, Document, FolderError, Model, Override, Progress,
+    Checkpoint, CheckpointEvery, CheckpointFile, Diagnose, Document, FolderError, Model, Override, Progress,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_model::document::AnalysisKind;
@@ -152,7 +152,7 @@ impl Run {
                     folder.write_summary(&summary).map_err(unwritable)?;
                     String::new()
                 };
-                return Err(Failure::new(Exit::Failed, format!("{error}{kept}")));
+                return Err(Failure::new(Exit::Failed, format!("{error}{kept}{}", explained(&error))));
             }
         };
         session.cancel_by(interrupt.flag());
@@ -273,9 +273,17 @@ impl Run {
                 }
                 Ok(Exit::Interrupted)
             }
-            Stopped::Failed(error) => Err(Failure::new(Exit::Failed, format!("{error}\n  {saved}"))),
+            Stopped::Failed(error) => {
+                Err(Failure::new(Exit::Failed, format!("{error}\n  {saved}{}", explained(error))))
+            }
         }
     }
+}
+
+/// Where an error is explained, as a line below its message.
+fn explained(error: &impl Diagnose) -> String {
+    let code = error.diagnostic().code;
+    code.map(|code| format!("\n  `lissom explain {code}` explains it")).unwrap_or_default()
 }
 
 impl Task {

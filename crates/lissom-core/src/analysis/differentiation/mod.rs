@@ -26,7 +26,7 @@ use lissom_motion::{Block, WIDTH};
 
 use super::StepError;
 use super::simulation::Simulation;
-use crate::kinematics::Quantity;
+use crate::kinematics::{Quantity, Subject};
 use crate::round_off;
 use crate::schemes::Tableau;
 use crate::system::{ParameterDifference, State};
@@ -229,7 +229,7 @@ fn step(
                 time: base.state.kinematics.time,
                 iterations: made,
                 correction: sizes.iter().fold(0.0, |most, size| size.max(most)),
-                worst: "derivatives of the motion".to_owned(),
+                worst: Subject::nameless("derivatives of the motion"),
                 hint: "the tangent of the step does not serve its derivatives: choose a smaller step",
             });
         }

@@ -6,6 +6,7 @@
 use super::equations::Condition;
 use super::{CriticalKind, CriticalPoint, EquilibriumPath, PathError, PathStep, Solution, Tangent};
 use crate::analysis::StepError;
+use crate::kinematics::Subject;
 use crate::system::State;
 
 /// First distances ε that are tried, in their order [-].
@@ -100,7 +101,7 @@ impl EquilibriumPath {
             time: start.kinematics.time,
             iterations: 0,
             correction: 0.0,
-            worst: "the mode of the bifurcation".to_owned(),
+            worst: Subject::nameless("the mode of the bifurcation"),
             hint: "take a smaller `step`",
         }))
     }

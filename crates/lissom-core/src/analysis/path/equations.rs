@@ -480,7 +480,7 @@ impl PathEquations<'_> {
         let scaled = |row: usize| (work.sizes[row] * work.last.rows[row]).abs();
         let worst = || {
             let largest = (0..work.sizes.len()).max_by(|&a, &b| scaled(a).total_cmp(&scaled(b)));
-            layout.name_of(largest.unwrap_or(0))
+            layout.subject_of(largest.unwrap_or(0))
         };
         let hint = NO_STEP_HELPS;
         match *failure {
@@ -493,12 +493,12 @@ impl PathEquations<'_> {
             Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
                 time,
                 pivot,
-                unknown: layout.name_of(unknown),
+                unknown: layout.subject_of(unknown),
                 hint: pivot_hint(unknown, layout, self.settings.scaling.augmented),
                 after_pivoting: false,
             },
             Failure::Factor(FactorError::NotFinite { unknown }) => {
-                StepError::NotFinite { time, iterations: 0, worst: layout.name_of(unknown), hint }
+                StepError::NotFinite { time, iterations: 0, worst: layout.subject_of(unknown), hint }
             }
             Failure::Interrupted => StepError::Interrupted { time },
         }

@@ -11,12 +11,13 @@ mod critical;
 mod equations;
 mod systems;
 
+use crate::diagnostics::{Diagnose, Diagnostic};
 use std::sync::Arc;
 
 use lissom_solver::SolverKind;
 
 use super::StepError;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Subject};
 use crate::newton::{self, JacobianState, Limits};
 use crate::scaling::ScalingChoice;
 use crate::stepping::ArcControl;
@@ -197,6 +198,17 @@ pub enum PathError {
         /// Load factor at which it should end.
         end: f64,
     },
+}
+
+impl Diagnose for PathError {
+    fn diagnostic(&self) -> Diagnostic {
+        match self {
+            Self::Start(error) | Self::StartAlong { error, .. } | Self::Lost { error, .. } => {
+                error.diagnostic()
+            }
+            _ => Diagnostic::uncatalogued(self),
+        }
+    }
 }
 
 /// What the path does at an equilibrium.
@@ -439,7 +451,7 @@ impl EquilibriumPath {
                     time: self.state.kinematics.time,
                     iterations: 0,
                     correction: 0.0,
-                    worst: "the path turns at once".to_owned(),
+                    worst: Subject::nameless("the path turns at once"),
                     hint: "take a smaller `step`",
                 };
                 let error = error.unwrap_or(bent);

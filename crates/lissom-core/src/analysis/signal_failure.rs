@@ -1,0 +1,33 @@
+//! The failure of a signal, which mechanics finds and the catalogue explains.
+
+use crate::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
+use crate::signals::SignalError;
+
+/// Its entry of the catalogue.
+pub(crate) const ENTRY: Entry = Entry {
+    code: "signal-not-finite",
+    variant: "SignalError",
+    severity: Severity::Failure,
+    message: "signal {signal} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow",
+    meaning: "A signal is not finite: a root of a negative number, a division by zero.",
+    advice: "Restrict the argument, for example by `max(…, 0)` or `clamp`, or end the run before.",
+};
+
+impl Diagnose for SignalError {
+    fn diagnostic(&self) -> Diagnostic {
+        let Self { signal, value, time } = self;
+        Diagnostic {
+            code: Some(ENTRY.code),
+            severity: ENTRY.severity,
+            time: Some(*time),
+            subject: Some(signal.clone()),
+            values: vec![("value", Value::Number(*value))],
+            cause: format!(
+                "signal {signal} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow"
+            ),
+            remedy:
+                "keep it within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
+                    .to_owned(),
+        }
+    }
+}

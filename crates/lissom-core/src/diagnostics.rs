@@ -1,0 +1,356 @@
+//! Diagnostics: what warnings and failures consist of, and the table of their codes.
+//!
+//! An enumeration in [`diagnostics!`] is a part of the catalogue: each variant states, in one place, its values, code, time,
+//! subject, cause, remedy and explanation. A new warning is a new variant.
+
+use std::fmt::{self, Display};
+
+use crate::kinematics::Subject;
+
+/// How severe a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// A result may be inaccurate.
+    Warning,
+    /// There is no result.
+    Failure,
+}
+
+/// A code with its explanation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Short name for scripts.
+    pub code: &'static str,
+    /// Name of the variant.
+    pub variant: &'static str,
+    /// Whether it is a warning.
+    pub severity: Severity,
+    /// Its message, with names of values in braces.
+    pub message: &'static str,
+    /// What it means.
+    pub meaning: &'static str,
+    /// What to do, in general.
+    pub advice: &'static str,
+}
+
+/// A value of a diagnostic, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A number of things.
+    Count(usize),
+    /// Yes or no.
+    Flag(bool),
+    /// Words or a name.
+    Text(String),
+}
+
+/// A warning or failure, for programs. It is rendered as "cause; remedy".
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Its code, if it is an entry of the catalogue.
+    pub code: Option<&'static str>,
+    /// Whether it is a warning.
+    pub severity: Severity,
+    /// Time [s], where there is one.
+    pub time: Option<f64>,
+    /// What it is about.
+    pub subject: Option<Subject>,
+    /// Values by name, without the time.
+    pub values: Vec<(&'static str, Value)>,
+    /// What happened, and why.
+    pub cause: String,
+    /// What to try; may be empty.
+    pub remedy: String,
+}
+
+/// What is a warning or failure.
+pub trait Diagnose {
+    /// Its code, time, subject, values, cause and remedy.
+    fn diagnostic(&self) -> Diagnostic;
+}
+
+impl Diagnostic {
+    /// The failure of an analysis that has no entry in the catalogue: a sentence with a remedy after its first semicolon.
+    pub fn uncatalogued(sentence: &dyn Display) -> Self {
+        let sentence = sentence.to_string();
+        let (cause, remedy) = sentence.split_once("; ").unwrap_or((&sentence, ""));
+        Self {
+            code: None,
+            severity: Severity::Failure,
+            time: None,
+            subject: None,
+            values: Vec::new(),
+            cause: cause.to_owned(),
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// The same about an entry.
+    #[must_use]
+    pub fn about(self, subject: Subject) -> Self {
+        Self { subject: Some(subject), ..self }
+    }
+
+    /// The same, in a wider context: `context` precedes the cause.
+    #[must_use]
+    pub fn within(self, context: &str) -> Self {
+        Self { cause: format!("{context}: {}", self.cause), ..self }
+    }
+
+    /// The same at the time [s] of what it is a part of.
+    #[must_use]
+    pub fn at(self, time: f64) -> Self {
+        Self { time: Some(time), ..self }
+    }
+
+    /// Name of the entry that it is about.
+    pub fn part(&self) -> Option<&str> {
+        self.subject.as_ref().and_then(Subject::entry)
+    }
+
+    /// What to try, if anything is known.
+    pub fn remedy(&self) -> Option<&str> {
+        Some(self.remedy.as_str()).filter(|remedy| !remedy.is_empty())
+    }
+}
+
+impl Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.cause)?;
+        self.remedy().map_or(Ok(()), |remedy| write!(f, "; {remedy}"))
+    }
+}
+
+macro_rules! value_from {
+    ($($type:ty, $own:ident => $value:expr;)*) => {
+        $(impl From<&$type> for Value {
+            fn from($own: &$type) -> Self {
+                $value
+            }
+        })*
+    };
+}
+
+value_from! {
+    f64, own => Self::Number(*own);
+    usize, own => Self::Count(*own);
+    bool, own => Self::Flag(*own);
+    String, own => Self::Text(own.clone());
+    &'static str, own => Self::Text((*own).to_owned());
+    Subject, own => Self::Text(own.to_string());
+    [String; 2], own => Self::Text(own.join(", "));
+}
+
+/// Defines an enumeration of warnings or failures with its entries of the catalogue.
+///
+/// After the values of a variant, by reference: its code, its time and subject where it has them, the message with its
+/// arguments, the remedy, and for the catalogue what it means and what to do. A section `wraps` has variants that contain another
+/// diagnostic, of which they are made.
+macro_rules! diagnostics {
+    (
+        $(#[$meta:meta])*
+        $severity:ident $name:ident {
+            $(
+                $(#[$doc:meta])*
+                $variant:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* } => $code:literal {
+                    $(time: $time:expr,)?
+                    $(subject: $subject:expr,)?
+                    cause: ($message:literal $(, $argument:expr)*),
+                    remedy: $remedy:literal,
+                    meaning: $meaning:literal,
+                    advice: $advice:literal,
+                }
+            )*
+        }
+        $(wraps {
+            $(
+                $(#[$wrap_doc:meta])*
+                $wrap:ident $wrapped:tt, $pattern:tt => $made:expr,
+            )*
+        })?
+    ) => {
+        $(#[$meta])*
+        pub enum $name {
+            $($(#[$doc])* $variant { $($(#[$field_doc])* $field: $type,)* },)*
+            $($($(#[$wrap_doc])* $wrap $wrapped,)*)?
+        }
+
+        impl $name {
+            /// Their entries of the catalogue.
+            pub const ENTRIES: &'static [$crate::diagnostics::Entry] = &[
+                $($crate::diagnostics::Entry {
+                    code: $code,
+                    variant: concat!(stringify!($name), "::", stringify!($variant)),
+                    severity: $crate::diagnostics::Severity::$severity,
+                    message: $message,
+                    meaning: $meaning,
+                    advice: $advice,
+                },)*
+            ];
+
+            /// A short name for scripts.
+            pub fn code(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => $code,)*
+                    $($(Self::$wrap { .. } => {
+                        $crate::diagnostics::Diagnose::diagnostic(self).code.unwrap_or_default()
+                    })*)?
+                }
+            }
+
+            /// One of each variant that wraps nothing.
+            #[cfg(test)]
+            pub(crate) fn samples() -> Vec<Self> {
+                use $crate::diagnostics::tests::Sample;
+                vec![$(Self::$variant { $($field: Sample::sample(),)* },)*]
+            }
+        }
+
+        impl $crate::diagnostics::Diagnose for $name {
+            fn diagnostic(&self) -> $crate::diagnostics::Diagnostic {
+                match self {
+                    $(Self::$variant { $($field),* } => {
+                        let values = [$((stringify!($field), $crate::diagnostics::Value::from($field))),*];
+                        $crate::diagnostics::Diagnostic {
+                            code: Some($code),
+                            severity: $crate::diagnostics::Severity::$severity,
+                            time: [$($time)?].into_iter().next().filter(|time: &f64| time.is_finite()),
+                            subject: [$($crate::kinematics::Subject::from($subject))?].into_iter().next(),
+                            values: values.into_iter().filter(|(name, _)| *name != "time").collect(),
+                            cause: format!($message $(, $argument)*),
+                            remedy: format!($remedy),
+                        }
+                    })*
+                    $($(Self::$wrap $pattern => $made,)*)?
+                }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                std::fmt::Display::fmt(&$crate::diagnostics::Diagnose::diagnostic(self), f)
+            }
+        }
+
+        impl std::error::Error for $name {}
+    };
+}
+
+pub(crate) use diagnostics;
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::analysis::{InitialError, InputError, StepError};
+    use crate::judge::Warning;
+
+    /// A name with everything that sentences are divided by.
+    const NAME: &str = "a`; b` = c: d";
+
+    /// A value for any field.
+    pub(crate) trait Sample {
+        fn sample() -> Self;
+    }
+
+    macro_rules! sample {
+        ($($type:ty => $value:expr;)*) => {
+            $(impl Sample for $type {
+                fn sample() -> Self {
+                    $value
+                }
+            })*
+        };
+    }
+
+    sample! {
+        f64 => 0.25;
+        usize => 3;
+        bool => true;
+        String => NAME.to_owned();
+        &'static str => "try this";
+        Subject => Subject::new("node", NAME).component("translation 1");
+        [String; 2] => [NAME.to_owned(), "other".to_owned()];
+    }
+
+    /// All diagnostics that wrap no other one.
+    fn all() -> Vec<Diagnostic> {
+        fn of<E: Diagnose>(samples: &[E]) -> impl Iterator<Item = Diagnostic> {
+            samples.iter().map(E::diagnostic)
+        }
+        let signal = crate::signals::SignalError {
+            signal: Subject::new("signal", NAME).called(format!("{NAME} = 1/t")),
+            value: f64::INFINITY,
+            time: 0.25,
+        };
+        of(&Warning::samples())
+            .chain(of(&StepError::samples()))
+            .chain(of(&InitialError::samples()))
+            .chain(of(&InputError::samples()))
+            .chain([signal.diagnostic()])
+            .collect()
+    }
+
+    #[test]
+    fn every_code_has_an_entry_and_every_entry_a_code() {
+        let codes: Vec<&str> = crate::catalogue::entries().map(|entry| entry.code).collect();
+        let made: Vec<&str> = all().iter().map(|diagnostic| diagnostic.code.unwrap()).collect();
+        assert_eq!(made, codes);
+        let distinct: std::collections::BTreeSet<&str> = codes.iter().copied().collect();
+        assert_eq!(distinct.len(), codes.len(), "{codes:?}");
+        for entry in crate::catalogue::entries() {
+            let is_word = |c: char| c.is_ascii_lowercase() || c == '-';
+            assert!(entry.code.chars().all(is_word), "{}", entry.code);
+            let [meaning, advice] = [entry.meaning, entry.advice];
+            assert!(meaning.ends_with('.') && advice.ends_with('.'), "{}", entry.code);
+            assert!(!meaning.contains(" | ") && !advice.contains(" | "), "{}", entry.code);
+        }
+    }
+
+    #[test]
+    fn every_diagnostic_has_time_subject_and_remedy() {
+        // What concerns the whole model has no subject, what precedes a motion no time.
+        let without_subject = [
+            "energy-surplus",
+            "unstable-equilibrium",
+            "relaxed-equilibrium",
+            "jump",
+            "unresolved-rates",
+            "reactions-not-unique",
+            "model",
+            "time-not-finite",
+            "interrupted",
+            "normal-forces",
+        ];
+        let without_time =
+            ["velocity-replaced", "starts-with-jolt", "reactions-not-unique", "model", "time-not-finite"];
+        let without_remedy = ["model", "interrupted"];
+        let codes_of_starts: Vec<&str> =
+            InitialError::ENTRIES.iter().chain(InputError::ENTRIES).map(|entry| entry.code).collect();
+        for diagnostic in all() {
+            let code = diagnostic.code.unwrap();
+            let part = (!without_subject.contains(&code)).then_some(NAME);
+            assert_eq!(diagnostic.part(), part, "{code}");
+            let has_time = !without_time.contains(&code) && !codes_of_starts.contains(&code);
+            assert_eq!(diagnostic.time, has_time.then_some(0.25), "{code}");
+            assert_eq!(diagnostic.remedy().is_some(), !without_remedy.contains(&code), "{code}");
+            assert!(!diagnostic.values.iter().any(|(name, _)| *name == "time"), "{code}");
+            let text = diagnostic.to_string();
+            assert!(text.starts_with(&diagnostic.cause) && text.ends_with(&diagnostic.remedy), "{code}");
+        }
+    }
+
+    #[test]
+    fn what_wraps_a_diagnostic_adds_to_it() {
+        let step = StepError::TurnsTooFar { time: 0.5, node: NAME.to_owned(), angle: 2.0 };
+        let initial = InitialError::Wrapped(Box::new(step.clone()));
+        assert_eq!(initial.to_string(), format!("at the start: {step}"));
+        let again = StepError::Velocities { time: 0.75, error: initial };
+        let diagnostic = again.diagnostic();
+        assert_eq!((again.code(), diagnostic.time), ("rotation-per-step", Some(0.75)));
+        assert_eq!((diagnostic.part(), &diagnostic.remedy), (Some(NAME), &step.diagnostic().remedy));
+        let never = StepError::Interrupted { time: f64::NAN };
+        assert_eq!(never.diagnostic().time, None, "a time that is not finite is none");
+    }
+}
