@@ -15,7 +15,9 @@ use lissom_core::system::{ElementId, State, System};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, translation_part};
 use nalgebra::DMatrix;
 
-use crate::document::{NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name};
+use crate::document::{
+    Feature, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, Subject, interface_name,
+};
 use crate::expression::Formula;
 use crate::lower::Deformed;
 use crate::observers::{Observer, Seen};
@@ -325,35 +327,7 @@ impl Channel {
     pub fn reports_rates(&self) -> bool {
         match &self.source {
             Source::Expression(_, arguments) => arguments.iter().any(|(channel, _)| channel.reports_rates()),
-            Source::Place(..) | Source::Observed { .. } => !matches!(
-                self.kind,
-                OutputKind::Position
-                    | OutputKind::Displacement
-                    | OutputKind::Rotation
-                    | OutputKind::Quaternion
-                    | OutputKind::CardanAngles
-                    | OutputKind::SectionForce
-                    | OutputKind::SectionMoment
-            ),
-            Source::RelativeMotion(_)
-            | Source::Accumulated(_)
-            | Source::Line(_)
-            | Source::Modal(_)
-            | Source::Recovered(..)
-            | Source::Signal(_) => false,
-            Source::Joint(..)
-            | Source::Contact(_)
-            | Source::Drive(_)
-            | Source::Coupling(_)
-            | Source::Slider(_)
-            | Source::Coordinates(_)
-            | Source::Accelerations(_)
-            | Source::FreeAccelerations(_)
-            | Source::Spring(..)
-            | Source::Power(_)
-            | Source::DrivePower(_)
-            | Source::Energy
-            | Source::Momentum => true,
+            _ => self.kind.has(Feature::Rates),
         }
     }
 
@@ -523,7 +497,7 @@ fn place(
         }
         NodeReference::Beam { beam, fraction } => {
             let line = names.lines.get(beam).ok_or_else(|| unknown(beam))?;
-            let of_section = matches!(output.kind, OutputKind::SectionForce | OutputKind::SectionMoment);
+            let of_section = output.kind.subject() == Subject::Section;
             if let Some(node) = line.node_at(*fraction).filter(|_| !of_section) {
                 // The node may be another part's: take the section's place, not the node's.
                 let index = line.nodes.iter().position(|&other| other == node).unwrap_or(0);

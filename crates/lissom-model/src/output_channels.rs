@@ -11,7 +11,8 @@ use crate::accumulated::{Actor, AngleAboutAxis, Work};
 use crate::channel_components::{component_position, components};
 use crate::channels::{Channel, Resolver, Source, source};
 use crate::document::{
-    AnalysisKind, Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name,
+    AnalysisKind, Document, Feature, NodeReference, Output, OutputKind, OutputSource, ReactionAxes,
+    interface_name,
 };
 use crate::expression::Formula;
 use crate::observers::Observer;
@@ -56,7 +57,7 @@ impl Made<'_> {
         let Self { system, drawn, state, names, .. } = *self;
         let source = match &output.source {
             OutputSource::Expression(formula) => self.expression(output, formula, path)?,
-            _ if output.kind.is_accumulated() => self.accumulated(output)?,
+            _ if output.kind.has(Feature::Accumulated) => self.accumulated(output)?,
             _ => source(output, system, (drawn, state), names)?,
         };
         let (components, units) = components(output.kind, &source, system);
@@ -101,7 +102,8 @@ impl Made<'_> {
     }
 
     fn observed(&self, output: &Output, inner: Source) -> Result<Source, Problem> {
-        if output.kind.is_accumulated() || (output.seen_in.is_none() && output.relative_to.is_none()) {
+        if output.kind.has(Feature::Accumulated) || (output.seen_in.is_none() && output.relative_to.is_none())
+        {
             return Ok(inner);
         }
         let observer =

@@ -6,8 +6,8 @@ use lissom_motion::Vector3;
 
 use super::decode::PARTS;
 use super::{
-    AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, OutputKind, OutputSource,
-    PointMass, Superelement, interface_name,
+    AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, OutputSource, PointMass,
+    Subject, Superelement, interface_name,
 };
 use crate::context::Context;
 use crate::line::Line;
@@ -67,7 +67,7 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
     for output in &document.outputs {
         let OutputSource::Node { node, .. } = &output.source else { continue };
         let NodeReference::Beam { beam: name, .. } = &node.value else { continue };
-        let is_of_section = matches!(output.kind, OutputKind::SectionForce | OutputKind::SectionMoment);
+        let is_of_section = output.kind.subject() == Subject::Section;
         let slider = document.joints.iter().find(|joint| match &joint.attachment {
             Attachment::AlongBeams { beams, .. } => beams.iter().any(|beam| beam.value == *name),
             _ => false,

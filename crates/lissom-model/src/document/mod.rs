@@ -14,6 +14,7 @@ mod events;
 mod initial;
 mod load_input;
 mod materials;
+mod output_kinds;
 mod outputs;
 pub(crate) mod part_tables;
 mod places;
@@ -43,7 +44,9 @@ pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
-pub use outputs::{Output, OutputKind, OutputSource, ReactionAxes};
+pub use output_kinds::OutputKind;
+pub(crate) use output_kinds::{Feature, Subject};
+pub use outputs::{Output, OutputSource, ReactionAxes};
 pub use signals::{SignalEntry, StateEntry};
 pub use tables::VERSION;
 

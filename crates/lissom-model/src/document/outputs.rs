@@ -4,6 +4,7 @@ use lissom_motion::Vector3;
 
 use super::NodeReference;
 use super::decode::each_of_kind;
+use super::output_kinds::{Feature, OutputKind, Subject};
 use crate::context::Context;
 use crate::expression::Formula;
 use crate::reader::Reader;
@@ -12,253 +13,6 @@ use crate::report::Located;
 use crate::suggest;
 use crate::sweep::Fatigue;
 use crate::text::Node;
-
-/// A recorded quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OutputKind {
-    /// Place of a node or of a point it carries [m].
-    Position,
-    /// Change of place since the start [m].
-    Displacement,
-    /// Rotation vector since the start [rad].
-    Rotation,
-    /// Velocity [m/s], global axes.
-    Velocity,
-    /// Angular velocity [rad/s], global axes.
-    AngularVelocity,
-    /// Acceleration [m/s²], global axes.
-    Acceleration,
-    /// Axial and shear forces in a beam [N], local axes.
-    SectionForce,
-    /// Torsion and bending moments in a beam [N m], local axes.
-    SectionMoment,
-    /// Force and moment of a joint on its tip [N, N m], global axes.
-    Reaction,
-    /// Relative coordinate of a joint [rad or m].
-    Relative,
-    /// Second derivative of a joint's relative coordinates [rad/s² or m/s²].
-    RelativeAcceleration,
-    /// Place [m] and rotation vector [rad] of a joint's tip frame in its base frame.
-    RelativeMotion,
-    /// Where a wheel touches its rail, and what acts there.
-    Contact,
-    /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
-    Spring,
-    /// Power that a spring, load, drive or friction puts into the model [W].
-    Power,
-    /// Work that a spring, load, drive or friction has put into the model since the start [J].
-    Work,
-    /// Angle of a node about an axis, continued beyond half a turn [rad].
-    Angle,
-    /// Places of all nodes of a beam [m].
-    Line,
-    /// Energies of the whole model [J].
-    Energy,
-    /// Modal coordinates of a superelement and their rates.
-    Modal,
-    /// What the recovery matrix of a superelement makes of its deformation.
-    Recovered,
-    /// A signal, an input or a state.
-    Signal,
-    /// An expression of other outputs.
-    Expression,
-    /// Orientation of a node as a unit quaternion.
-    Quaternion,
-    /// Orientation of a node as Cardan angles [rad].
-    CardanAngles,
-    /// Momentum and angular momentum of the whole model about the origin [N s, N m s], global axes.
-    Momentum,
-}
-
-impl OutputKind {
-    /// All of them, in the order of the manual.
-    pub const ALL: [Self; 26] = [
-        Self::Position,
-        Self::Displacement,
-        Self::Rotation,
-        Self::Quaternion,
-        Self::CardanAngles,
-        Self::Angle,
-        Self::Velocity,
-        Self::AngularVelocity,
-        Self::Acceleration,
-        Self::SectionForce,
-        Self::SectionMoment,
-        Self::Line,
-        Self::Modal,
-        Self::Recovered,
-        Self::Reaction,
-        Self::Relative,
-        Self::RelativeAcceleration,
-        Self::RelativeMotion,
-        Self::Contact,
-        Self::Spring,
-        Self::Power,
-        Self::Work,
-        Self::Energy,
-        Self::Momentum,
-        Self::Signal,
-        Self::Expression,
-    ];
-
-    /// Word in the model file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Position => "position",
-            Self::Displacement => "displacement",
-            Self::Rotation => "rotation",
-            Self::Velocity => "velocity",
-            Self::AngularVelocity => "angular_velocity",
-            Self::Acceleration => "acceleration",
-            Self::SectionForce => "section_force",
-            Self::SectionMoment => "section_moment",
-            Self::Reaction => "reaction",
-            Self::Relative => "relative",
-            Self::RelativeAcceleration => "relative_acceleration",
-            Self::RelativeMotion => "relative_motion",
-            Self::Contact => "contact",
-            Self::Spring => "spring",
-            Self::Power => "power",
-            Self::Work => "work",
-            Self::Angle => "angle",
-            Self::Line => "line",
-            Self::Modal => "modal",
-            Self::Recovered => "recovered",
-            Self::Energy => "energy",
-            Self::Momentum => "momentum",
-            Self::Signal => "signal",
-            Self::Expression => "expression",
-            Self::Quaternion => "quaternion",
-            Self::CardanAngles => "cardan_angles",
-        }
-    }
-
-    /// One sentence.
-    pub fn summary(self) -> &'static str {
-        match self {
-            Self::Position => "Place of a node or of a point it carries.",
-            Self::Displacement => "Change of place since the start.",
-            Self::Rotation => "Rotation vector since the start.",
-            Self::Velocity => "Velocity of a node or of a point it carries.",
-            Self::AngularVelocity => "Angular velocity of a node.",
-            Self::Acceleration => "Acceleration of a node or of a point it carries.",
-            Self::SectionForce => "Axial and shear forces in a beam, local axes.",
-            Self::SectionMoment => "Torsion and bending moments in a beam, local axes.",
-            Self::Reaction => "Force and moment of a joint on its tip.",
-            Self::Relative => "Relative coordinate of a joint.",
-            Self::RelativeAcceleration => "Accelerations of a joint's relative coordinates.",
-            Self::RelativeMotion => {
-                "Place and rotation vector of a joint's tip frame, in the axes of its base frame."
-            }
-            Self::Contact => {
-                "Place of contact of a wheel on a rail, its normal force, creep forces and creepages."
-            }
-            Self::Spring => "Elongation or rotation of a spring, its rate, and its force or moment.",
-            Self::Power => {
-                "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model."
-            }
-            Self::Work => {
-                "Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model."
-            }
-            Self::Angle => "Angle of a node about an axis since the start, continued beyond half a turn.",
-            Self::Line => "Places of all nodes of a beam along its axis, from its start to its end.",
-            Self::Modal => {
-                "Modal coordinates of a superelement and their rates, in the units of its matrices."
-            }
-            Self::Recovered => {
-                "Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation."
-            }
-            Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
-            Self::Signal => "Value of a signal, an input or a state.",
-            Self::Expression => {
-                "Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and \
-                 states."
-            }
-            Self::Quaternion => "Axes of a node as a unit quaternion, q0 not negative.",
-            Self::CardanAngles => "Axes of a node as angles about x, the turned y and the twice turned z.",
-            Self::Momentum => "Momentum and angular momentum of the model about the origin, global axes.",
-        }
-    }
-
-    /// Whether it belongs to any node.
-    pub(crate) fn is_of_node(self) -> bool {
-        !(self.is_of_beam()
-            || self.is_of_joint()
-            || self.is_of_model()
-            || matches!(
-                self,
-                Self::Signal
-                    | Self::Spring
-                    | Self::Power
-                    | Self::Work
-                    | Self::Line
-                    | Self::Expression
-                    | Self::Modal
-                    | Self::Recovered
-            ))
-    }
-
-    /// Whether it belongs to the whole model.
-    pub(crate) fn is_of_model(self) -> bool {
-        matches!(self, Self::Energy | Self::Momentum)
-    }
-
-    /// Whether it belongs to a place on a beam.
-    pub(crate) fn is_of_beam(self) -> bool {
-        matches!(self, Self::SectionForce | Self::SectionMoment)
-    }
-
-    /// Whether it belongs to a joint.
-    pub(crate) fn is_of_joint(self) -> bool {
-        matches!(
-            self,
-            Self::Reaction
-                | Self::Relative
-                | Self::RelativeAcceleration
-                | Self::RelativeMotion
-                | Self::Contact
-        )
-    }
-
-    /// Whether it is a vector of a motion, which an observer may see otherwise.
-    pub(crate) fn is_of_motion(self) -> bool {
-        self.takes_point() || matches!(self, Self::Rotation | Self::AngularVelocity)
-    }
-
-    /// Whether an observer other than the ground may see it.
-    pub(crate) fn takes_observer(self) -> bool {
-        self.is_of_motion() || self == Self::Angle
-    }
-
-    /// Whether it depends on the whole way from the start.
-    pub(crate) fn is_accumulated(self) -> bool {
-        matches!(self, Self::Work | Self::Angle)
-    }
-
-    /// Whether its cycles may be counted as fatigue.
-    pub(crate) fn takes_fatigue(self) -> bool {
-        matches!(
-            self,
-            Self::SectionForce
-                | Self::SectionMoment
-                | Self::Reaction
-                | Self::Spring
-                | Self::Recovered
-                | Self::Signal
-                | Self::Expression
-        )
-    }
-
-    /// Whether the axes in which it is reported may be chosen.
-    pub(crate) fn takes_axes(self) -> bool {
-        self.is_of_motion() || self == Self::Momentum
-    }
-
-    /// Whether a point carried by the node may be named.
-    pub(crate) fn takes_point(self) -> bool {
-        matches!(self, Self::Position | Self::Displacement | Self::Velocity | Self::Acceleration)
-    }
-}
 
 /// Whose quantity is recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -336,64 +90,56 @@ pub struct Output {
 
 pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output> {
     each_of_kind(context, "outputs", registry, |reader, name, word| {
-        let kind = OutputKind::ALL.into_iter().find(|kind| kind.name() == word)?;
-        let source = if kind.is_of_joint() {
-            OutputSource::Joint(reader.name_in("of")?)
-        } else if kind == OutputKind::Spring {
-            OutputSource::Spring(reader.name_in("of")?)
-        } else if matches!(kind, OutputKind::Power | OutputKind::Work) {
-            let what = "spring, load or joint";
-            OutputSource::Actor(name_of_one(reader, &["springs", "loads", "joints"], what)?)
-        } else if kind == OutputKind::Line {
-            OutputSource::Beam(reader.name_in("of")?)
-        } else if matches!(kind, OutputKind::Modal | OutputKind::Recovered) {
-            OutputSource::Superelement(reader.name_in("of")?)
-        } else if kind == OutputKind::Signal {
-            OutputSource::Signal(name_of_one(
-                reader,
-                &["signals", "inputs", "states"],
-                "signal, input or state",
-            )?)
-        } else if kind == OutputKind::Expression {
-            OutputSource::Expression(reader.formula("value")?)
-        } else if kind.is_of_model() {
-            OutputSource::Model
-        } else {
-            let node = context.node(reader.node("of")?, &reader.words("of"))?;
-            if kind.is_of_beam() && !matches!(node.value, NodeReference::Beam { .. }) {
-                let message = format!("{} is of a node that is not on a beam", reader.what);
-                return context.fail(node.span, message, "name a place on a beam, such as \"beam@0.5\"");
+        let kind = OutputKind::all().find(|kind| kind.name() == word)?;
+        let source = match kind.subject() {
+            Subject::Node | Subject::Section => node(reader, kind)?,
+            Subject::Joint => OutputSource::Joint(reader.name_in("of")?),
+            Subject::Spring => OutputSource::Spring(reader.name_in("of")?),
+            Subject::Actor => {
+                let tables = ["springs", "loads", "joints"];
+                OutputSource::Actor(name_of_one(reader, &tables, "spring, load or joint")?)
             }
-            let point = match kind.takes_point().then(|| reader.node("point")).flatten() {
-                None => None,
-                Some(place) => Some(context.place(place, &reader.words("point"))?.value),
-            };
-            if matches!(node.value, NodeReference::PointMass(_)) && point.is_some() {
-                let message = format!("{} names a point, but a point mass carries none", reader.what);
-                return context.fail(
-                    reader.node("point").map_or(node.span, |point| point.span),
-                    message,
-                    "leave out `point`",
-                );
+            Subject::Beam => OutputSource::Beam(reader.name_in("of")?),
+            Subject::Superelement => OutputSource::Superelement(reader.name_in("of")?),
+            Subject::Model => OutputSource::Model,
+            Subject::Signal => {
+                let tables = ["signals", "inputs", "states"];
+                OutputSource::Signal(name_of_one(reader, &tables, "signal, input or state")?)
             }
-            OutputSource::Node { node, point }
+            Subject::Expression => OutputSource::Expression(reader.formula("value")?),
         };
-        let axes = match kind {
-            OutputKind::Reaction => reader.choice("axes").map(|word| ReactionAxes::named(word.value)),
-            _ => None,
-        };
-        let frame = |key: &str, is_allowed: bool| match is_allowed.then(|| reader.node(key)).flatten() {
+        let axes = (kind.has(Feature::JointAxes).then(|| reader.choice("axes")).flatten())
+            .map_or(ReactionAxes::Ground, |word| ReactionAxes::named(word.value));
+        let frame = |key: &str, feature| match kind.has(feature).then(|| reader.node(key)).flatten() {
             None => Some(None),
             Some(node) => frame(reader, node, key).map(Some),
         };
-        let (seen_in, relative_to) =
-            (frame("in", kind.takes_axes())?, frame("relative_to", kind.takes_observer())?);
-        let axis = if kind == OutputKind::Angle { Some(reader.vector("axis")?.value) } else { None };
-        let fatigue = if kind.takes_fatigue() { fatigue(reader) } else { None };
+        let (seen_in, relative_to) = (frame("in", Feature::Axes)?, frame("relative_to", Feature::Observer)?);
+        let axis = if kind.has(Feature::AngleAxis) { Some(reader.vector("axis")?.value) } else { None };
+        let fatigue = if kind.has(Feature::Fatigue) { fatigue(reader) } else { None };
         let name = Located::new(name.to_owned(), reader.name);
-        let axes = axes.unwrap_or_default();
         Some(Output { name, kind, source, axes, seen_in, relative_to, axis, fatigue })
     })
+}
+
+/// The node of an output, and the point that it carries.
+fn node(reader: &Reader<'_, '_>, kind: OutputKind) -> Option<OutputSource> {
+    let context = reader.context;
+    let node = context.node(reader.node("of")?, &reader.words("of"))?;
+    if kind.subject() == Subject::Section && !matches!(node.value, NodeReference::Beam { .. }) {
+        let message = format!("{} is of a node that is not on a beam", reader.what);
+        return context.fail(node.span, message, "name a place on a beam, such as \"beam@0.5\"");
+    }
+    let point = match kind.has(Feature::Point).then(|| reader.node("point")).flatten() {
+        None => None,
+        Some(place) => Some(context.place(place, &reader.words("point"))?.value),
+    };
+    if matches!(node.value, NodeReference::PointMass(_)) && point.is_some() {
+        let message = format!("{} names a point, but a point mass carries none", reader.what);
+        let span = reader.node("point").map_or(node.span, |point| point.span);
+        return context.fail(span, message, "leave out `point`");
+    }
+    Some(OutputSource::Node { node, point })
 }
 
 /// How cycles are counted; none where there is no exponent, and where something is wrong, which is reported.

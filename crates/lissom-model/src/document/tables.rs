@@ -6,6 +6,7 @@ use lissom_core::kinematics::Quantity;
 use lissom_core::registry::ModelAxis;
 
 use super::analysis_tables::analyses;
+use super::output_kinds::{Feature, OutputKind, Subject};
 use super::part_tables::{initial, part, placed_in, superelement};
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
@@ -425,83 +426,78 @@ fn state() -> Vec<Key> {
 }
 
 fn outputs() -> Vec<Variant> {
-    use super::OutputKind;
-    let words: Vec<&'static str> = OutputKind::ALL.iter().map(|kind| kind.name()).collect();
-    let variant = |kind: &OutputKind| {
+    let words: Vec<&'static str> = OutputKind::all().map(OutputKind::name).collect();
+    let variant = |kind: OutputKind| {
         let mut keys = vec![required("kind", Shape::Choice(Cow::Owned(words.clone())), "", "its kind")];
-        if kind.is_of_node() || kind.is_of_beam() {
-            keys.push(required("of", Shape::Node, "", "the node, as in \"beam@0.5\""));
-        }
-        if kind.is_of_joint() {
-            keys.push(required("of", Shape::Name("joints"), "", "the joint"));
-        }
-        if *kind == OutputKind::Reaction {
-            keys.push(optional(
-                "axes",
-                choice(&super::ReactionAxes::WORDS),
-                "",
-                "global axes, or those of the joint frame that base or tip carries; default ground",
-            ));
-        }
-        if *kind == OutputKind::Spring {
-            keys.push(required("of", Shape::Name("springs"), "", "the spring"));
-        }
-        if matches!(kind, OutputKind::Power | OutputKind::Work) {
+        keys.extend(output_subject(kind.subject()));
+        keys.extend(kind.features().iter().flat_map(|&feature| output_option(feature)));
+        Variant { word: kind.name(), summary: kind.summary(), keys }
+    };
+    OutputKind::all().map(variant).collect()
+}
+
+/// The key that names what an output refers to; none for the whole model.
+fn output_subject(subject: Subject) -> Option<Key> {
+    Some(match subject {
+        Subject::Node | Subject::Section => required("of", Shape::Node, "", "the node, as in \"beam@0.5\""),
+        Subject::Joint => required("of", Shape::Name("joints"), "", "the joint"),
+        Subject::Spring => required("of", Shape::Name("springs"), "", "the spring"),
+        Subject::Actor => {
             let words = "the name of a spring, a load, a drive or a joint with friction";
-            keys.push(required("of", Shape::Text, "", words));
+            required("of", Shape::Text, "", words)
         }
-        if *kind == OutputKind::Line {
-            keys.push(required("of", Shape::Name("beams"), "", "the beam"));
+        Subject::Beam => required("of", Shape::Name("beams"), "", "the beam"),
+        Subject::Superelement => required("of", Shape::Name("superelements"), "", "the superelement"),
+        Subject::Signal => required("of", Shape::Text, "", "the name of a signal, an input or a state"),
+        Subject::Expression => {
+            let words = "as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs";
+            required("value", Shape::Formula, "", words)
         }
-        if matches!(kind, OutputKind::Modal | OutputKind::Recovered) {
-            keys.push(required("of", Shape::Name("superelements"), "", "the superelement"));
-        }
-        if *kind == OutputKind::Signal {
-            keys.push(required("of", Shape::Text, "", "the name of a signal, an input or a state"));
-        }
-        if *kind == OutputKind::Expression {
-            keys.push(required(
-                "value",
-                Shape::Formula,
-                "",
-                "as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs",
-            ));
-        }
-        if *kind == OutputKind::Angle {
-            keys.push(required(
-                "axis",
-                Shape::Direction,
-                "",
-                "the axis at the start, global axes; `relative_to` carries it",
-            ));
-        }
-        if kind.takes_fatigue() {
-            keys.push(optional(
+        Subject::Model => return None,
+    })
+}
+
+/// The keys of a feature of outputs.
+fn output_option(feature: Feature) -> Vec<Key> {
+    match feature {
+        Feature::JointAxes => vec![optional(
+            "axes",
+            choice(&super::ReactionAxes::WORDS),
+            "",
+            "global axes, or those of the joint frame that base or tip carries; default ground",
+        )],
+        Feature::AngleAxis => vec![required(
+            "axis",
+            Shape::Direction,
+            "",
+            "the axis at the start, global axes; `relative_to` carries it",
+        )],
+        Feature::Fatigue => vec![
+            optional(
                 "woehler_exponent",
                 Shape::Positive,
                 "",
                 "exponent of Woehler's line: the summary then has `damage_equivalent` of each component",
-            ));
-            keys.push(optional(
+            ),
+            optional(
                 "reference_cycles",
                 Shape::Positive,
                 "",
                 "number of cycles of the damage equivalent range; default one per second of the run",
-            ));
-        }
-        if kind.takes_observer() {
+            ),
+        ],
+        Feature::Observer => {
             let words =
                 "body, or place on a beam, from which the motion is seen, in its axes; default the ground";
-            keys.push(optional("relative_to", Shape::Node, "", words));
+            vec![optional("relative_to", Shape::Node, "", words)]
         }
-        if kind.takes_axes() {
+        Feature::Axes => {
             let words = "body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`";
-            keys.push(optional("in", Shape::Node, "", words));
+            vec![optional("in", Shape::Node, "", words)]
         }
-        if kind.takes_point() {
-            keys.push(optional("point", Shape::Place, "m", "a place at the start, carried by the node"));
+        Feature::Point => {
+            vec![optional("point", Shape::Place, "m", "a place at the start, carried by the node")]
         }
-        Variant { word: kind.name(), summary: kind.summary(), keys }
-    };
-    OutputKind::ALL.iter().map(variant).collect()
+        Feature::Rates | Feature::Accumulated => Vec::new(),
+    }
 }

@@ -1,0 +1,349 @@
+//! The kinds of recorded quantities: what a model file calls them, what they refer to and which keys they accept.
+
+/// What an output refers to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Subject {
+    /// Any node.
+    Node,
+    /// A position on a beam.
+    Section,
+    Joint,
+    Spring,
+    /// A spring, load, drive or joint with friction.
+    Actor,
+    /// A whole beam.
+    Beam,
+    Superelement,
+    /// The whole model.
+    Model,
+    /// A signal, an input or a state.
+    Signal,
+    Expression,
+}
+
+/// A property of a kind of output, with the keys of the model file that it adds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Feature {
+    /// Expressed in global axes or in those of a joint frame.
+    JointAxes,
+    /// An angle about a given axis.
+    AngleAxis,
+    /// Its cycles may be counted as fatigue.
+    Fatigue,
+    /// An observer other than the ground may see it.
+    Observer,
+    /// The axes in which it is expressed may be chosen.
+    Axes,
+    /// It may be of a point that the node carries.
+    Point,
+    /// It depends on velocities, accelerations or forces of constraints.
+    Rates,
+    /// It depends on the whole motion since the start.
+    Accumulated,
+}
+
+/// A recorded quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputKind {
+    /// Place of a node or of a point it carries [m].
+    Position,
+    /// Change of place since the start [m].
+    Displacement,
+    /// Rotation vector since the start [rad].
+    Rotation,
+    /// Orientation of a node as a unit quaternion.
+    Quaternion,
+    /// Orientation of a node as Cardan angles [rad].
+    CardanAngles,
+    /// Angle of a node about an axis, continued beyond half a turn [rad].
+    Angle,
+    /// Velocity [m/s], global axes.
+    Velocity,
+    /// Angular velocity [rad/s], global axes.
+    AngularVelocity,
+    /// Acceleration [m/s²], global axes.
+    Acceleration,
+    /// Axial and shear forces in a beam [N], local axes.
+    SectionForce,
+    /// Torsion and bending moments in a beam [N m], local axes.
+    SectionMoment,
+    /// Places of all nodes of a beam [m].
+    Line,
+    /// Modal coordinates of a superelement and their rates.
+    Modal,
+    /// What the recovery matrix of a superelement makes of its deformation.
+    Recovered,
+    /// Force and moment of a joint on its tip [N, N m], global axes.
+    Reaction,
+    /// Relative coordinate of a joint [rad or m].
+    Relative,
+    /// Second derivative of a joint's relative coordinates [rad/s² or m/s²].
+    RelativeAcceleration,
+    /// Place [m] and rotation vector [rad] of a joint's tip frame in its base frame.
+    RelativeMotion,
+    /// Where a wheel touches its rail, and what acts there.
+    Contact,
+    /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
+    Spring,
+    /// Power that a spring, load, drive or friction puts into the model [W].
+    Power,
+    /// Work that a spring, load, drive or friction has put into the model since the start [J].
+    Work,
+    /// Energies of the whole model [J].
+    Energy,
+    /// Momentum and angular momentum of the whole model about the origin [N s, N m s], global axes.
+    Momentum,
+    /// A signal, an input or a state.
+    Signal,
+    /// An expression of other outputs.
+    Expression,
+}
+
+/// A kind of output as the model file has it.
+struct Declaration {
+    kind: OutputKind,
+    word: &'static str,
+    summary: &'static str,
+    subject: Subject,
+    features: &'static [Feature],
+}
+
+const fn declare(
+    kind: OutputKind,
+    word: &'static str,
+    subject: Subject,
+    features: &'static [Feature],
+    summary: &'static str,
+) -> Declaration {
+    Declaration { kind, word, summary, subject, features }
+}
+
+/// All kinds, in the order of the enumeration and of the manual; keys of features are in the order given here.
+const KINDS: &[Declaration] = {
+    use Feature::{Accumulated, AngleAxis, Axes, Fatigue, JointAxes, Observer, Point, Rates};
+    use OutputKind as Kind;
+    &[
+        declare(
+            Kind::Position,
+            "position",
+            Subject::Node,
+            &[Observer, Axes, Point],
+            "Place of a node or of a point it carries.",
+        ),
+        declare(
+            Kind::Displacement,
+            "displacement",
+            Subject::Node,
+            &[Observer, Axes, Point],
+            "Change of place since the start.",
+        ),
+        declare(
+            Kind::Rotation,
+            "rotation",
+            Subject::Node,
+            &[Observer, Axes],
+            "Rotation vector since the start.",
+        ),
+        declare(
+            Kind::Quaternion,
+            "quaternion",
+            Subject::Node,
+            &[],
+            "Axes of a node as a unit quaternion, q0 not negative.",
+        ),
+        declare(
+            Kind::CardanAngles,
+            "cardan_angles",
+            Subject::Node,
+            &[],
+            "Axes of a node as angles about x, the turned y and the twice turned z.",
+        ),
+        declare(
+            Kind::Angle,
+            "angle",
+            Subject::Node,
+            &[AngleAxis, Observer, Accumulated],
+            "Angle of a node about an axis since the start, continued beyond half a turn.",
+        ),
+        declare(
+            Kind::Velocity,
+            "velocity",
+            Subject::Node,
+            &[Observer, Axes, Point, Rates],
+            "Velocity of a node or of a point it carries.",
+        ),
+        declare(
+            Kind::AngularVelocity,
+            "angular_velocity",
+            Subject::Node,
+            &[Observer, Axes, Rates],
+            "Angular velocity of a node.",
+        ),
+        declare(
+            Kind::Acceleration,
+            "acceleration",
+            Subject::Node,
+            &[Observer, Axes, Point, Rates],
+            "Acceleration of a node or of a point it carries.",
+        ),
+        declare(
+            Kind::SectionForce,
+            "section_force",
+            Subject::Section,
+            &[Fatigue],
+            "Axial and shear forces in a beam, local axes.",
+        ),
+        declare(
+            Kind::SectionMoment,
+            "section_moment",
+            Subject::Section,
+            &[Fatigue],
+            "Torsion and bending moments in a beam, local axes.",
+        ),
+        declare(
+            Kind::Line,
+            "line",
+            Subject::Beam,
+            &[],
+            "Places of all nodes of a beam along its axis, from its start to its end.",
+        ),
+        declare(
+            Kind::Modal,
+            "modal",
+            Subject::Superelement,
+            &[],
+            "Modal coordinates of a superelement and their rates, in the units of its matrices.",
+        ),
+        declare(
+            Kind::Recovered,
+            "recovered",
+            Subject::Superelement,
+            &[Fatigue],
+            "Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation.",
+        ),
+        declare(
+            Kind::Reaction,
+            "reaction",
+            Subject::Joint,
+            &[JointAxes, Fatigue, Rates],
+            "Force and moment of a joint on its tip.",
+        ),
+        declare(Kind::Relative, "relative", Subject::Joint, &[Rates], "Relative coordinate of a joint."),
+        declare(
+            Kind::RelativeAcceleration,
+            "relative_acceleration",
+            Subject::Joint,
+            &[Rates],
+            "Accelerations of a joint's relative coordinates.",
+        ),
+        declare(
+            Kind::RelativeMotion,
+            "relative_motion",
+            Subject::Joint,
+            &[],
+            "Place and rotation vector of a joint's tip frame, in the axes of its base frame.",
+        ),
+        declare(
+            Kind::Contact,
+            "contact",
+            Subject::Joint,
+            &[Rates],
+            "Place of contact of a wheel on a rail, its normal force, creep forces and creepages.",
+        ),
+        declare(
+            Kind::Spring,
+            "spring",
+            Subject::Spring,
+            &[Fatigue, Rates],
+            "Elongation or rotation of a spring, its rate, and its force or moment.",
+        ),
+        declare(
+            Kind::Power,
+            "power",
+            Subject::Actor,
+            &[Rates],
+            "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.",
+        ),
+        declare(
+            Kind::Work,
+            "work",
+            Subject::Actor,
+            &[Accumulated],
+            "Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.",
+        ),
+        declare(
+            Kind::Energy,
+            "energy",
+            Subject::Model,
+            &[Rates],
+            "Kinetic, strain, gravity and total energy of the model.",
+        ),
+        declare(
+            Kind::Momentum,
+            "momentum",
+            Subject::Model,
+            &[Axes, Rates],
+            "Momentum and angular momentum of the model about the origin, global axes.",
+        ),
+        declare(
+            Kind::Signal,
+            "signal",
+            Subject::Signal,
+            &[Fatigue],
+            "Value of a signal, an input or a state.",
+        ),
+        declare(
+            Kind::Expression,
+            "expression",
+            Subject::Expression,
+            &[Fatigue],
+            "Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.",
+        ),
+    ]
+};
+
+impl OutputKind {
+    /// All of them, in the order of the manual.
+    pub fn all() -> impl Iterator<Item = Self> {
+        KINDS.iter().map(|own| own.kind)
+    }
+
+    fn declaration(self) -> &'static Declaration {
+        &KINDS[self as usize]
+    }
+
+    /// Word in the model file.
+    pub fn name(self) -> &'static str {
+        self.declaration().word
+    }
+
+    /// One sentence.
+    pub fn summary(self) -> &'static str {
+        self.declaration().summary
+    }
+
+    /// What it refers to.
+    pub(crate) fn subject(self) -> Subject {
+        self.declaration().subject
+    }
+
+    /// Its features, in the order of their keys.
+    pub(crate) fn features(self) -> &'static [Feature] {
+        self.declaration().features
+    }
+
+    /// Whether it has a feature.
+    pub(crate) fn has(self, feature: Feature) -> bool {
+        self.features().contains(&feature)
+    }
+}
+
+/// The table has the order of the enumeration, by which it is indexed.
+const _: () = {
+    let mut index = 0;
+    while index < KINDS.len() {
+        assert!(KINDS[index].kind as usize == index);
+        index += 1;
+    }
+    assert!(KINDS.len() == OutputKind::Expression as usize + 1);
+};
