@@ -6,7 +6,7 @@ use lissom_core::signals::coordinate::Of;
 use lissom_core::system::System;
 
 use crate::channels::{Source, is_aligned};
-use crate::document::OutputKind;
+use crate::document::{OutputComponent, OutputKind};
 
 /// Names and units of the components of a kind of output.
 pub(crate) fn components(
@@ -14,49 +14,22 @@ pub(crate) fn components(
     source: &Source,
     system: &System,
 ) -> (Vec<String>, Vec<&'static str>) {
-    let three =
-        |letter: &str, unit: &'static str| ((1..=3).map(|k| format!("{letter}{k}")).collect(), vec![unit; 3]);
-    let words = |words: &[&str], units: &[&'static str]| {
-        (words.iter().map(|&word| word.to_owned()).collect(), units.to_vec())
+    let words = |components: &[OutputComponent]| {
+        components.iter().map(|&(word, unit)| (word.to_owned(), unit)).unzip()
     };
     match (kind, source) {
-        (OutputKind::Position, _) => words(&["x", "y", "z"], &["m"; 3]),
-        (OutputKind::Displacement, _) => three("u", "m"),
-        (OutputKind::Rotation, _) => three("r", "rad"),
-        (OutputKind::Velocity, _) => three("v", "m/s"),
-        (OutputKind::AngularVelocity, _) => three("w", "rad/s"),
-        (OutputKind::Acceleration, _) => three("a", "m/s²"),
-        (OutputKind::Reaction, Source::Slider(index)) if is_aligned(system, *index) => {
-            words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
+        (OutputKind::Reaction, Source::Slider(index)) if !is_aligned(system, *index) => {
+            words(&kind.components()[..3])
         }
-        (OutputKind::SectionForce, _) | (OutputKind::Reaction, Source::Slider(_)) => three("f", "N"),
-        (OutputKind::SectionMoment, _) => three("m", "N m"),
         (OutputKind::Reaction, Source::Drive(index)) => {
-            match system.layout().coordinate_quantity(system.drives()[*index].prescribed.coordinate) {
-                Quantity::Angle => words(&["moment"], &["N m"]),
-                Quantity::Length | Quantity::State => words(&["force"], &["N"]),
-            }
+            words(&[effort(system, system.drives()[*index].prescribed.coordinate)])
         }
         (OutputKind::Reaction, Source::Coupling(index)) => {
-            let coordinates = &system.couplings()[*index].coordinates;
-            let each =
-                coordinates.iter().map(|&coordinate| match system.layout().coordinate_quantity(coordinate) {
-                    Quantity::Angle => ("moment", "N m"),
-                    Quantity::Length | Quantity::State => ("force", "N"),
-                });
-            let (words, units): (Vec<&str>, Vec<&'static str>) = each.unzip();
+            let coordinates = system.couplings()[*index].coordinates.iter();
+            let (words, units): (Vec<&str>, Vec<&'static str>) =
+                coordinates.map(|&coordinate| effort(system, coordinate)).unzip();
             (numbered(&words), units)
         }
-        (OutputKind::Reaction, _) => {
-            words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
-        }
-        (OutputKind::RelativeMotion, _) => {
-            words(&["x", "y", "z", "r1", "r2", "r3"], &["m", "m", "m", "rad", "rad", "rad"])
-        }
-        (OutputKind::Contact, _) => words(
-            &["wheel", "rail", "shift", "normal", "along", "across", "creepage1", "creepage2", "spin"],
-            &["m", "m", "rad", "N", "N", "N", "", "", "1/m"],
-        ),
         (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
         (OutputKind::RelativeAcceleration, Source::Accelerations(owners)) => {
             let of = |&(joint, own): &(usize, usize)| system.joints()[joint].coordinates[own];
@@ -66,12 +39,8 @@ pub(crate) fn components(
             accelerations(coordinates.clone(), system)
         }
         (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
-            words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
+            words(&[("rotation", "rad"), ("rate", "rad/s"), ("moment", "N m")])
         }
-        (OutputKind::Spring, _) => words(&["elongation", "rate", "force"], &["m", "m/s", "N"]),
-        (OutputKind::Work, _) => words(&["work"], &["J"]),
-        (OutputKind::Angle, _) => words(&["angle"], &["rad"]),
-        (OutputKind::Power, _) => words(&["power"], &["W"]),
         (OutputKind::Line, Source::Line(places)) => {
             let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
             (0..places.len()).flat_map(of).unzip()
@@ -83,21 +52,15 @@ pub(crate) fn components(
         (OutputKind::Recovered, Source::Recovered(_, matrix)) => {
             (1..=matrix.nrows()).map(|k| (format!("r{k}"), "")).unzip()
         }
-        (
-            OutputKind::Relative
-            | OutputKind::RelativeAcceleration
-            | OutputKind::Line
-            | OutputKind::Modal
-            | OutputKind::Recovered,
-            _,
-        ) => (Vec::new(), Vec::new()),
-        (OutputKind::Momentum, _) => {
-            words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
-        }
-        (OutputKind::Signal | OutputKind::Expression, _) => words(&["value"], &[""]),
-        (OutputKind::Quaternion, _) => words(&["q0", "q1", "q2", "q3"], &[""; 4]),
-        (OutputKind::CardanAngles, _) => words(&["alpha", "beta", "gamma"], &["rad"; 3]),
-        (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
+        _ => words(kind.components()),
+    }
+}
+
+/// What acts along a coordinate.
+fn effort(system: &System, coordinate: CoordinateId) -> OutputComponent {
+    match system.layout().coordinate_quantity(coordinate) {
+        Quantity::Angle => ("moment", "N m"),
+        Quantity::Length | Quantity::State => ("force", "N"),
     }
 }
 

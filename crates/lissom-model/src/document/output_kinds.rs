@@ -40,6 +40,8 @@ pub(crate) enum Feature {
     Rates,
     /// It depends on the whole motion since the start.
     Accumulated,
+    /// Signals can depend on it.
+    Measurable,
 }
 
 /// A recorded quantity.
@@ -99,13 +101,19 @@ pub enum OutputKind {
     Expression,
 }
 
-/// A kind of output as the model file has it.
+/// Name and unit of a component.
+pub(crate) type OutputComponent = (&'static str, &'static str);
+
+/// A kind of output: what the model file calls it, what it refers to, and its components.
+///
+/// Components that depend on the subject are in `channel_components.rs`.
 struct Declaration {
     kind: OutputKind,
     word: &'static str,
     summary: &'static str,
     subject: Subject,
     features: &'static [Feature],
+    components: &'static [OutputComponent],
 }
 
 const fn declare(
@@ -113,35 +121,39 @@ const fn declare(
     word: &'static str,
     subject: Subject,
     features: &'static [Feature],
+    components: &'static [OutputComponent],
     summary: &'static str,
 ) -> Declaration {
-    Declaration { kind, word, summary, subject, features }
+    Declaration { kind, word, summary, subject, features, components }
 }
 
 /// All kinds, in the order of the enumeration and of the manual; keys of features are in the order given here.
 const KINDS: &[Declaration] = {
-    use Feature::{Accumulated, AngleAxis, Axes, Fatigue, JointAxes, Observer, Point, Rates};
+    use Feature::{Accumulated, AngleAxis, Axes, Fatigue, JointAxes, Measurable, Observer, Point, Rates};
     use OutputKind as Kind;
     &[
         declare(
             Kind::Position,
             "position",
             Subject::Node,
-            &[Observer, Axes, Point],
+            &[Observer, Axes, Point, Measurable],
+            &[("x", "m"), ("y", "m"), ("z", "m")],
             "Place of a node or of a point it carries.",
         ),
         declare(
             Kind::Displacement,
             "displacement",
             Subject::Node,
-            &[Observer, Axes, Point],
+            &[Observer, Axes, Point, Measurable],
+            &[("u1", "m"), ("u2", "m"), ("u3", "m")],
             "Change of place since the start.",
         ),
         declare(
             Kind::Rotation,
             "rotation",
             Subject::Node,
-            &[Observer, Axes],
+            &[Observer, Axes, Measurable],
+            &[("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
             "Rotation vector since the start.",
         ),
         declare(
@@ -149,6 +161,7 @@ const KINDS: &[Declaration] = {
             "quaternion",
             Subject::Node,
             &[],
+            &[("q0", ""), ("q1", ""), ("q2", ""), ("q3", "")],
             "Axes of a node as a unit quaternion, q0 not negative.",
         ),
         declare(
@@ -156,6 +169,7 @@ const KINDS: &[Declaration] = {
             "cardan_angles",
             Subject::Node,
             &[],
+            &[("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")],
             "Axes of a node as angles about x, the turned y and the twice turned z.",
         ),
         declare(
@@ -163,20 +177,23 @@ const KINDS: &[Declaration] = {
             "angle",
             Subject::Node,
             &[AngleAxis, Observer, Accumulated],
+            &[("angle", "rad")],
             "Angle of a node about an axis since the start, continued beyond half a turn.",
         ),
         declare(
             Kind::Velocity,
             "velocity",
             Subject::Node,
-            &[Observer, Axes, Point, Rates],
+            &[Observer, Axes, Point, Rates, Measurable],
+            &[("v1", "m/s"), ("v2", "m/s"), ("v3", "m/s")],
             "Velocity of a node or of a point it carries.",
         ),
         declare(
             Kind::AngularVelocity,
             "angular_velocity",
             Subject::Node,
-            &[Observer, Axes, Rates],
+            &[Observer, Axes, Rates, Measurable],
+            &[("w1", "rad/s"), ("w2", "rad/s"), ("w3", "rad/s")],
             "Angular velocity of a node.",
         ),
         declare(
@@ -184,6 +201,7 @@ const KINDS: &[Declaration] = {
             "acceleration",
             Subject::Node,
             &[Observer, Axes, Point, Rates],
+            &[("a1", "m/s²"), ("a2", "m/s²"), ("a3", "m/s²")],
             "Acceleration of a node or of a point it carries.",
         ),
         declare(
@@ -191,6 +209,7 @@ const KINDS: &[Declaration] = {
             "section_force",
             Subject::Section,
             &[Fatigue],
+            &[("f1", "N"), ("f2", "N"), ("f3", "N")],
             "Axial and shear forces in a beam, local axes.",
         ),
         declare(
@@ -198,12 +217,14 @@ const KINDS: &[Declaration] = {
             "section_moment",
             Subject::Section,
             &[Fatigue],
+            &[("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
             "Torsion and bending moments in a beam, local axes.",
         ),
         declare(
             Kind::Line,
             "line",
             Subject::Beam,
+            &[],
             &[],
             "Places of all nodes of a beam along its axis, from its start to its end.",
         ),
@@ -212,6 +233,7 @@ const KINDS: &[Declaration] = {
             "modal",
             Subject::Superelement,
             &[],
+            &[],
             "Modal coordinates of a superelement and their rates, in the units of its matrices.",
         ),
         declare(
@@ -219,6 +241,7 @@ const KINDS: &[Declaration] = {
             "recovered",
             Subject::Superelement,
             &[Fatigue],
+            &[],
             "Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation.",
         ),
         declare(
@@ -226,14 +249,23 @@ const KINDS: &[Declaration] = {
             "reaction",
             Subject::Joint,
             &[JointAxes, Fatigue, Rates],
+            &[("f1", "N"), ("f2", "N"), ("f3", "N"), ("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
             "Force and moment of a joint on its tip.",
         ),
-        declare(Kind::Relative, "relative", Subject::Joint, &[Rates], "Relative coordinate of a joint."),
+        declare(
+            Kind::Relative,
+            "relative",
+            Subject::Joint,
+            &[Rates, Measurable],
+            &[],
+            "Relative coordinate of a joint.",
+        ),
         declare(
             Kind::RelativeAcceleration,
             "relative_acceleration",
             Subject::Joint,
             &[Rates],
+            &[],
             "Accelerations of a joint's relative coordinates.",
         ),
         declare(
@@ -241,6 +273,7 @@ const KINDS: &[Declaration] = {
             "relative_motion",
             Subject::Joint,
             &[],
+            &[("x", "m"), ("y", "m"), ("z", "m"), ("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
             "Place and rotation vector of a joint's tip frame, in the axes of its base frame.",
         ),
         declare(
@@ -248,6 +281,17 @@ const KINDS: &[Declaration] = {
             "contact",
             Subject::Joint,
             &[Rates],
+            &[
+                ("wheel", "m"),
+                ("rail", "m"),
+                ("shift", "rad"),
+                ("normal", "N"),
+                ("along", "N"),
+                ("across", "N"),
+                ("creepage1", ""),
+                ("creepage2", ""),
+                ("spin", "1/m"),
+            ],
             "Place of contact of a wheel on a rail, its normal force, creep forces and creepages.",
         ),
         declare(
@@ -255,6 +299,7 @@ const KINDS: &[Declaration] = {
             "spring",
             Subject::Spring,
             &[Fatigue, Rates],
+            &[("elongation", "m"), ("rate", "m/s"), ("force", "N")],
             "Elongation or rotation of a spring, its rate, and its force or moment.",
         ),
         declare(
@@ -262,6 +307,7 @@ const KINDS: &[Declaration] = {
             "power",
             Subject::Actor,
             &[Rates],
+            &[("power", "W")],
             "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.",
         ),
         declare(
@@ -269,6 +315,7 @@ const KINDS: &[Declaration] = {
             "work",
             Subject::Actor,
             &[Accumulated],
+            &[("work", "J")],
             "Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.",
         ),
         declare(
@@ -276,6 +323,7 @@ const KINDS: &[Declaration] = {
             "energy",
             Subject::Model,
             &[Rates],
+            &[("kinetic", "J"), ("strain", "J"), ("potential", "J"), ("total", "J")],
             "Kinetic, strain, gravity and total energy of the model.",
         ),
         declare(
@@ -283,6 +331,7 @@ const KINDS: &[Declaration] = {
             "momentum",
             Subject::Model,
             &[Axes, Rates],
+            &[("p1", "N s"), ("p2", "N s"), ("p3", "N s"), ("l1", "N m s"), ("l2", "N m s"), ("l3", "N m s")],
             "Momentum and angular momentum of the model about the origin, global axes.",
         ),
         declare(
@@ -290,6 +339,7 @@ const KINDS: &[Declaration] = {
             "signal",
             Subject::Signal,
             &[Fatigue],
+            &[("value", "")],
             "Value of a signal, an input or a state.",
         ),
         declare(
@@ -297,6 +347,7 @@ const KINDS: &[Declaration] = {
             "expression",
             Subject::Expression,
             &[Fatigue],
+            &[("value", "")],
             "Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.",
         ),
     ]
@@ -330,6 +381,11 @@ impl OutputKind {
     /// Its features, in the order of their keys.
     pub(crate) fn features(self) -> &'static [Feature] {
         self.declaration().features
+    }
+
+    /// Names and units of its components, unless its subject has others.
+    pub(crate) fn components(self) -> &'static [OutputComponent] {
+        self.declaration().components
     }
 
     /// Whether it has a feature.

@@ -8,7 +8,7 @@ use lissom_motion::Vector3;
 
 use super::Names;
 use super::signals::relative_components;
-use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource, interface_name};
+use crate::document::{Document, Feature, NodeReference, Output, OutputKind, OutputSource, interface_name};
 use crate::suggest;
 
 /// Why a name cannot be measured.
@@ -92,12 +92,7 @@ fn of_output(
         let message = format!("`{owner}` is expressed in moving axes, which signals cannot depend on");
         return fault(message, Some("name an output without `in` and `relative_to`".to_owned()));
     }
-    let words: [String; 3] = match output.kind {
-        OutputKind::Position => ["x", "y", "z"].map(str::to_owned),
-        OutputKind::Displacement => ["u1", "u2", "u3"].map(str::to_owned),
-        OutputKind::Velocity => ["v1", "v2", "v3"].map(str::to_owned),
-        OutputKind::Rotation => ["r1", "r2", "r3"].map(str::to_owned),
-        OutputKind::AngularVelocity => ["w1", "w2", "w3"].map(str::to_owned),
+    match output.kind {
         OutputKind::Relative => {
             let OutputSource::Joint(joint) = &output.source else {
                 return fault(format!("output `{owner}` belongs to no joint"), None);
@@ -109,30 +104,11 @@ fn of_output(
             let message = format!("output `{owner}` records a signal");
             return fault(message, Some("name the signal itself".to_owned()));
         }
-        OutputKind::Acceleration
-        | OutputKind::SectionForce
-        | OutputKind::SectionMoment
-        | OutputKind::Reaction
-        | OutputKind::RelativeAcceleration
-        | OutputKind::RelativeMotion
-        | OutputKind::Contact
-        | OutputKind::Spring
-        | OutputKind::Power
-        | OutputKind::Work
-        | OutputKind::Angle
-        | OutputKind::Line
-        | OutputKind::Modal
-        | OutputKind::Recovered
-        | OutputKind::Energy
-        | OutputKind::Momentum
-        | OutputKind::Quaternion
-        | OutputKind::CardanAngles
-        | OutputKind::Expression => {
-            let message = format!("`{owner}` is a {}, which signals cannot depend on", output.kind.name());
-            let help = "use a position, displacement, velocity, rotation, angular_velocity or relative output, or a joint";
-            return fault(message, Some(help.to_owned()));
-        }
-    };
+        kind if !kind.has(Feature::Measurable) => return not_measurable(owner, kind),
+        _ => {}
+    }
+    let words = output.kind.components().iter().map(|(word, _)| (*word).to_owned());
+    let words: Vec<String> = words.collect();
     let Some(index) = words.iter().position(|word| word == component) else {
         return unknown_component(owner, component, &words);
     };
@@ -155,8 +131,17 @@ fn of_output(
         OutputKind::Displacement => {
             builder.add_measurement(point(point::Of::PositionFrom(frame.transform_point(&offset))))
         }
-        _ => builder.add_measurement(point(point::Of::PositionFrom(Vector3::zeros()))),
+        OutputKind::Position => builder.add_measurement(point(point::Of::PositionFrom(Vector3::zeros()))),
+        kind => return not_measurable(owner, kind),
     })
+}
+
+fn not_measurable<T>(owner: &str, kind: OutputKind) -> Result<T, Fault> {
+    let message = format!("`{owner}` is a {}, which signals cannot depend on", kind.name());
+    let measurable = OutputKind::all().filter(|kind| kind.has(Feature::Measurable));
+    let words: Vec<&str> = measurable.map(OutputKind::name).collect();
+    let help = format!("name a joint, or an output of one of these kinds: {}", words.join(", "));
+    fault(message, Some(help))
 }
 
 /// The node that carries an output's place, and the place in its axes [m].
