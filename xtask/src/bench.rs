@@ -249,7 +249,7 @@ fn scale(folder: &Path) -> Result<(), BenchError> {
     std::fs::write(&path, svg).map_err(file(path))
 }
 
-/// Places at the end, compared with those of far smaller steps and of iterations to the last digit.
+/// Positions at the end, compared with those of far smaller steps and of iterations to the last digit.
 fn errors(arguments: &BenchArguments) -> Result<(), BenchError> {
     println!("| scene | error of the step [m] | of that, by the iterations [m] |\n|---|---|---|");
     for name in &arguments.names {

@@ -40,7 +40,7 @@ pub(crate) struct Case {
     pub(crate) folder: PathBuf,
     /// One line.
     pub(crate) title: String,
-    /// Rigid, statics, dynamics or invariants: where it stands in the report.
+    /// Rigid, statics, dynamics or invariants: where it is in the report.
     pub(crate) group: String,
     /// Whose problem it is and where the reference digits come from.
     pub(crate) source: String,
@@ -259,7 +259,7 @@ pub(crate) struct Refinement {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Change {
-    /// The parts stand in reverse order in the file.
+    /// The parts are in reverse order in the file.
     Order,
     /// The whole model is turned in space.
     Turned,

@@ -1,5 +1,5 @@
 //! `cargo xtask defaults`: which scheme and which tolerance a model gets that names neither. Runs short scenes, examples and
-//! random mechanisms with steps chosen by their error, with every scheme and tolerance, and prints how far the places are
+//! random mechanisms with steps chosen by their error, with every scheme and tolerance, and prints how far the positions are
 //! from those of fine runs, what was told, and what it cost. Knows no mechanics.
 
 use lissom::{Override, Record, Session};
@@ -17,9 +17,9 @@ const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 const DEFAULT: (usize, usize) = (0, 2);
 /// Tolerances of the two runs that the others are compared with.
 const FINE: [f64; 2] = [1e-7, 1e-8];
-/// Where the fine runs differ by more than this part of the way, nothing is compared.
+/// Where the fine runs differ by more than this fraction of the way, nothing is compared.
 const TRUSTED: f64 = 1e-4;
-/// Results further from the fine ones than this part of the way are wrong.
+/// Results further from the fine ones than this fraction of the way are wrong.
 const WRONG: f64 = 0.01;
 /// Models that go less far are compared with what can be seen of them [m, rad, 1].
 const MIN_DISPLACEMENT: f64 = 1e-4;
@@ -169,7 +169,7 @@ fn run(subject: &Subject, duration: f64, scheme: &str, tolerance: f64) -> Option
     report.error().is_none().then(|| Ran { record, is_warned, seconds: busy.as_secs_f64().max(1e-6) })
 }
 
-/// The largest difference of places at common instants over how far such places go; none where there are no places or
+/// The largest difference of positions at common instants over how far such positions go; none where there are no positions or
 /// other instants.
 fn distance(one: &Record, other: &Record) -> Option<f64> {
     if one.times.len() != other.times.len() {
@@ -194,7 +194,7 @@ fn distance(one: &Record, other: &Record) -> Option<f64> {
     worst
 }
 
-/// Whether a column tells a place, in this unit.
+/// Whether a column tells a position, in this unit.
 fn is_place(quantity: &str, unit: &str) -> bool {
     match quantity {
         "position" | "displacement" => unit == "m",

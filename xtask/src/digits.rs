@@ -118,7 +118,7 @@ mod tests {
         let readme = std::fs::read_to_string(folder.join("references/README.md")).unwrap();
         for case in cases.iter().filter(|case| case.source.contains("independent")) {
             let has = text.contains(&format!("case = \"{}\"", case.name));
-            // What no program computes yet stands in the table of the README that says so.
+            // What no program computes yet is in the table of the README that says so.
             let owed = readme.split("## Not here").nth(1).unwrap_or("").contains(&format!("`{}`", case.name));
             assert!(has != owed, "{}: computed {has}, owed {owed}", case.name);
         }

@@ -1,5 +1,5 @@
 //! `cargo xtask fuzz`: texts that are damaged by chance, one after the other, through the readers: model files, and expressions. Each
-//! is read or refused with its place; none breaks the program down. A seed and a number tell a case on every machine.
+//! is read or rejected with its position; none breaks the program down. A seed and a number tell a case on every machine.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
@@ -127,7 +127,7 @@ fn damaged_model(models: &[Vec<String>], draw: &mut Draw) -> String {
             0 => Damage::Remove.apply(&mut tokens, place),
             1 => Damage::Double.apply(&mut tokens, place),
             2 => Damage::Swap(draw.below(tokens.len())).apply(&mut tokens, place),
-            // A token of another model: names and kinds that exist, in the wrong place.
+            // A token of another model: names and kinds that exist, in the wrong position.
             3 => {
                 let other = &models[draw.below(models.len())];
                 Damage::Replace(&other[draw.below(other.len())]).apply(&mut tokens, place);
@@ -165,7 +165,7 @@ impl Tally {
         self.slowest = self.slowest.max(other.slowest);
     }
 
-    /// Takes note of an answer, and hands on the words for a bad one.
+    /// Records an answer, and hands on the words for a bad one.
     fn note(&mut self, answer: std::thread::Result<Answer>) -> Option<String> {
         match answer {
             Ok(Answer::Read) => self.read += 1,

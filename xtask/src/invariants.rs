@@ -13,7 +13,7 @@ use crate::transform::{in_millimetres, reversed, turned, unit_factor};
 /// Of Newton's iteration: what is left of a solution's error depends on units.
 const TOLERANCE: f64 = 1e-12;
 
-/// Runs an example as it stands and changed, and compares all outputs.
+/// Runs an example as it is and changed, and compares all outputs.
 pub(crate) fn invariant(root: &Path, invariant: &Invariant) -> Row {
     let change = match invariant.change {
         Change::Order => "parts in reverse order",
@@ -96,7 +96,7 @@ fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<(f64,
     Ok(other)
 }
 
-/// The table of parameters of a model file, as it stands.
+/// The table of parameters of a model file, as it is.
 fn parameters(text: &str) -> String {
     let inside = |line: &&str| !line.starts_with('[');
     let mut lines = text.lines().skip_while(|line| *line != "[parameters]");

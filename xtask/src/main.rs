@@ -75,7 +75,7 @@ enum Chore {
     },
     /// Try random mechanisms with several schemes and steps against each other
     Random(random::RandomArguments),
-    /// Read model files and expressions that are damaged by chance: each is read or refused with its place
+    /// Read model files and expressions that are damaged by chance: each is read or rejected with its position
     Fuzz(fuzz::FuzzArguments),
     /// Mutation tests: change the code in one position at a time and report the changes that no test notices
     Mutants(mutants::MutantsArguments),
@@ -132,7 +132,7 @@ struct BenchArguments {
     /// Values to change, as in `--set analysis.scheme=radau-iia`
     #[arg(long)]
     set: Vec<String>,
-    /// Compare the places at the end with those of finer runs instead
+    /// Compare the positions at the end with those of finer runs instead
     #[arg(long)]
     errors: bool,
     /// Measure chains and beams of all sizes instead, and draw `scale.svg` into this folder
@@ -152,7 +152,7 @@ impl BenchArguments {
     }
 }
 
-/// What is left out of what.
+/// What is omitted from what.
 #[derive(clap::Args)]
 struct AblateArguments {
     /// Parts of the names of models to run; all if none is given

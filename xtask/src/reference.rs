@@ -10,9 +10,9 @@ use lissom_model::{files, manual, python_entries, typed_entries};
 
 use crate::verify::root;
 
-/// What stands above the reference.
+/// What is above the reference.
 const NOTE: &str = "<!-- Made by `cargo xtask reference` of the program's own tables: do not edit. -->\n\n";
-/// What stands above the types.
+/// What is above the types.
 const RUST_NOTE: &str = "// Made by `cargo xtask reference` of the program's own tables: do not edit.\n";
 
 /// All files with what they would hold.

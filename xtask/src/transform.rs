@@ -15,7 +15,7 @@ pub(crate) fn reversed(text: &str) -> String {
             block.push('\n');
         }
     }
-    // What stands before the first table must stay there.
+    // What is before the first table must stay there.
     blocks[1..].reverse();
     blocks.concat()
 }
@@ -28,7 +28,7 @@ const TURN: [[f64; 3]; 3] = [
     [-1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0],
 ];
 
-/// Keys whose three numbers are a place or direction in global axes.
+/// Keys whose three numbers are a position or direction in global axes.
 const DIRECTED: [&str; 18] = [
     "gravity",
     "from",
@@ -181,7 +181,7 @@ fn convert(table: &str, key: &str, value: &mut Value) {
     }
 }
 
-/// Multiplies numbers and expressions; leaves names, which stand for what is scaled elsewhere.
+/// Multiplies numbers and expressions; leaves names, which represent what is scaled elsewhere.
 fn scale(value: &mut Value, factor: f64) {
     match value {
         Value::Array(list) => list.iter_mut().for_each(|value| match value {

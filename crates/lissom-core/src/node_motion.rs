@@ -30,7 +30,7 @@ pub(crate) enum Meaning {
     FromStart,
     /// See the formulas.
     Departure,
-    /// Departures, where V - V₀ is asked for without cancellation: times [`StageTable::gain`] it stands in place of
+    /// Departures, where V - V₀ is asked for without cancellation: times [`StageTable::gain`] it replaces
     /// the acceleration.
     Gain,
 }
@@ -339,7 +339,7 @@ impl Places {
     }
 }
 
-/// Numbers as they stand in the lanes.
+/// Numbers as they are in the lanes.
 #[inline(always)]
 fn spread<S: Simd, const N: usize>(numbers: [Lanes<S>; N]) -> [Block; N] {
     let mut blocks = [[0.0; WIDTH]; N];
@@ -376,7 +376,7 @@ mod tests {
         }
     }
 
-    /// A fixed node, then nodes with all freedoms, but one with translations only.
+    /// A fixed node, then nodes with all degrees of freedom, but one with translations only.
     fn layout(count: usize, point_mass: usize) -> Layout {
         let mut next = 0;
         let mut layout = Layout { node_rows: vec![[LOCKED; 6]], ..Layout::default() };

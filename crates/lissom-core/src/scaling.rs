@@ -29,7 +29,7 @@ pub enum ScaleBy {
     Physical,
     /// s = 1.
     Unit,
-    /// Not at all: the equations as they stand in SI.
+    /// Not at all: the equations as they are in SI.
     None,
 }
 
@@ -111,7 +111,7 @@ impl Representative {
         let count = system.layout().coordinate_count();
         let length = spread(at);
         let quantities = system.layout().quantities();
-        // States are of other units than places.
+        // States are of other units than positions.
         let is_place = |row: &usize| quantities[*row] != Quantity::State;
         let places = (0..count).filter(is_place).count().max(1);
         let average = |values: &[f64]| {
@@ -131,7 +131,7 @@ impl Representative {
     }
 }
 
-/// Length that stands for a unit of `quantity` where a radian is worth `radian` [m].
+/// Length that represents a unit of `quantity` where a radian is worth `radian` [m].
 fn unit(quantity: Quantity, radian: f64) -> f64 {
     match quantity {
         Quantity::Length | Quantity::State => 1.0,
@@ -139,7 +139,7 @@ fn unit(quantity: Quantity, radian: f64) -> f64 {
     }
 }
 
-/// Root mean square distance between two nodes; 1 where all are at a single place.
+/// Root mean square distance between two nodes; 1 where all are at a single position.
 fn spread(at: &Kinematics) -> f64 {
     let places: Vec<_> = at.nodes.iter().map(|node| node.frame.position).collect();
     let count = places.len() as f64;
@@ -159,7 +159,7 @@ pub struct Scaled {
     augmented: f64,
     /// Factor of the equations of motion: h², or 1 unscaled.
     dynamic: f64,
-    /// Length that stands for a radian: the representative length, or 1 m as SI has it.
+    /// Length that represents a radian: the representative length, or 1 m as SI has it.
     radian: f64,
 }
 
@@ -207,7 +207,7 @@ impl Scaled {
         Augmentation { weight: self.augmented / self.dynamic, radian: self.radian }
     }
 
-    /// Length that stands for a unit of `quantity` [m].
+    /// Length that represents a unit of `quantity` [m].
     pub fn unit(&self, quantity: Quantity) -> f64 {
         unit(quantity, self.radian)
     }
@@ -424,7 +424,7 @@ impl Scaled {
 /// Motion at a stage, and what has changed since the start of the step.
 #[derive(Clone, Debug)]
 pub struct StageMotion {
-    /// Places, twists and accelerations.
+    /// Positions, twists and accelerations.
     pub at: Kinematics,
     /// Change of every node's motion.
     pub changes: Vec<MotionChange>,

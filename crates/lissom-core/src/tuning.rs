@@ -1,5 +1,5 @@
 //! Parameters of the nonlinear solver and of step-size control. Each can be halved and doubled, so that a
-//! command can show what depends on it. Bounds of round-off and sizes of memories stand where they are used.
+//! command can show what depends on it. Bounds of round-off and sizes of memories are where they are used.
 
 /// A parameter of the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub enum TuningParameter {
     Contraction,
     /// Corrections that shrink by less than this are round-off, once they are small.
     Stalled,
-    /// A secant is kept if what the tangent has missed is below this part of it: where a tangent is worse it is to be
+    /// A secant is kept if what the tangent has missed is below this fraction of it: where a tangent is worse it is to be
     /// renewed, and corrections that are round-off contain no information.
     SecantCredible,
     /// What a step counts for after another one in linear prediction: coefficients change as the motion does.

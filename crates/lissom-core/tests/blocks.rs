@@ -90,7 +90,7 @@ fn compare<E: Element>(elements: &[E], at: &Kinematics) {
     }
 }
 
-/// The same of their derivatives by places; none where something is damped.
+/// The same of their derivatives by positions; none where something is damped.
 fn compare_stiffness<E: Element>(elements: &[E], (at, stressed): (&Kinematics, &Kinematics), damped: bool) {
     let size = 6 * elements[0].nodes().len();
     let blocks = E::blocks(elements).expect("a kind that is evaluated several at a time");

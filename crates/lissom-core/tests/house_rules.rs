@@ -107,7 +107,7 @@ fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 /// Paths in backticks that begin with a folder of the repository or of a crate, with their line numbers. Patterns such as
-/// `examples/<name>.toml` are left out.
+/// `examples/<name>.toml` are omitted.
 fn quoted_paths(text: &str, folders: &[String]) -> Vec<(usize, String)> {
     let is_pattern = |piece: &str| piece.contains(|c: char| c.is_whitespace() || "<>*…{}()[]$=".contains(c));
     let mut found = Vec::new();

@@ -1,4 +1,4 @@
-//! Freedoms and redundant constraints.
+//! Degrees of freedom and redundant constraints.
 
 use lissom_core::analysis::mobility;
 use lissom_core::elements::inertia::Inertia;

@@ -6,7 +6,7 @@ pub enum Scale {
     /// Evenly.
     #[default]
     Linear,
-    /// By decades; what is not above zero has no place.
+    /// By decades; what is not above zero has no position.
     Logarithmic,
 }
 
@@ -32,12 +32,12 @@ impl Axis {
         Self { scale: Scale::Logarithmic, ..Self::new(label) }
     }
 
-    /// Whether a number has a place.
+    /// Whether a number has a position.
     pub(crate) fn shows(&self, number: f64) -> bool {
         number.is_finite() && (self.scale == Scale::Linear || number > 0.0)
     }
 
-    /// The range, of numbers that have a place, of which there is one at least.
+    /// The range, of numbers that have a position, of which there is one at least.
     pub(crate) fn extent(&self, numbers: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
         if let Some([from, to]) = self.range.filter(|[from, to]| from < to) {
             return [from, to];

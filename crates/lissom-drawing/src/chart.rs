@@ -26,7 +26,7 @@ const ROOM: f64 = 0.04;
 /// Radius of marks.
 const RADIUS: f64 = 3.6;
 
-/// What stands at the points of a curve.
+/// What is at the points of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// A disc.
@@ -44,7 +44,7 @@ pub enum Mark {
 pub struct Curve {
     /// What the legend calls it; nothing if it is empty.
     pub name: String,
-    /// Its points. Those that have no place on the axes are left out.
+    /// Its points. Those that have no position on the axes are omitted.
     pub points: Vec<(f64, f64)>,
     /// Its colour.
     pub shade: Shade,
@@ -52,7 +52,7 @@ pub struct Curve {
     pub width: f64,
     /// Whether it is dashed.
     pub is_dashed: bool,
-    /// What stands at its points.
+    /// What is at its points.
     pub mark: Option<Mark>,
     /// Half the size of marks.
     pub radius: f64,
@@ -121,7 +121,7 @@ impl Chart {
         Self { name: name.to_owned(), title: String::new(), panels, columns: 1, width: 760.0, panel_height }
     }
 
-    /// Panels without any point that has a place are left out.
+    /// Panels without any point that has a position are omitted.
     pub fn draw(&self) -> Drawing {
         let frames: Vec<Frame<'_>> = self.panels.iter().filter_map(Frame::of).collect();
         let head = if self.title.is_empty() { MARGIN } else { 2.0 * MARGIN + f64::from(TITLE) };
@@ -168,7 +168,7 @@ fn fitting(words: &str, height: u32, width: f64) -> u32 {
 }
 
 impl<'a> Frame<'a> {
-    /// Without places on the drawing; none if no point has a place.
+    /// Without positions on the drawing; none if no point has a position.
     fn of(panel: &'a Panel) -> Option<Self> {
         let points =
             || panel.curves.iter().flat_map(|curve| &curve.points).filter(|point| panel.shows(point));
@@ -228,7 +228,7 @@ impl<'a> Frame<'a> {
     }
 
     fn curve(&self, drawing: &mut Drawing, curve: &Curve) {
-        // A gap is left where points have no place.
+        // A gap is left where points have no position.
         for piece in curve.points.split(|point| !self.panel.shows(point)) {
             let places: Vec<[f64; 2]> = piece.iter().map(|point| self.place(*point)).collect();
             for place in curve.mark.map(|_| &places).into_iter().flatten() {

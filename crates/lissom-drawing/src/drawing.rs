@@ -23,7 +23,7 @@ pub enum DrawingError {
     /// There is nothing to see.
     #[error("{0}")]
     Empty(&'static str),
-    /// A polygon, line or word has no place.
+    /// A polygon, line or word has no position.
     #[error("a place in it is not a finite number")]
     NotFinite,
     /// It does not fit into a picture.
@@ -31,7 +31,7 @@ pub enum DrawingError {
     Png(#[from] PngError),
 }
 
-/// Where words stand beside their place.
+/// Where words are beside their position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// They begin there.
@@ -86,7 +86,7 @@ impl Drawing {
         self.shapes.push(Shape::Line { points, shade, width, is_dashed: true });
     }
 
-    /// Adds words of a height; `at` is on the line they stand on.
+    /// Adds words of a height; `at` is on the line they are on.
     pub fn words(&mut self, at: [f64; 2], text: &str, height: u32, align: Align, shade: Shade) {
         let text = text.to_owned();
         self.shapes.push(Shape::Words { at, text, height, align, shade, is_upright: false });
@@ -106,7 +106,7 @@ impl Drawing {
     /// The drawing as an SVG text.
     ///
     /// # Errors
-    /// If a place is not a finite number.
+    /// If a position is not a finite number.
     pub fn svg(&self) -> Result<String, DrawingError> {
         self.check()?;
         Ok(svg::text(self))
@@ -115,7 +115,7 @@ impl Drawing {
     /// The drawing as the bytes of a PNG file, two pixels for each of the drawing.
     ///
     /// # Errors
-    /// If a place is not a finite number, or the drawing is too large.
+    /// If a position is not a finite number, or the drawing is too large.
     pub fn png(&self) -> Result<Vec<u8>, DrawingError> {
         Ok(png::picture(&self.image(2.0)?)?)
     }

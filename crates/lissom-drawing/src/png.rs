@@ -43,7 +43,7 @@ pub(crate) fn picture(image: &Image) -> Result<Vec<u8>, PngError> {
 /// `scale` pixels for each of the drawings'.
 ///
 /// # Errors
-/// If there is no drawing, sizes differ, or a drawing has no place or too many pixels.
+/// If there is no drawing, sizes differ, or a drawing has no position or too many pixels.
 pub fn animation(drawings: &[Drawing], delay: f64, scale: f64) -> Result<Vec<u8>, DrawingError> {
     let first = drawings.first().ok_or(PngError::Nothing)?;
     if drawings.iter().any(|drawing| drawing.size != first.size) {

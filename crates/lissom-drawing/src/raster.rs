@@ -20,7 +20,7 @@ pub(crate) struct Image {
     cover: Vec<f32>,
 }
 
-/// Pixels from a place up to another, the latter excluded.
+/// Pixels from a position up to another, the latter excluded.
 #[derive(Clone, Copy)]
 struct Bounds {
     from: [usize; 2],
@@ -93,7 +93,7 @@ impl Image {
         }
     }
 
-    /// Pixels that places within `reach` may touch, if there are any in the picture.
+    /// Pixels that positions within `reach` may touch, if there are any in the picture.
     fn bounds<'a>(&self, places: impl Iterator<Item = &'a [f64; 2]>, reach: f64) -> Option<Bounds> {
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for place in places {

@@ -241,7 +241,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Goes on from `current` [s] by `size` [s]. After an error the unit stands at the end of the last step with a solution.
+    /// Goes on from `current` [s] by `size` [s]. After an error the unit is at the end of the last step with a solution.
     pub(crate) fn step(&mut self, current: f64, size: f64) -> Result<Stepped, String> {
         self.expect(&[Phase::Step], "a step")?;
         let session = self.session()?;
@@ -258,7 +258,7 @@ impl Instance {
         Ok(Stepped { time, is_ended: session.stopped_by().is_some() })
     }
 
-    /// Time the unit stands at [s].
+    /// Time the unit is at [s].
     pub(crate) fn time(&self) -> f64 {
         self.session.as_ref().map_or(self.interface.span[0], |session| session.progress().time)
     }

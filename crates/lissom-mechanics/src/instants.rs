@@ -3,7 +3,7 @@
 
 use crate::round_off;
 
-/// Instants closer than this part of a step, or of a sample period, are the same [-].
+/// Instants closer than this fraction of a step, or of a sample period, are the same [-].
 pub const SAME: f64 = 1e-9;
 /// Round-off that accumulates in a clock may reach this part of its step before it is taken for an intended difference.
 const MAX_ACCUMULATED: f64 = 1e-3;

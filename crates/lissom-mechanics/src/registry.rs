@@ -221,7 +221,7 @@ impl Parameter {
         Self { name, holds, required: true, unit, summary }
     }
 
-    /// A parameter that may be left out.
+    /// A parameter that may be omitted.
     pub const fn optional(
         name: &'static str,
         holds: ParameterType,
@@ -299,7 +299,7 @@ pub enum Value {
     Numbers(Vec<f64>),
     /// A square matrix of any size.
     SquareMatrix(DMatrix<f64>),
-    /// An input, by its place among the held values.
+    /// An input, by its position among the held values.
     Input(HeldId),
 }
 
@@ -352,7 +352,7 @@ impl Parameters {
         })
     }
 
-    /// The same but for some.
+    /// The same except for some.
     #[must_use]
     pub fn without<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Self {
         let mut rest = self.clone();

@@ -20,7 +20,7 @@ pub(crate) struct Work {
 #[derive(Clone, Copy)]
 pub(crate) enum Actor {
     Element(ElementId),
-    /// By its place among the drives.
+    /// By its position among the drives.
     Drive(usize),
 }
 

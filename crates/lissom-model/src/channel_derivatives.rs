@@ -1,5 +1,5 @@
 //! Derivatives of recorded numbers by the unknowns they depend on, by differences of sixth order along each: exact to
-//! about twelve digits for numbers as smooth as places, forces and reactions are.
+//! about twelve digits for numbers as smooth as positions, forces and reactions are.
 //!
 //! ```text
 //! f' ≈ (3/4 (f₁ - f₋₁) - 3/20 (f₂ - f₋₂) + 1/60 (f₃ - f₋₃)) / h
@@ -17,7 +17,7 @@ use lissom_motion::{Motion, Vector6};
 
 use crate::channels::{Channel, Place, Source};
 
-/// Angle, and part of a length, by which places are moved: far above round-off, and its sixth power far below.
+/// Angle, and part of a length, by which positions are moved: far above round-off, and its sixth power far below.
 const APART: f64 = 2e-3;
 /// Weights of the differences.
 const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];

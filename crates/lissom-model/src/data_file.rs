@@ -36,7 +36,7 @@ pub(crate) enum DataError {
     NotANumber {
         /// Line of the file, from 1.
         line: usize,
-        /// What stands there.
+        /// What is there.
         cell: String,
         /// Name of the column.
         column: String,

@@ -8,7 +8,7 @@ const WIDTH: usize = 110;
 /// What a tab is shown as.
 const TAB: &str = "    ";
 
-/// What stands in front of a sentence, and the colour of both.
+/// What is in front of a sentence, and the colour of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mark {
     /// An error.
@@ -44,7 +44,7 @@ pub(crate) struct Label<'a> {
     pub(crate) words: &'a str,
 }
 
-/// Text of a file. The first label is the one whose place is named.
+/// Text of a file. The first label is the one whose position is named.
 pub(crate) struct Excerpt<'a> {
     pub(crate) name: &'a str,
     pub(crate) text: &'a str,

@@ -28,7 +28,7 @@ pub(crate) enum Shape {
     Vector,
     /// Three numbers in global axes; those of the part inside of one.
     GlobalVector,
-    /// Three numbers, or a place in the frame of a part.
+    /// Three numbers, or a position in the frame of a part.
     Point,
     /// A list of names of parts.
     Names,
@@ -94,7 +94,7 @@ pub(crate) enum Shape {
     Stations,
     /// A list of nodes and locations on them.
     Places,
-    /// A list of names and places in the axes of the part.
+    /// A list of names and positions in the axes of the part.
     Interfaces,
     /// A list of pairs of numbers.
     Rows,
@@ -203,7 +203,7 @@ impl Shape {
         ]
     }
 
-    /// Keys of one of several places.
+    /// Keys of one of several positions.
     pub(crate) fn place_keys() -> Vec<Key> {
         vec![
             required("on", Self::Node, "", "the node that carries it"),
@@ -320,7 +320,7 @@ pub(crate) const fn required(
     Key { name, holds, required: true, unit, summary }
 }
 
-/// A key that may be left out.
+/// A key that may be omitted.
 pub(crate) const fn optional(
     name: &'static str,
     holds: Shape,

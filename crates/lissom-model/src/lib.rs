@@ -1,7 +1,7 @@
 //! Model files in, results out.
 //!
 //! A TOML text becomes a validated plain-data [`Document`], or a [`Report`] that names every
-//! mistake with its place and a remedy. Results leave as tables, summaries and plots. No physics is done here.
+//! mistake with its position and a remedy. Results leave as tables, summaries and plots. No physics is done here.
 
 mod accumulated;
 mod channel_components;

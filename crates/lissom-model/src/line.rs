@@ -10,9 +10,9 @@ use crate::expression::Expression;
 pub enum Line {
     /// From one point to another.
     Straight {
-        /// Place at `s = 0` [m].
+        /// Position at `s = 0` [m].
         from: Vector3,
-        /// Place at `s = 1` [m].
+        /// Position at `s = 1` [m].
         to: Vector3,
     },
     /// A circular arc; `s` is proportional to the arc length.
@@ -83,7 +83,7 @@ impl Line {
         }
     }
 
-    /// Place at the fraction `s` [m].
+    /// Position at the fraction `s` [m].
     pub fn position(&self, s: f64) -> Vector3 {
         match self {
             Self::Straight { from, to } => from + (to - from) * s,
@@ -97,7 +97,7 @@ impl Line {
         }
     }
 
-    /// Derivative of the place with respect to the fraction [m].
+    /// Derivative of the position with respect to the fraction [m].
     pub fn derivative(&self, s: f64) -> Vector3 {
         match self {
             Self::Straight { from, to } => to - from,

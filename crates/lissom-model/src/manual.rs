@@ -46,7 +46,7 @@ pub fn manual(registry: &Registry) -> String {
 /// Words besides those of the tables that [`topic`] knows.
 const FUNCTION_WORDS: [&str; 2] = ["function", "expression"];
 
-/// What can stand under a word at the top of a model file, such as `outputs` or `output`, as Markdown; also what a
+/// What can be under a word at the top of a model file, such as `outputs` or `output`, as Markdown; also what a
 /// `function` is. None where there is no such word.
 pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     let mut text = String::new();
@@ -117,7 +117,7 @@ fn forms(text: &mut String, name: &str, registry: &Registry) {
         if let Some(tag) = tag {
             line(text, &format!("\n### `{tag} = \"{}\"`\n\n{}", form.word, form.summary));
         }
-        // The word that chooses the form stands in its heading.
+        // The word that chooses the form is in its heading.
         keys(text, form.keys.iter().filter(|key| Some(key.name) != tag));
         let kinds: &[KindEntry] = match name {
             "joints" => &registry.joints,

@@ -30,7 +30,7 @@ pub(crate) enum MatrixError {
     NotANumber {
         /// Line from 1.
         line: usize,
-        /// What stands there.
+        /// What is there.
         word: String,
     },
     /// An entry lies outside.

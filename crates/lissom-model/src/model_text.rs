@@ -69,7 +69,7 @@ impl ModelText {
         &self.0.library
     }
 
-    /// Overrides of what stands inside of parts, each as `path = value`: [`to_toml`](Self::to_toml) cannot express them.
+    /// Overrides of what is inside of parts, each as `path = value`: [`to_toml`](Self::to_toml) cannot express them.
     pub fn overrides_inside_parts(&self) -> Vec<String> {
         let line = |patch: &Patch| {
             let path: Vec<String> = patch.path.iter().map(|(name, _)| toml_text::key(name)).collect();

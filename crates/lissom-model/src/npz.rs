@@ -38,7 +38,7 @@ pub(crate) enum NpzError {
     TooLarge(String),
 }
 
-/// Bytes at a place.
+/// Bytes at a position.
 fn bytes<const N: usize>(of: &[u8], at: usize) -> Result<[u8; N], NpzError> {
     let found = of.get(at..at.saturating_add(N)).ok_or(NpzError::NotAnArchive)?;
     found.try_into().map_err(|_| NpzError::NotAnArchive)

@@ -41,7 +41,7 @@ pub fn number_at(
 }
 
 /// Names and values of the entries of a table at the top of a model's `text`, with `overrides` put in place, that are written as
-/// plain numbers; those that are expressions, which follow from others, are left out.
+/// plain numbers; those that are expressions, which follow from others, are omitted.
 pub fn written_numbers(text: &str, overrides: &[(String, String)], table: &str) -> Vec<(String, f64)> {
     let tree = text::read(text, "", overrides, Arc::default());
     let Some(table) = tree.root.get(table).and_then(|entry| entry.node.table()) else { return Vec::new() };

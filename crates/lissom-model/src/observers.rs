@@ -1,6 +1,6 @@
 //! Vectors as an observer sees them: in the axes of a frame that moves, and relative to its motion.
 //!
-//! Legend: x, v, a place, velocity and acceleration; R, ω rotation and angular velocity; F the observer's frame:
+//! Legend: x, v, a position, velocity and acceleration; R, ω rotation and angular velocity; F the observer's frame:
 //!
 //! ```text
 //! x' = R_Fᵀ (x - x_F)    v' = R_Fᵀ (v - v_F(x))    a' = R_Fᵀ (a - a_F(x) - 2 ω_F × (v - v_F(x)))

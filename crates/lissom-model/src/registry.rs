@@ -26,7 +26,7 @@ pub enum ActsOn {
     TwoPlaces,
     /// One node `on` at location `at`.
     OneNode,
-    /// Places one after the other: `along`, a list of nodes `on` and locations `at`.
+    /// Positions one after the other: `along`, a list of nodes `on` and locations `at`.
     Places,
     /// A relative coordinate of `joint`: a rotation or a displacement.
     JointCoordinate(Quantity),

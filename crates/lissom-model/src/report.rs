@@ -1,5 +1,5 @@
-//! What is wrong with a model file: problems with the place they underline, gathered in a report.
-//! Knows texts and places, not what any key means.
+//! What is wrong with a model file: problems with the position they underline, gathered in a report.
+//! Knows texts and positions, not what any key means.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -17,7 +17,7 @@ pub struct Span {
     pub end: usize,
 }
 
-/// Where a text stands that is there a second time.
+/// Where a text is that is there a second time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shift {
     /// The text that is there again; what lies elsewhere, such as an override, stays.
@@ -54,7 +54,7 @@ impl From<Range<usize>> for Span {
 pub struct Located<T> {
     /// The value.
     pub value: T,
-    /// Where it stands.
+    /// Where it is.
     pub span: Span,
 }
 
@@ -64,7 +64,7 @@ impl<T> Located<T> {
         Self { value, span }
     }
 
-    /// The same place with another value.
+    /// The same position with another value.
     pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Located<U> {
         Located { value: change(self.value), span: self.span }
     }
@@ -126,7 +126,7 @@ impl Problem {
         self
     }
 
-    /// Underlines another place as well.
+    /// Underlines another position as well.
     pub fn also(mut self, span: Span, label: impl Into<String>) -> Self {
         self.also = Some((span, label.into()));
         self
@@ -220,7 +220,7 @@ impl Sources {
         piece.text.get(local).unwrap_or("")
     }
 
-    /// Where a part of an expression stands, whose `text` is within `whole`; all of it where it is written otherwise.
+    /// Where a part of an expression is, whose `text` is within `whole`; all of it where it is written otherwise.
     pub(crate) fn within(&self, whole: Span, text: &str, range: &Range<usize>) -> Span {
         let found = self.text(whole).find(text).filter(|_| !text.is_empty());
         found.map_or(whole, |offset| {
@@ -260,7 +260,7 @@ struct Shown {
     origins: Vec<Included>,
 }
 
-/// The place where a part was asked for whose text has a problem.
+/// The position where a part was asked for whose text has a problem.
 #[derive(Clone, Debug)]
 struct Included {
     words: String,

@@ -54,7 +54,7 @@ pub(crate) fn known_for<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .find_map(|(own, _)| known.iter().find(|known| *known == own).copied())
 }
 
-/// What to write instead of a word that no single one stands for.
+/// What to write instead of a word that no single one represents.
 pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     let is_known = |name: &str| known.contains(&name);
     match word.to_lowercase().as_str() {

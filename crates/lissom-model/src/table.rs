@@ -211,7 +211,7 @@ impl ForceFunction for Table {
     }
 }
 
-/// Slopes that differ by less than this part are the same but for the digits of a text.
+/// Slopes that differ by less than this fraction are the same except for the digits of a text.
 const SAME_SLOPE: f64 = 1e-3;
 
 /// Second derivatives of the natural cubic spline: continuity of the first derivative at the inner rows,

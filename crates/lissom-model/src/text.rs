@@ -1,4 +1,4 @@
-//! From text and overrides to one tree of values with their places. Knows TOML, not what any key means.
+//! From text and overrides to one tree of values with their positions. Knows TOML, not what any key means.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,11 +12,11 @@ use crate::parts::{ROOT, ScopeId};
 use crate::report::{OVERRIDE, Problem, Shift, Sources, Span};
 use crate::suggest;
 
-/// A value and its place.
+/// A value and its position.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) span: Span,
-    /// Where its names and places count.
+    /// Where its names and positions count.
     pub(crate) scope: ScopeId,
     pub(crate) value: Value,
 }
@@ -33,7 +33,7 @@ pub(crate) enum Value {
     Table(Table),
 }
 
-/// A key's place and its value.
+/// A key's position and its value.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     pub(crate) key: Span,
@@ -180,7 +180,7 @@ pub(crate) fn parse(text: &str) -> Result<Table, Box<Problem>> {
 }
 
 fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
-    // An empty place cannot be underlined: take the character before it.
+    // An empty position cannot be underlined: take the character before it.
     if span.start >= span.end {
         let end = span.start.min(text.len());
         let start =
@@ -287,7 +287,7 @@ impl Patch {
             };
             table = inner;
         }
-        // What is replaced keeps its place among the others: parameters may name those above them.
+        // What is replaced keeps its position among the others: parameters may name those above them.
         let key = table.get(&last).map_or(key, |entry| entry.key);
         table.insert(last, Entry { key, node: value });
         Ok(())

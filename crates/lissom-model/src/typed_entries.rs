@@ -117,7 +117,7 @@ struct Declared {
     name: String,
     /// How its declaration begins.
     heading: String,
-    /// Each key that may be left out, with its documentation.
+    /// Each key that may be omitted, with its documentation.
     optional: Vec<String>,
 }
 
@@ -171,7 +171,7 @@ fn nested((name, summary): (&str, &str), keys: &[Key], words: &mut Words) -> Dec
     with_keys(Declared { name: name.to_owned(), heading, optional: Vec::new() }, keys, None, words)
 }
 
-/// The same with what stands in `new`, and with the keys that may be left out.
+/// The same with what is in `new`, and with the keys that may be omitted.
 fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mut Words) -> Declared {
     let typed: Vec<(&Key, String)> = keys
         .iter()

@@ -80,7 +80,7 @@ impl Context<'_> {
         }
     }
 
-    /// Underlines the offending bytes, where the text stands in the file as it is read.
+    /// Underlines the offending bytes, where the text is in the file as it is read.
     fn expression_problem(&self, node: &Node, text: &str, error: &ExpressionError, what: &str) -> Problem {
         let place = self.sources.within(node.span, text, &error.range);
         Problem::error(place, format!("{what} cannot be read: {error}"))

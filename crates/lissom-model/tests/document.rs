@@ -1,4 +1,4 @@
-//! Good model files are read, bad ones are refused with the message their first line asks for.
+//! Good model files are read, bad ones are rejected with the message their first line asks for.
 
 use crate::support;
 

@@ -176,7 +176,7 @@ fn each_spring_and_beam_alone_preserves_energy_over_long_steps() {
     }
 }
 
-/// Place and velocity of the second body at 4 ms.
+/// Position and velocity of the second body at 4 ms.
 fn bob(step: &str) -> [lissom_motion::Vector3; 2] {
     const BOB: usize = 2;
     let (mut simulation, steps) = start(&[("analysis.step", step), ("analysis.end", "0.004")]);

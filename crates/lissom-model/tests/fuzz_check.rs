@@ -1,4 +1,4 @@
-//! Whatever is damaged in a model, `check` answers: the model is wrong, or it has so many freedoms.
+//! Whatever is damaged in a model, `check` answers: the model is wrong, or it has so many degrees of freedom.
 
 use crate::support::damage;
 
@@ -17,7 +17,7 @@ const EXAMPLES: [&str; 5] = [
     include_str!("../../../examples/energy.toml"),
 ];
 
-/// What may stand in a model beside strangers that no model has.
+/// What may be in a model beside strangers that no model has.
 const NUMBERS_AND_NAMES: [&str; 3] = ["3", "1e12", "\"tip\""];
 
 fn check(text: &str) {

@@ -1,4 +1,4 @@
-//! Parts that repeat: names, places, parameters and mistakes of what is included, copied and counted.
+//! Parts that repeat: names, positions, parameters and mistakes of what is included, copied and counted.
 
 use std::sync::Arc;
 
@@ -137,10 +137,10 @@ fn a_part_is_like_another_turned_and_shifted() {
     let end = |name: &str| document.beam(name).unwrap().line.position(1.0);
     let turn = Rotation::exponential(&Vector3::new(2.0 * std::f64::consts::FRAC_PI_3, 0.0, 0.0));
     assert_eq!(end("blade1.beam"), Vector3::new(0.0, 0.0, 2.5));
-    // The place of the original is turned, too.
+    // The position of the original is turned, too.
     assert!((end("blade2.beam") - turn.apply(&Vector3::new(0.0, 0.0, 2.5))).norm() < 1e-14);
     assert!((end("blade3.beam") - turn.apply(&turn.apply(&Vector3::new(0.0, 0.0, 3.5)))).norm() < 1e-14);
-    // Sections stand in each blade as in the first.
+    // Sections are in each blade as in the first.
     let frame = |name: &str| document.beam(name).unwrap().frame(0.5);
     let turned: Matrix3 = turn.matrix() * frame("blade1.beam");
     assert!((turned - frame("blade2.beam")).norm() < 1e-14, "{}", frame("blade2.beam"));

@@ -8,7 +8,7 @@ const TIP_CRANK: &str = include_str!("../../../examples/tip-crank.toml");
 
 const MEASURED: &str = include_str!("../../../docs/measured.md");
 
-/// The figure stands in the book as it was measured.
+/// The figure is in the book as it was measured.
 fn assert_reported(figure: &str) {
     assert!(MEASURED.contains(figure), "docs/measured.md does not say: {figure}");
 }

@@ -65,13 +65,13 @@ impl Motion {
         Pose::from(self).relative_to(base.into()).into()
     }
 
-    /// The place `x + R X` of the body point `X`.
+    /// The position `x + R X` of the body point `X`.
     #[inline]
     pub fn transform_point(&self, point: &Vector3) -> Vector3 {
         self.position + self.rotation.apply(point)
     }
 
-    /// The body coordinates `Rᵀ (y - x)` of the place `y`.
+    /// The body coordinates `Rᵀ (y - x)` of the position `y`.
     #[inline]
     pub fn inverse_transform_point(&self, place: &Vector3) -> Vector3 {
         self.rotation.apply_inverse(&(place - self.position))

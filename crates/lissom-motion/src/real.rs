@@ -1,4 +1,4 @@
-//! A number, or several side by side: what the hot formulas are written over, so that they stand there once.
+//! A number, or several side by side: what the hot formulas are written over, so that they are there once.
 //!
 //! Everything that is generic over [`Real`] is inlined to the last function: only then a caller compiled for wider
 //! vectors uses them. For the same reason it calls no closures, iterators or foreign vector types.

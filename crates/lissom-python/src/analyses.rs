@@ -68,7 +68,7 @@ fn of_linear(
     (found.files.clone(), json(&found.summary(name, overrides, document)), found.warnings.clone())
 }
 
-/// The linear model where `session` stands, as files.
+/// The linear model where `session` is, as files.
 pub(crate) fn linearize_here(
     session: &Session,
     model: &NativeModel,

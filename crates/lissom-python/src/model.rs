@@ -45,7 +45,7 @@ impl NativeModel {
         hasher.finish()
     }
 
-    /// Refuses a model whose analysis has no course in time.
+    /// Rejects a model whose analysis has no course in time.
     pub(crate) fn in_time(document: &Document) -> PyResult<()> {
         match document.analysis.kind {
             AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => Ok(()),
@@ -118,7 +118,7 @@ impl NativeModel {
         }
     }
 
-    /// Sizes, freedoms, redundant constraints and warnings.
+    /// Sizes, degrees of freedom, redundant constraints and warnings.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let document = self.document()?;
         let lowered = lower(&document).map_err(|report| of_report(&report))?;

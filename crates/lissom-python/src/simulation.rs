@@ -134,14 +134,14 @@ impl Simulation {
     /// Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too. Stands still before it
     /// at an event that ends the run, which `stopped_by` names.
     ///
-    /// Raises `SolutionError` if a step has no solution: the simulation then stands at the end of the last one that has.
+    /// Raises `SolutionError` if a step has no solution: the simulation then is at the end of the last one that has.
     /// Raises `ValueError` if `time` is before the present time or not finite.
     fn step_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut watch = Watch::new(None);
         let outcome = py.detach(|| {
             let mut inner = self.lock();
             let now = inner.session.progress().time;
-            // NaN is refused as well.
+            // NaN is rejected as well.
             if !(time >= now && time.is_finite()) {
                 return Err(PyValueError::new_err(format!(
                     "the simulation is at t = {now} s: it cannot go to {time} s"
@@ -181,7 +181,7 @@ impl Simulation {
         self.lock().session.is_finished()
     }
 
-    /// Name of the event at which the simulation stands, if that is to end the run.
+    /// Name of the event at which the simulation is, if that is to end the run.
     #[getter]
     fn stopped_by(&self) -> Option<String> {
         self.lock().session.stopped_by().map(str::to_owned)
@@ -239,7 +239,7 @@ impl Simulation {
         Ok(self.lock().values()[index])
     }
 
-    /// The model linearised where the simulation stands, a `lissom.LinearModel`: what `model.linearize` gives about this
+    /// The model linearised where the simulation is, a `lissom.LinearModel`: what `model.linearize` gives about this
     /// time. `inputs` name inputs, loads and prescribed motions, `outputs` outputs or columns of them.
     ///
     /// Raises `ModelError` if there is no such input or output, `SolutionError` if the model is at rest without being in
@@ -254,7 +254,7 @@ impl Simulation {
         py.import("lissom._linear")?.getattr("LinearModel")?.call_method1("_of", files)
     }
 
-    /// Where the simulation stands, as bytes that can be kept, sent and pickled.
+    /// Where the simulation is, as bytes that can be kept, sent and pickled.
     fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let bytes = py.detach(|| {
             let mut bytes = self.model.get().fingerprint().to_le_bytes().to_vec();

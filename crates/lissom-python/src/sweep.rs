@@ -34,7 +34,7 @@ fn outcome(of: MemberOutcome) -> PyResult<Outcome> {
 
 #[pymethods]
 impl NativeSweep {
-    /// A sweep as `text`, a sweep file, describes it; `model` takes the place of the file's own.
+    /// A sweep as `text`, a sweep file, describes it; `model` takes the position of the file's own.
     #[new]
     fn new(py: Python<'_>, model: &NativeModel, text: &str, name: &str) -> PyResult<Self> {
         let file = SweepFile::parse(text, name).map_err(|report| of_report(&report))?;

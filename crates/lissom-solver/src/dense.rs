@@ -14,7 +14,7 @@ pub(crate) const NAME: &str = "dense";
 /// Dense LU with row exchanges; cubic time, quadratic memory.
 pub struct Dense<S> {
     pattern: Arc<Pattern>,
-    /// Column-major; L below the diagonal, its unit diagonal left out, and U above.
+    /// Column-major; L below the diagonal, its unit diagonal omitted, and U above.
     factors: Vec<S>,
     /// Row exchanged with row `k` at step `k`.
     exchanges: Vec<usize>,

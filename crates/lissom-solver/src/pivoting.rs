@@ -16,9 +16,9 @@ use crate::structure::Structure;
 
 pub(crate) const NAME: &str = "pivoting";
 
-/// Backward error of the solve behind the report above which the factors are refused.
+/// Backward error of the solve behind the report above which the factors are rejected.
 const UNUSABLE: f64 = 1e-6;
-/// A row that no pivot has been taken from, or an unknown without a place.
+/// A row that no pivot has been taken from, or an unknown without a position.
 const NONE: u32 = u32::MAX;
 
 /// Sparse LU with partial pivoting.
@@ -129,7 +129,7 @@ impl<S: Scalar> Pivoting<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
-    /// If [`Structure::check`] refuses the structure.
+    /// If [`Structure::check`] rejects the structure.
     pub fn new(structure: &Structure) -> Self {
         let pattern = Arc::clone(&structure.pattern);
         let size = pattern.size();

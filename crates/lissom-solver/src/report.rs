@@ -2,7 +2,7 @@
 
 use crate::scalar::Scalar;
 
-/// A pivot is refused when elimination has cancelled it down to this fraction of the terms it is the sum of:
+/// A pivot is rejected when elimination has cancelled it down to this fraction of the terms it is the sum of:
 /// `|pivot| ≤ TINY_PIVOT (|a_ii| + Σ |l_ik u_ki|)`.
 ///
 /// About 45 units of round-off: what is left then is noise. The comparison is with the terms of the pivot's own
@@ -77,7 +77,7 @@ impl Monitor {
         Monitor { smallest: (f64::INFINITY, 0), largest: 0.0, cancellation: (f64::INFINITY, 0), negative: 0 }
     }
 
-    /// Takes note of a pivot, or refuses it; `terms` is the sum of the magnitudes it was made of. Gives its magnitude.
+    /// Records a pivot, or rejects it; `terms` is the sum of the magnitudes it was made of. Returns its magnitude.
     #[inline]
     pub(crate) fn pivot<S: Scalar>(
         &mut self,
@@ -101,7 +101,7 @@ impl Monitor {
         Err(refusal(unknown, pivot, terms))
     }
 
-    /// Takes note of what another monitor has seen.
+    /// Records what another monitor has seen.
     pub(crate) fn join(&mut self, other: &Monitor) {
         if other.smallest.0 < self.smallest.0 {
             self.smallest = other.smallest;

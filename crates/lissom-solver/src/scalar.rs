@@ -26,7 +26,7 @@ mod sealed {
     }
 }
 
-/// So many numbers of a slice, from a place on.
+/// So many numbers of a slice, from a position on.
 #[inline(always)]
 pub(crate) fn array<S, const COUNT: usize>(slice: &[S], at: usize) -> &[S; COUNT] {
     slice[at..at + COUNT].try_into().expect("a slice of that length")

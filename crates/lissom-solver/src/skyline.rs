@@ -30,7 +30,7 @@ pub struct Skyline<S> {
     first: Vec<usize>,
     /// Where the piece of each step begins in `lower` and `upper`; the diagonal is not in them.
     starts: Vec<usize>,
-    /// For each entry of the pattern its place in the storage `lower ‖ upper ‖ diagonal`.
+    /// For each entry of the pattern its position in the storage `lower ‖ upper ‖ diagonal`.
     places: Vec<usize>,
     lower: Vec<S>,
     upper: Vec<S>,
@@ -42,7 +42,7 @@ impl<S: Scalar> Skyline<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
-    /// If [`Structure::check`] refuses the structure.
+    /// If [`Structure::check`] rejects the structure.
     pub fn new(structure: &Structure) -> Self {
         let pattern = Arc::clone(&structure.pattern);
         let size = pattern.size();

@@ -77,7 +77,7 @@ pub struct SolverKind {
 }
 
 /// Every kind of solver, the default first. The constructors panic on a structure that
-/// [`Structure::check`] refuses.
+/// [`Structure::check`] rejects.
 pub static KINDS: &[SolverKind] = &[
     SolverKind {
         name: multifrontal::NAME,

@@ -60,7 +60,7 @@ pub struct Placement {
     pub nodes: [NodeId; 2],
     /// The joint's point, on the base [m].
     pub at: Vector3,
-    /// The tip's point, for kinds that span a distance; the tip node's place where not given [m].
+    /// The tip's point, for kinds that span a distance; the tip node's position where not given [m].
     pub at_tip: Option<Vector3>,
     /// Direction of the joint's axis, for kinds that have one.
     pub axis: Option<Vector3>,
@@ -135,21 +135,21 @@ impl Builder {
         self.model.gravity.factor = Some(factor);
     }
 
-    /// Adds a node with its place at the start.
+    /// Adds a node with its position at the start.
     pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
         let motion = NodeMotion::at_rest(frame);
         self.model.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
         self.model.nodes.len() - 1
     }
 
-    /// Sets a node's twist at the start, in its body frame [m/s, rad/s]; locked freedoms stay at rest.
+    /// Sets a node's twist at the start, in its body frame [m/s, rad/s]; locked degrees of freedom stay at rest.
     pub fn set_twist(&mut self, node: NodeId, twist: Vector6) {
         let freedoms = self.model.nodes[node].freedoms;
         self.model.nodes[node].motion.twist =
             Vector6::from_fn(|k, _| if freedoms.is_free(k) { twist[k] } else { 0.0 });
     }
 
-    /// Locks all freedoms of a node: it stays where it is.
+    /// Locks all degrees of freedom of a node: it stays where it is.
     pub fn lock(&mut self, node: NodeId) {
         self.model.nodes[node].freedoms = Freedoms::Fixed;
         self.model.nodes[node].motion.twist.fill(0.0);
@@ -160,7 +160,7 @@ impl Builder {
         self.model.frame(node)
     }
 
-    /// Which freedoms of a node are free.
+    /// Which degrees of freedom of a node are free.
     pub fn freedoms(&self, node: NodeId) -> Freedoms {
         self.model.nodes[node].freedoms
     }
@@ -233,7 +233,7 @@ impl Builder {
         last.filter(|_| contribution.has_outputs)
     }
 
-    /// Adds a joint of a kind that stands between two nodes; gives its algebraic coordinates.
+    /// Adds a joint of a kind that is between two nodes; gives its algebraic coordinates.
     ///
     /// # Errors
     /// If a parameter or an axis is missing or makes no sense.
@@ -348,7 +348,7 @@ impl Builder {
         self.model.coordinate_quantity(coordinate)
     }
 
-    /// Numbers the unknowns and gives the system with its state at `time` [s]: places and twists as
+    /// Numbers the unknowns and gives the system with its state at `time` [s]: positions and twists as
     /// given, accelerations and multipliers zero.
     ///
     /// # Errors

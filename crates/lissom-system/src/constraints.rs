@@ -273,7 +273,7 @@ impl System {
                 let (stiffness, gradients) = scratch.split_at_mut(size * size);
                 let (plain, charted) = gradients.split_at_mut(count * size);
                 constraint.gradient(point.at, plain);
-                // The Hessian of the augmented term, w c ∂²c/∂q², is left out, see `AttachedJoint::linearize_for`.
+                // The Hessian of the augmented term, w c ∂²c/∂q², is omitted, see `AttachedJoint::linearize_for`.
                 constraint.constraint_hessian(point.at, &point.multipliers[first..first + count], stiffness);
                 charted.copy_from_slice(plain);
                 if let Chart::Increments(tangents) = chart {

@@ -100,7 +100,7 @@ impl System {
         &self.constraints.joints
     }
 
-    /// Takes note of what joints see at the start of a step.
+    /// Records what joints see at the start of a step.
     #[inline]
     pub fn begin_step(&self, start: &Kinematics, out: &mut JointStarts) {
         self.joint_batches.begin(start, out);
@@ -188,7 +188,7 @@ impl System {
         elements.chain(self.joint_batches.iter().map(JointBatch::starts))
     }
 
-    /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as
+    /// Work of loads between two configurations [J], as if forces changed linearly in time between them and positions as
     /// cubic polynomials.
     #[inline]
     pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {

@@ -14,7 +14,7 @@ use lissom::builder::{GROUND, ModelBuilder};
 /// Mass [kg], distance of the centre of mass from the hinge [m], inertia about the centre of mass [kg m²].
 const ROD: (f64, f64, f64) = (1.0, 0.5, 1.0 / 12.0);
 const GRAVITY: f64 = 9.81;
-/// Angle from the lowest place at the start, from rest [rad].
+/// Angle from the lowest position at the start, from rest [rad].
 const START: f64 = PI / 3.0;
 
 /// The arithmetic-geometric mean.
@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let place = [distance * START.sin(), 0.0, -distance * START.cos()];
     let rod = builder.add(Body::new(mass, [inertia, inertia, 0.01 * inertia]).position(place));
     let hinge = builder.add(Revolute::new(GROUND, rod, [0.0, -1.0, 0.0]).at([0.0; 3]));
-    // The joint counts from its place at the start.
+    // The joint counts from its position at the start.
     let angle = builder.add(Relative::new(hinge));
     let energy = builder.add(Energy::new());
 
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for ((time, swing), energy) in record.times.iter().zip(swing).zip(total) {
         println!("t = {time:.6} s  angle = {:+.6} rad  energy = {energy:.9} J", START + swing);
     }
-    // From one side through the lowest place to the other, and back.
+    // From one side through the lowest position to the other, and back.
     for (found, expected) in swing.iter().zip([0.0, -START, -2.0 * START, -START, 0.0]) {
         assert!((found - expected).abs() < 1e-5, "{found} rad, not {expected} rad");
     }

@@ -1,7 +1,7 @@
 //! A thousand copies of a pendulum that start at different rates, on all cores: `cargo run --release --example
 //! perturbed_copies`. The system is built once; every copy has its own state.
 //!
-//! Checks itself: a pendulum that passes its lowest place at the rate ω₀ is there again, at the same rate, after the period
+//! Checks itself: a pendulum that passes its lowest position at the rate ω₀ is there again, at the same rate, after the period
 //! T = 2π/(ω agm(1, √(1 - k²))) with k = ω₀/(2ω) and ω² = m g ℓ/I.
 
 use std::error::Error;
@@ -34,7 +34,7 @@ fn agm(a: f64, b: f64) -> f64 {
     (0..40).fold((a, b), |(a, b), _| (f64::midpoint(a, b), (a * b).sqrt())).0
 }
 
-/// Rate at the lowest place of a copy [rad/s].
+/// Rate at the lowest position of a copy [rad/s].
 fn start_rate(copy: usize) -> f64 {
     1.0 + copy as f64 / COPIES as f64
 }

@@ -16,7 +16,7 @@ use crate::operating_point::{LinearizationPoint, OperatingPoint};
 const ALIKE: f64 = 0.3;
 /// Shapes that are less alike than this are reported: a pair of equal frequencies splits into halves.
 const DOUBTFUL: f64 = 0.45;
-/// A crossing is known to this part of its frequency …
+/// A crossing is known to this fraction of its frequency …
 const CROSSED: f64 = 1e-7;
 /// … or after so many solutions.
 const SOLUTIONS: usize = 8;
@@ -278,7 +278,7 @@ impl Search<'_> {
         let mut value = low.value;
         for _ in 0..SOLUTIONS {
             value = low.value - at.0 * (high.value - low.value) / (beyond.0 - at.0);
-            // At the crossing itself a mode may stand still in rotating axes, where its shape gives no information.
+            // At the crossing itself a mode may be at rest in rotating axes, where its shape gives no information.
             let Ok(middle) = self.point(value, Some(&low), &mut lines) else { break };
             let Some(own) = gap(&middle).filter(|own| own.2 == beyond.2) else { break };
             let is_found = own.0.abs() <= CROSSED * own.1;

@@ -53,7 +53,7 @@ pub struct Checkpoint {
     pub included: std::collections::BTreeMap<String, String>,
     /// What was changed in it.
     pub overrides: Vec<Override>,
-    /// What was left out of it.
+    /// What was omitted from it.
     pub left_out: Vec<String>,
     /// Whether plots are wanted.
     pub plots: bool,
@@ -63,7 +63,7 @@ pub struct Checkpoint {
     pub history_length: u64,
     /// Bytes of the motion file that belong to the run so far; zero where there is none.
     pub motion_length: u64,
-    /// Where the run stands.
+    /// Where the run is.
     pub session: SessionSnapshot,
 }
 

@@ -30,7 +30,7 @@
 //!
 //! # A model built in code
 //!
-//! [`ModelBuilder`](builder::ModelBuilder) takes typed entries and gives ids, which stand for names. It makes the same model as
+//! [`ModelBuilder`](builder::ModelBuilder) takes typed entries and gives ids, which represent names. It makes the same model as
 //! a file would, with the same checks. A cart on a spring, pushed from outside:
 //!
 //! ```
@@ -105,7 +105,7 @@
 //!
 //! # More
 //!
-//! A session that stands between two steps is kept and restored by [`Session::snapshot`] and [`Session::restore`], to the last
+//! A session that is between two steps is kept and restored by [`Session::snapshot`] and [`Session::restore`], to the last
 //! bit. Results go to files with a [`ResultFolder`]. [`modes`], [`buckling`], [`path`], [`response`], [`linearize`], [`campbell`]
 //! and [`gradient`] are analyses without steps in time, [`sweep`] and [`study`] run a model many times. The crate's `examples`
 //! folder has programs that check themselves: a pendulum, an arm that is driven from outside, a thousand copies on all cores.
@@ -166,5 +166,5 @@ pub use session::{Checkpoints, Progress, ReadError, Session, SessionError, Sessi
 pub use state_writer::StateWriter;
 pub use timings::Seconds;
 
-/// Version of the program, as it stands in every summary.
+/// Version of the program, as it is in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

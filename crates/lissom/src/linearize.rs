@@ -71,7 +71,7 @@ pub fn linearize(
     Ok(report)
 }
 
-/// Linearises the model of `document` where `session`, which runs it, stands: what [`linearize`] gives about that time.
+/// Linearises the model of `document` where `session`, which runs it, is: what [`linearize`] gives about that time.
 /// `inputs` and `outputs` are named as in [`LinearizeRequest`].
 ///
 /// # Errors

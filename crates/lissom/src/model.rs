@@ -22,7 +22,7 @@ pub struct Model {
     name: String,
     text: String,
     library: Arc<Library>,
-    /// Paths to what is left out of the text.
+    /// Paths to what is omitted from the text.
     left_out: Vec<String>,
     /// What ids mean, where it was built in code.
     ids: Option<Arc<IdNames>>,
@@ -51,13 +51,13 @@ impl Model {
     }
 
     /// The same without the values and entries that these paths lead to, such as `analysis.step` or `springs.damper`.
-    /// They are left out before anything is overridden.
+    /// They are omitted before anything is overridden.
     #[must_use]
     pub fn without(self, paths: Vec<String>) -> Self {
         Self { left_out: paths, ..self }
     }
 
-    /// Paths to what is left out of the text.
+    /// Paths to what is omitted from the text.
     pub fn left_out(&self) -> &[String] {
         &self.left_out
     }

@@ -32,7 +32,7 @@ const BEYOND_ROUND_OFF: f64 = 30.0;
 /// … unless round-off leaves nothing of the comparison.
 const MAX_ROUND_OFF: f64 = 1e-2;
 
-/// What is asked for beyond the model; what is left out is as the model's table `[analysis]` says if it is of kind `modes`.
+/// What is asked for beyond the model; what is omitted is as the model's table `[analysis]` says if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModeRequest {
     /// How many modes; 20 where nothing says otherwise.
@@ -237,7 +237,7 @@ pub(crate) struct Reliable<'a> {
     pub(crate) found: Modes,
     /// The model in axes at rest, if they are its modes.
     pub(crate) at_rest: Option<LinearModel<'a>>,
-    /// The modes that are left out, and the axes.
+    /// The modes that are omitted, and the axes.
     pub(crate) warnings: Vec<String>,
 }
 
@@ -365,7 +365,7 @@ impl ModeReport {
         text
     }
 
-    /// The table `shapes.csv`: by mode and node its place [m], displacement [m] and rotation [rad] in global axes for unit modal
+    /// The table `shapes.csv`: by mode and node its position [m], displacement [m] and rotation [rad] in global axes for unit modal
     /// mass, and imaginary parts of both where a mode has any.
     pub fn shapes_csv(&self) -> String {
         let is_complex = self.modes.iter().any(|mode| mode.shape.iter().any(|value| value.im != 0.0));

@@ -1,4 +1,4 @@
-//! States about which a model is linearised: the places of the file, static equilibrium, an instant of a run.
+//! States about which a model is linearised: the positions of the file, static equilibrium, an instant of a run.
 
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::equilibrium::at_rest;
@@ -14,7 +14,7 @@ use lissom_motion::rotation_part;
 use crate::modes::ModesError;
 use crate::session::Session;
 
-/// A state at rest whose unbalanced forces displace it by less than this part of the model's length is in equilibrium …
+/// A state at rest whose unbalanced forces displace it by less than this fraction of the model's length is in equilibrium …
 const BALANCED: f64 = 1e-8;
 /// … and one that was solved for may miss it by so much.
 const STILL_BALANCED: f64 = 1e-6;
@@ -22,7 +22,7 @@ const STILL_BALANCED: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-12;
 /// A motion whose twists change by less, relative to the square of its rate, is steady.
 const STEADY: f64 = 1e-6;
-/// The same of a rotation whose places were solved for, where light parts show round-off.
+/// The same of a rotation whose positions were solved for, where light parts show round-off.
 const STEADY_ROTATION: f64 = 1e-5;
 
 /// The state about which a model is linearised.
@@ -30,7 +30,7 @@ const STEADY_ROTATION: f64 = 1e-5;
 pub enum OperatingPoint {
     /// Static equilibrium: of a model with load steps at their end, of others under the loads at the start.
     Static,
-    /// The places of the model file, without gravity and loads.
+    /// The positions of the model file, without gravity and loads.
     Undeformed,
     /// Steady rotation with the velocities of the file.
     Rotation,
@@ -209,7 +209,7 @@ fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesErro
     where_it_stands(&session, &document, hand)
 }
 
-/// Linearises where `session`, which runs `document`, stands.
+/// Linearises where `session`, which runs `document`, is.
 pub(crate) fn now<T, E: From<ModesError>>(
     session: &Session,
     document: &Document,

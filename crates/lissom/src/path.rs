@@ -35,7 +35,7 @@ const FIRST_OF_PATH: f64 = 0.02;
 /// Most steps to the loads of a model whose number is varied.
 const MAX_STEPS_TO_LOADS: usize = 1000;
 
-/// Where the path to the loads ends or has a critical point below this part of them, nothing resists them at first.
+/// Where the path to the loads ends or has a critical point below this fraction of them, nothing resists them at first.
 const UNRESISTED: f64 = 1e-3;
 
 /// A path that has no start.

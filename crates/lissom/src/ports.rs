@@ -66,7 +66,7 @@ pub(crate) struct Observed {
 }
 
 impl Observed {
-    /// Its derivative by the input itself, the motion left out.
+    /// Its derivative by the input itself, the motion omitted.
     pub(crate) fn direct(&self, input: &Input) -> f64 {
         input.held.and_then(|held| self.derivatives.by_held.get(&held).copied()).unwrap_or(0.0)
     }
@@ -122,7 +122,7 @@ fn listed<'n>(names: impl Iterator<Item = &'n String>) -> String {
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 
-/// All inputs there are, with the table they stand in.
+/// All inputs there are, with the table they are in.
 fn known_inputs(document: &Document, reached: &LinearizationPoint<'_, '_>) -> Vec<String> {
     let inputs = document.inputs.iter().map(|(input, _)| format!("inputs.{}", input.value));
     let loads = document.loads.iter().map(|load| format!("loads.{}", load.name.value));

@@ -39,7 +39,7 @@ pub enum StartError {
     /// A number is not finite.
     #[error("the state holds a number that is not finite")]
     NotFinite,
-    /// Places do not satisfy the constraints.
+    /// Positions do not satisfy the constraints.
     #[error(
         "the places of the state violate joint `{joint}` ({equation}) by {violation:.1e}: move all parts so that joints hold, \
          or change the places in the model"
@@ -106,12 +106,12 @@ impl Prepared {
         Ok(Session::start(self.lowered.clone())?.with_ids(self.ids.clone()))
     }
 
-    /// A session that starts from `state`, at its time: from its places, velocities and held values. Velocities are made to fit
+    /// A session that starts from `state`, at its time: from its positions, velocities and held values. Velocities are made to fit
     /// the constraints, accelerations and multipliers follow. This is a new start; to go on to the last bit, use
     /// [`Session::snapshot`] or [`Session::try_clone`].
     ///
     /// # Errors
-    /// If the state does not fit the model, or its places violate the constraints.
+    /// If the state does not fit the model, or its positions violate the constraints.
     pub fn session_from(&self, state: State) -> Result<Session, StartError> {
         self.check(&state)?;
         let mut lowered = self.lowered.clone();

@@ -35,7 +35,7 @@ pub struct ReduceRequest {
     pub interfaces: Vec<String>,
     /// Number of modes with the interfaces held.
     pub modes: usize,
-    /// Whether shapes are added that make up for the modes left out where loads and rotation change the stiffness.
+    /// Whether shapes are added that make up for the modes omitted where loads and rotation change the stiffness.
     pub corrections: bool,
     /// The state, whose stresses the stiffness holds.
     pub about: OperatingPoint,
@@ -52,7 +52,7 @@ pub struct ReduceReport {
     pub archive: Vec<u8>,
     /// Frequencies of the modes with the interfaces held [Hz].
     pub frequencies: Vec<f64>,
-    /// Number of shapes behind them that make up for the modes left out.
+    /// Number of shapes behind them that make up for the modes omitted.
     pub corrections: usize,
     /// Names of the interfaces.
     pub interfaces: Vec<String>,
@@ -100,7 +100,7 @@ fn question<T>(words: impl Into<String>) -> Result<T, ReduceError> {
     Err(ReduceError::Question(words.into()))
 }
 
-/// Reduces parts of `model`, with `overrides` put in place. Gravity is left out: weight is that of the model which uses the
+/// Reduces parts of `model`, with `overrides` put in place. Gravity is omitted: weight is that of the model which uses the
 /// superelement.
 ///
 /// # Errors
@@ -150,7 +150,7 @@ pub fn reduce(
         solver: settings.solver,
     };
     // The lowest mode shows whether something moves freely while the interfaces are held, also where no mode is asked for.
-    // The estimate of what loads do to the stiffness needs the modes that are left out, with and without corrections.
+    // The estimate of what loads do to the stiffness needs the modes that are omitted, with and without corrections.
     let sought = SOUGHT[0] * request.modes + SOUGHT[1];
     let found = assembly.reduce(sought.min(inner))?.with_modes(request.modes, request.corrections);
     if found.frequencies.len() < request.modes {
@@ -194,7 +194,7 @@ fn total(matrices: &ReducedMatrices, interfaces: usize, axis: usize) -> f64 {
     rows().flat_map(|row| rows().map(move |column| (row, column))).map(|at| matrices.mass[at]).sum()
 }
 
-/// The node of this name: a body, a point mass, an interface, or a place on a beam.
+/// The node of this name: a body, a point mass, an interface, or a position on a beam.
 fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     if let Some(&node) = names.nodes.get(name) {
         return Ok(node);
@@ -224,7 +224,7 @@ fn label(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect()
 }
 
-/// Takes places and coordinates of the whole model into those of a part of it, by their names.
+/// Takes positions and coordinates of the whole model into those of a part of it, by their names.
 fn take_places(
     own: &Layout,
     at: &mut Kinematics,
@@ -259,7 +259,7 @@ struct Chosen {
     parts: BTreeSet<String>,
     /// Names of the interfaces' nodes.
     interfaces: Vec<String>,
-    /// Names of the interfaces' nodes and those that stand for them in the whole model.
+    /// Names of the interfaces' nodes and those that represent them in the whole model.
     nodes: Vec<NodeId>,
     names: Names,
 }
@@ -353,7 +353,7 @@ impl Chosen {
         ))
     }
 
-    /// Refuses beams that hang on something outside otherwise than at interfaces.
+    /// Rejects beams that hang on something outside otherwise than at interfaces.
     fn refuse_beams(&self, own: &Document) -> Result<(), ReduceError> {
         for beam in &own.beams {
             if !beam.distributed.is_empty() {
@@ -374,7 +374,7 @@ impl Chosen {
         Ok(())
     }
 
-    /// The document of the parts alone: what acts on the interfaces from outside is left out.
+    /// The document of the parts alone: what acts on the interfaces from outside is omitted.
     fn document(&self, whole: &Document) -> Result<Document, ReduceError> {
         let mut own = whole.clone();
         let is_in = |name: &String| self.parts.contains(name);

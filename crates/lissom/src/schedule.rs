@@ -16,7 +16,7 @@ pub(crate) enum Next {
     Until(f64),
 }
 
-/// Where a run stands between its start and its end.
+/// Where a run is between its start and its end.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Schedule {
     plan: Plan,

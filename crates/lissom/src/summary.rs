@@ -39,7 +39,7 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
     summary
 }
 
-/// What was left out of the model's text, if anything was.
+/// What was omitted from the model's text, if anything was.
 pub fn of_left_out(summary: &mut Summary, model: &Model) {
     if !model.left_out().is_empty() {
         insert(summary, "unset", json!(model.left_out()));

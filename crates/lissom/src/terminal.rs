@@ -51,7 +51,7 @@ impl Bar {
         Self { shown: bar, began: now, drawn: now }
     }
 
-    /// Shows where a session stands.
+    /// Shows where a session is.
     pub(crate) fn show(&mut self, progress: &Progress) {
         if self.drawn.elapsed() < REFRESH || self.shown.is_hidden() {
             return;

@@ -1,4 +1,4 @@
-//! Approximate positions are closed with the least change, or refused with the joints that stay open.
+//! Approximate positions are closed with the least change, or rejected with the joints that stay open.
 
 mod options;
 
@@ -172,7 +172,7 @@ fn two_hundred_closed_loops_that_are_drawn_roughly_close() {
         let assembly = assembly.unwrap();
         assert!(assembly.is_least, "case {case}\n{text}");
         let farthest = assembly.moved[0].distance;
-        // Bodies were drawn up to 0.17 from a place where all close.
+        // Bodies were drawn up to 0.17 from a position where all close.
         assert!(farthest > 1e-3 && farthest < 0.6, "case {case}: {farthest}\n{text}");
     }
 }

@@ -1,4 +1,4 @@
-//! Outputs of places within the elements of a beam: those of the rigid body that it turns with.
+//! Outputs of positions within the elements of a beam: those of the rigid body that it turns with.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! A mechanism passes through a place where it could branch, and goes on as it came. Near that place each step has a solution
+//! A mechanism passes through a position where it could branch, and goes on as it came. Near that position each step has a solution
 //! on either branch: which one is found depends on where its iterations begin.
 
 use std::path::Path;

@@ -14,7 +14,7 @@ fn rail(force: &str, analysis: &str) -> String {
     rail::rail(1.0, 0.0, &rail::force(force), analysis)
 }
 
-/// Errors of place and velocity at 1 s.
+/// Errors of position and velocity at 1 s.
 fn errors(force: &str, analysis: &str, [place, velocity]: [f64; 2]) -> [f64; 2] {
     let session = finished(&rail(force, analysis));
     let warnings: Vec<_> = session.warnings().collect();
@@ -292,7 +292,7 @@ fn jumps_of_what_is_sampled_or_only_recorded_end_no_steps() {
     }
 }
 
-/// Prescribed motions whose place or speed jumps are told before they run; those whose acceleration alone jumps are not, however long
+/// Prescribed motions whose position or speed jumps are told before they run; those whose acceleration alone jumps are not, however long
 /// the run is.
 #[test]
 fn prescribed_motions_that_jump_are_reported_at_once() {
@@ -346,7 +346,7 @@ fn warnings_of_drives_count_their_jumps() {
         ("1e-6*t + 1e-6*max(t - 0.25, 0)", "0", "1", Some("at t = 0.25 s:")),
         ("t + 1e-4*max(t - 0.25, 0)", "0", "1", None),
         ("t + 1e-2*max(t - 0.25, 0)", "0", "1", Some("at t = 0.25 s:")),
-        // Large values without a jump, and a place that jumps while the speed does not.
+        // Large values without a jump, and a position that jumps while the speed does not.
         ("1e3*t + 50*max(t - 0.25, 0)^2", "0", "1", None),
         ("t - 1e-2*step(t - 0.25)", "0", "1", Some("at t = 0.25 s:")),
     ] {

@@ -9,7 +9,7 @@ use sessions::{finished, session};
 
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"];
 
-/// Why a model is refused, on one line.
+/// Why a model is rejected, on one line.
 fn refused(text: &str) -> String {
     refused::refused(text).split_whitespace().collect::<Vec<_>>().join(" ")
 }

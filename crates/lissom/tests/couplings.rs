@@ -79,7 +79,7 @@ end = 1.0
 step = 0.01
 "#;
 
-/// Accelerations and tooth forces by Lagrange: two freedoms, s and c, with p = -(20/15)(s - c), r = c + (15/50) p.
+/// Accelerations and tooth forces by Lagrange: two degrees of freedom, s and c, with p = -(20/15)(s - c), r = c + (15/50) p.
 fn planetary(held: bool) -> [f64; 4] {
     let (sun, carrier, planet, ring) = (0.02, 0.05 + 0.5 * 0.35 * 0.35, 0.003, 0.4);
     // Rows (s, c): absolute spin of the planet, of the ring.

@@ -1,5 +1,5 @@
-//! Velocities, accelerations and forces of mechanisms that drives prescribe, against closed forms of their places: they must not
-//! depend on the steps, for places have no error there that would make steps shorter.
+//! Velocities, accelerations and forces of mechanisms that drives prescribe, against closed forms of their positions: they must not
+//! depend on the steps, for positions have no error there that would make steps shorter.
 
 use lissom::{Model, Override, Record, Session};
 

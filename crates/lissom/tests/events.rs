@@ -1,4 +1,4 @@
-//! Events, and forces with kinks: instants against closed forms, what happens there, and what is refused.
+//! Events, and forces with kinks: instants against closed forms, what happens there, and what is rejected.
 
 use crate::support::rail;
 use crate::support::refused;
@@ -26,7 +26,7 @@ fn value(session: &Session, name: &str) -> f64 {
     session.value(name).unwrap_or_else(|| panic!("there is no {name}"))
 }
 
-/// Contact lasts 0.3 ms, and no step sees it coming: a step that went on into it would keep the place and lose the velocity.
+/// Contact lasts 0.3 ms, and no step sees it coming: a step that went on into it would keep the position and lose the velocity.
 #[test]
 fn a_stiff_contact_gives_the_velocity_back_with_every_scheme() {
     let spring = |keys: &str| format!("[springs.stop]\njoint = \"rail\"\nstiffness = 1e8\n{keys}\n");
@@ -130,7 +130,7 @@ fn numbers_that_jump_are_located_like_those_that_pass() {
     }
 }
 
-/// Uniform motion and even steps: every root is at the end of a step but for round-off, which hides its sign.
+/// Uniform motion and even steps: every root is at the end of a step except for round-off, which hides its sign.
 #[test]
 fn roots_at_ends_of_steps_happen_there_and_once() {
     for scheme in SCHEMES {
@@ -193,7 +193,7 @@ fn an_event_that_stops_ends_the_run_there() {
         assert!((report.time - 0.246).abs() < 1e-9, "{}", report.time);
         assert_eq!(record.times.last(), Some(&report.time));
         assert!((value(&session, "rail.displacement") - 0.123).abs() < 1e-10);
-        // Rows before it stand where they were planned.
+        // Rows before it are where they were planned.
         if analysis == "step = 0.01" {
             assert_eq!(record.times.len(), 26);
             assert!((record.times[24] - 0.24).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Matrices M, D, K on coordinates against the exponential of the linear system, and what is refused.
+//! Matrices M, D, K on coordinates against the exponential of the linear system, and what is rejected.
 
 use std::f64::consts::TAU;
 
@@ -67,7 +67,7 @@ fn matrix(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| rows[i][j])
 }
 
-/// Places, rates and accelerations at `time` by the exponential of the system with [x, v, sin, cos, 1].
+/// Positions, rates and accelerations at `time` by the exponential of the system with [x, v, sin, cos, 1].
 fn exact(time: f64) -> [f64; 9] {
     let inverse = matrix(MASS).try_inverse().unwrap();
     let mut system = SMatrix::<f64, 9, 9>::zeros();
@@ -85,7 +85,7 @@ fn exact(time: f64) -> [f64; 9] {
     std::array::from_fn(|k| if k < 6 { state[k] } else { slope[k - 3] })
 }
 
-/// The largest error of places, rates and accelerations.
+/// The largest error of positions, rates and accelerations.
 fn error(record: &Record) -> [f64; 3] {
     let mut worst = [0.0_f64; 3];
     for (row, &time) in record.times.iter().enumerate().step_by(10) {

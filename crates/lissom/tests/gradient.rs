@@ -219,7 +219,7 @@ fn derivatives_that_are_carried_have_seven_digits() {
             ("lower.x@rms", ("lower", "x")),
         ] {
             agrees_closely(&model, of, column, &numbers[..3], &set, 1e-7);
-            // A length moves all places at the start, which are rounded.
+            // A length moves all positions at the start, which are rounded.
             agrees_closely(&model, of, column, &numbers[3..], &set, 1e-6);
         }
     }
@@ -269,7 +269,7 @@ fn a_four_bar_is_differentiated_over_time() {
     }
 }
 
-/// A mass on a rail under a force of time: place and velocity in closed form, and their derivatives by mass, size and instant.
+/// A mass on a rail under a force of time: position and velocity in closed form, and their derivatives by mass, size and instant.
 fn pushed(force: &str, analysis: &str) -> Model {
     let tables = rail::force(force);
     let text = rail::rail(1.0, 0.0, &tables, analysis)

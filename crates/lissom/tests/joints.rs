@@ -270,7 +270,7 @@ step = 0.005
     assert!(along("y") < 0.9, "{}", along("y"));
 }
 
-/// The generic joint with the freedoms of another one moves as that one.
+/// The generic joint with the degrees of freedom of another one moves as that one.
 #[test]
 fn the_generic_joint_is_any_of_the_others() {
     let pendulum = |joint: &str| {

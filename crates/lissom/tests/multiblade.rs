@@ -177,7 +177,7 @@ fn modes_of_two_blades_are_left_out_with_the_reason() {
             .any(|words| words.starts_with("3 of 4 modes are left out") && words.contains(reason))
     );
     assert!(!found.warnings.iter().any(|words| words.contains("kink")), "{:?}", found.warnings);
-    // Three blades of which one has a stiffer hinge stand where equal ones do: what is found there is put to the test.
+    // Three blades of which one has a stiffer hinge are where equal ones do: what is found there is put to the test.
     let uneven = rotor(3, 12.0).replacen("stiffness = 3.0", "stiffness = 30.0", 1);
     let words = match modes(&Model::from_text("model.toml", &uneven), &[], &ask) {
         Err(error) => error.to_string(),

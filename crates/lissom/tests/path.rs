@@ -129,8 +129,8 @@ fn the_deep_arch_has_its_limit() {
     near(limit.load_factor, 897.289_133_844_385, 1e-7);
 }
 
-/// What is left at the far end of the deep arch as a rod of the plane [shooting over x, y, tangent angle and moment]: place and
-/// moment of its hinge, for force and moment at its clamp, and the place of the apex.
+/// What is left at the far end of the deep arch as a rod of the plane [shooting over x, y, tangent angle and moment]: position and
+/// moment of its hinge, for force and moment at its clamp, and the position of the apex.
 fn shoot_arch([horizontal, vertical, moment]: [f64; 3], load: f64) -> ([f64; 3], [f64; 2]) {
     const STEPS: usize = 400;
     let (radius, half) = (100.0, 107.5_f64.to_radians());
@@ -163,7 +163,7 @@ fn shoot_arch([horizontal, vertical, moment]: [f64; 3], load: f64) -> ([f64; 3],
     ([state[0] - 95.371_695_074_822_7, state[1] + 30.070_579_950_427_312, state[3] / 1e4], apex)
 }
 
-/// Newton's method from a guess: force and moment at the clamp, scaled to be of one size, and the place of the apex.
+/// Newton's method from a guess: force and moment at the clamp, scaled to be of one size, and the position of the apex.
 fn solve_arch(mut guess: [f64; 3], load: f64) -> Option<[f64; 2]> {
     let scales = [1e3, 1e3, 1e5];
     for _ in 0..30 {
@@ -213,7 +213,7 @@ fn the_deep_arch_goes_on_beyond_its_limit() {
             let missed = (apex[0] - x[row]).hypot(apex[1] - 100.0 - y[row]);
             (missed < 1.0).then_some(missed)
         });
-        // Near limit points the load says little of the place, elsewhere seven digits.
+        // Near limit points the load says little of the position, elsewhere seven digits.
         let near_limit = report.critical.iter().any(|point| (point.load_factor - factors[row]).abs() < 2.0);
         let missed = found.unwrap_or_else(|| panic!("no equilibrium at {} ({row})", factors[row]));
         assert!(missed < if near_limit { 1e-2 } else { 1e-4 }, "{missed:e} m at {} ({row})", factors[row]);

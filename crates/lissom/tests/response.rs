@@ -429,7 +429,7 @@ fn feedback_and_states_respond_as_in_steps_over_time() {
     assert_eq!(eigenvalues, 3, "{:?}", report.modes.iter().map(|mode| mode.eigenvalue).collect::<Vec<_>>());
 }
 
-/// Of the arm held at its place by the integrator, about its pivot.
+/// Of the arm held at its position by the integrator, about its pivot.
 fn gravity_stiffness() -> f64 {
     2.0 * 9.81 * 0.4
 }
@@ -518,7 +518,7 @@ fn matrices_in_the_files_have_the_response() {
     }
 }
 
-/// A coordinate that no part has: its acceleration answers as its place does, times -ω².
+/// A coordinate that no part has: its acceleration answers as its position does, times -ω².
 #[test]
 fn accelerations_of_generalized_coordinates_answer() {
     let text = r#"

@@ -114,7 +114,7 @@ fn states_that_do_not_fit_are_refused() {
     let mut session = prepared.session().unwrap();
     assert!(session.step_to(f64::NAN).unwrap_err().to_string().contains("finite"));
     assert!(session.step_to(f64::INFINITY).is_err());
-    // Small deviations are those of another way to compute the same place.
+    // Small deviations are those of another way to compute the same position.
     let mut state = prepared.state().clone();
     state.kinematics.nodes[1].frame.position.x += 1e-12;
     assert!(prepared.session_from(state).is_ok());

@@ -209,7 +209,7 @@ fn a_run_that_starts_in_steady_rotation_keeps_its_strain() {
     assert!(Session::new(&document).is_err(), "gravity across the axis");
 }
 
-/// A pendulum on a shaft stands at cos φ = g/(Ω² L). The rate of its hinge in a rigid rotation is zero to round-off, and
+/// A pendulum on a shaft is at cos φ = g/(Ω² L). The rate of its hinge in a rigid rotation is zero to round-off, and
 /// nothing is to be said of it.
 #[test]
 fn a_pendulum_on_a_shaft_starts_at_its_steady_angle_without_a_word() {
@@ -258,7 +258,7 @@ step = 1e-3
     let (record, report) = session.record();
     assert!(report.is_complete());
     assert_eq!(session.warnings().count(), 0, "{:?}", session.warnings().collect::<Vec<_>>());
-    // The bob is a point but for its small inertia.
+    // The bob is a point except for its small inertia.
     let steady = (9.81 / (rate * rate * length)).acos();
     for angle in record.column("hinge", "angle").unwrap() {
         assert!((angle - steady).abs() < 1e-8, "{angle} {steady}");

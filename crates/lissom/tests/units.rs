@@ -1,5 +1,5 @@
 //! The same mechanism in other units and on another level of mass takes the same iterations and gives the same motion.
-//! In other units places are rounded elsewhere, which decides a few iterations.
+//! In other units positions are rounded elsewhere, which decides a few iterations.
 
 use std::path::Path;
 

@@ -190,7 +190,7 @@ fn a_coin_in_a_circle_has_the_frequency_of_eulers_equations() {
     assert!(!report.warnings.iter().any(|warning| warning.contains("not steady")), "{:?}", report.warnings);
 }
 
-/// A wheel that is no body of revolution has no steady motion: its modes are refused, and no wrong ones are given.
+/// A wheel that is no body of revolution has no steady motion: its modes are rejected, and no wrong ones are given.
 #[test]
 fn modes_of_an_uneven_wheel_are_refused() {
     let text = disc(8.0).replace("\"1.7*0.2^2/4\", \"1.7*0.2^2/2\", \"1.7*0.2^2/4\"", "0.012, 0.03, 0.025");

@@ -89,7 +89,7 @@ fn the_end_of_ten_seconds_has_the_published_digits() {
 }
 
 /// From the equations of 1991 with the multipliers that keep their constraints; the published ones have five digits, and the published
-/// accelerations follow from these. Places of contact are the published ones.
+/// accelerations follow from these. Positions of contact are the published ones.
 #[test]
 fn accelerations_and_normal_forces_at_the_start_are_those_of_the_equations() {
     let (record, _) = run(MODEL, &[("analysis.end", "1e-3")]);
@@ -248,7 +248,7 @@ fn steady(set: &[(&str, &str)]) -> ModeReport {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Wavelength of the hunting mode [m], that of lateral place and yaw together, and its damping ratio: the other oscillation is that
+/// Wavelength of the hunting mode [m], that of lateral position and yaw together, and its damping ratio: the other oscillation is that
 /// along the track, which is hardly damped.
 fn hunting(speed: f64, report: &ModeReport) -> (f64, f64) {
     let is_hunting = |mode: &&lissom_core::linear::Mode| {

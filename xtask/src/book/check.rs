@@ -1,5 +1,5 @@
 //! What may be wrong with the book without anyone noticing: links that point nowhere, markers that nothing fills,
-//! generators without a place. Reads files, runs nothing.
+//! generators without a position. Reads files, runs nothing.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -116,7 +116,7 @@ fn anchors(text: &str) -> Vec<String> {
     names
 }
 
-/// Targets of the links of a chapter, code left out.
+/// Targets of the links of a chapter, code omitted.
 fn links(text: &str) -> Vec<String> {
     let mut targets = Vec::new();
     let mut fenced = false;

@@ -132,7 +132,7 @@ pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
     Ok(fragment)
 }
 
-/// Places of the joints when the plane of the crank lies further from the beam.
+/// Positions of the joints when the plane of the crank lies further from the beam.
 const FAR: [(&str, &str); 3] =
     [("points.C", "[1, 0.05, 0]"), ("points.L", "[1, 0.05, -0.5]"), ("points.G", "[0.97, 0.05, -0.5]")];
 /// A connector of a single short element.

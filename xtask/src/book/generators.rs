@@ -3,7 +3,7 @@
 use super::fragment::Fragment;
 use super::{BookError, Studio, conditioning, convergence, factorization, roundoff, simulation, work};
 
-/// Makes what stands between the markers of one name.
+/// Makes what is between the markers of one name.
 pub(super) struct Generator {
     /// As in the marker.
     pub(super) name: &'static str,

@@ -1,5 +1,5 @@
 //! The regions of chapters that are generated, between `<!-- figures: NAME -->` and `<!-- end -->`, each at the start
-//! of a line. Knows nothing of what stands there.
+//! of a line. Knows nothing of what is there.
 
 use std::path::{Path, PathBuf};
 

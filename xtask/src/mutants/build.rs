@@ -81,14 +81,14 @@ impl TestPrograms {
 /// What comes of a build.
 pub(super) enum Built {
     Programs(TestPrograms),
-    /// Numbers of mutants that the compiler refuses.
+    /// Numbers of mutants that the compiler rejects.
     Refused(BTreeSet<usize>),
 }
 
 /// Builds all tests in `tree`.
 ///
 /// # Errors
-/// If cargo cannot be run, or something else than a mutant is refused.
+/// If cargo cannot be run, or something else than a mutant is rejected.
 pub(super) fn build(
     tree: &Path,
     folder: &Path,

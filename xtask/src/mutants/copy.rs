@@ -7,7 +7,7 @@ use std::process::Command;
 
 use super::MutantsError;
 
-/// Makes `tree` equal to `root` but for the files of `changed`, which are new or have another text. Files that are equal
+/// Makes `tree` equal to `root` except for the files of `changed`, which are new or have another text. Files that are equal
 /// are left alone, so that nothing is built anew for them.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Places where the code can be broken, and what stands there instead. The kinds are those of cargo-mutants.
+//! Positions where the code can be broken, and what is there instead. The kinds are those of cargo-mutants.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -23,7 +23,7 @@ const BROKEN: [&str; 8] = [
     "crates/lissom-model/src/output_channels.rs",
 ];
 
-/// What stands in [`Mutant::before`] for the question whether the mutant is chosen.
+/// What is in [`Mutant::before`] for the question whether the mutant is chosen.
 pub(super) const CHOSEN: &str = "<chosen>";
 
 /// One change of the code, made by what is inserted before and behind a range of it.
@@ -178,7 +178,7 @@ fn is_test(attributes: &[syn::Attribute]) -> bool {
     })
 }
 
-/// Whether `let` stands in a condition, which cannot be put in parentheses.
+/// Whether `let` is in a condition, which cannot be put in parentheses.
 fn has_let(expression: &Expr) -> bool {
     match expression {
         Expr::Let(_) => true,

@@ -72,7 +72,7 @@ pub(super) struct Switched {
 
 /// Puts numbered mutants of one file into its text.
 fn switched(text: &str, mutants: &[(usize, &Mutant)]) -> Switched {
-    // Ends come before beginnings at the same place; what encloses more begins sooner and ends later.
+    // Ends come before beginnings at the same position; what encloses more begins sooner and ends later.
     let mut insertions = Vec::new();
     for (order, (_, mutant)) in mutants.iter().enumerate() {
         let Range { start, end } = mutant.range;

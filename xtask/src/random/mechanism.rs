@@ -11,7 +11,7 @@ use super::draw::Draw;
 /// A mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Mechanism {
-    /// Tables of the model, which can be left out one by one as long as nothing names them.
+    /// Tables of the model, which can be omitted one by one as long as nothing names them.
     pub(super) tables: Vec<String>,
     /// Whether nothing takes or gives energy.
     pub(super) is_conservative: bool,
@@ -58,7 +58,7 @@ struct Maker {
     has_latch: bool,
 }
 
-/// Joints of a tree; the first ones leave few freedoms and are drawn more often.
+/// Joints of a tree; the first ones leave few degrees of freedom and are drawn more often.
 const JOINTS: [&str; 18] = [
     "revolute",
     "revolute",
@@ -201,7 +201,7 @@ impl Maker {
         }
     }
 
-    /// Near the middle of two places, but not on their line: a rod between the two would be stretched there.
+    /// Near the middle of two positions, but not on their line: a rod between the two would be stretched there.
     fn between(&mut self, from: [f64; 3], to: [f64; 3]) -> [f64; 3] {
         [0, 1, 2].map(|k| short(f64::midpoint(from[k], to[k]) + self.draw.between(-0.08, 0.08)))
     }

@@ -21,7 +21,7 @@ pub(super) fn reduced(mechanism: Mechanism, finding: &Finding) -> Mechanism {
         trial_model.tables.remove(index);
         if trial(&trial_model).iter().any(is_same) {
             smallest = trial_model;
-            // What named the table left out may be left out now.
+            // What named the table omitted may be omitted now.
             index = smallest.tables.len().min(index + 3);
         }
     }

@@ -7,7 +7,7 @@ use lissom::{Model, Override, Record, Session};
 
 use super::mechanism::Mechanism;
 
-/// Two results further apart than this part of the way that the model goes differ: one of them is wrong.
+/// Two results further apart than this fraction of the way that the model goes differ: one of them is wrong.
 const WRONG: f64 = 0.01;
 /// The references have to agree ten times as well.
 const TRUSTED: f64 = 1e-3;
@@ -25,7 +25,7 @@ pub(super) enum Finding {
     Agreed,
     /// Nothing was to be compared: the references differ from each other, as where a motion is sensitive.
     Sensitive(String),
-    /// The model was refused, with the reason.
+    /// The model was rejected, with the reason.
     Refused(String),
     /// No scheme reached the end.
     Unsolved(String),
@@ -163,7 +163,7 @@ fn places(record: &Record) -> Vec<usize> {
     (0..record.columns.len()).filter(is_place).collect()
 }
 
-/// The largest change of any place since the start [m, 1].
+/// The largest change of any position since the start [m, 1].
 fn way_gone(record: &Record) -> f64 {
     let of = |index: usize| {
         let values = &record.values[index];
@@ -179,7 +179,7 @@ fn fastest_turn(record: &Record) -> f64 {
     spins.flat_map(|(_, values)| values).fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
-/// The largest difference of places at common instants, and the column; none where instants are missing.
+/// The largest difference of positions at common instants, and the column; none where instants are missing.
 fn difference(one: &Record, other: &Record) -> Option<(f64, String)> {
     if one.times.len() != other.times.len()
         || one.times.iter().zip(&other.times).any(|(a, b)| (a - b).abs() > 1e-7)
@@ -243,7 +243,7 @@ pub(super) fn trial(mechanism: &Mechanism) -> Vec<Finding> {
     for way in &TRIED {
         match run(&text, way) {
             Err(NotRan::Panicked(words)) => return vec![Finding::Panicked(format!("{}: {words}", way.name))],
-            // What the model's reader refuses, it refuses for every scheme.
+            // What the model's reader rejects, it rejects for every scheme.
             Err(NotRan::Refused(words)) => return vec![Finding::Refused(words)],
             ran => tried.push((way.name, ran)),
         }

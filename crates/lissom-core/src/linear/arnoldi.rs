@@ -36,12 +36,12 @@ const LARGE_BASIS: usize = 100;
 const DEFECTIVE: f64 = 16.0;
 /// The same of a solve, relative to the shift: the root of the round-off.
 const SOLVED: f64 = 1e-5;
-/// What the operator makes of an eigenvector may differ from its multiple by this part: more is no eigenvector, but round-off of
+/// What the operator makes of an eigenvector may differ from its multiple by this fraction: more is no eigenvector, but round-off of
 /// an infinite eigenvalue, which two applications have taken away.
 const EIGENVECTOR: f64 = 1e-2;
 /// Rigid modes whose shapes differ by less are one.
 const SAME: f64 = 1e-4;
-/// An eigenvalue nearer to the shift than this part of it leaves nothing of all others but round-off.
+/// An eigenvalue nearer to the shift than this fraction of it leaves nothing of all others but round-off.
 const TOO_NEAR: f64 = 1e-4;
 /// How far the shift is moved then.
 const ASIDE: f64 = 0.03;

@@ -24,7 +24,7 @@ const SAME: f64 = 1e-6;
 const SETTLED: f64 = 1e-6;
 /// Solves of an inverse iteration.
 const SOLVES: usize = 4;
-/// Its shift, beside the eigenvalue by this part of it.
+/// Its shift, beside the eigenvalue by this fraction of it.
 const BESIDE: f64 = 1e-5;
 /// What is left of a vector that is one of those known, relative to its size.
 const KNOWN: f64 = 1e-3;

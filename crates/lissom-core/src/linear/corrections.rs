@@ -1,8 +1,8 @@
-//! Modes of a reduction that are left out, and what shapes make up for most of them: what the floating frame carries along is bent by its
+//! Modes of a reduction that are omitted, and what shapes make up for most of them: what the floating frame carries along is bent by its
 //! own inertia, and where rotation, accelerations and axial forces change the stiffness, shapes that follow are others than those without
 //! loads.
 //!
-//! Legend: y_k kept unknowns (interfaces and modes), q_d modes that are left out, of unit mass and the frequencies Ω_d; F_k flexibility of
+//! Legend: y_k kept unknowns (interfaces and modes), q_d modes that are omitted, of unit mass and the frequencies Ω_d; F_k flexibility of
 //! the kept unknowns, floating frame held; f inertial forces of an acceleration of the frame or of a rotation; G a matrix of second order
 //! times the load at which it gives or takes as much stiffness as there is.
 //!
@@ -27,7 +27,7 @@ use crate::elements::superelement::{Damping, flexibility, rigid_column};
 const MIN_ENERGY_FRACTION: f64 = 1e-3;
 
 impl Reduction {
-    /// With the first `modes` modes, and, if `is_corrected`, with shapes that make up for those left out.
+    /// With the first `modes` modes, and, if `is_corrected`, with shapes that make up for those omitted.
     #[must_use]
     pub fn with_modes(mut self, modes: usize, is_corrected: bool) -> Self {
         let interfaces = 6 * self.places.len();

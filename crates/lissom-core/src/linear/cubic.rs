@@ -1,4 +1,4 @@
-//! The cubic elastic energy of shapes, as what shortens: an energy that is a square, and what loads do by shapes that are left out.
+//! The cubic elastic energy of shapes, as what shortens: an energy that is a square, and what loads do by shapes that are omitted.
 //!
 //! Legend: y unknowns with the first interface held, K and M their stiffness and mass; T_ijk third derivatives of the elastic energy; z
 //! natural modes of K and M, y = V z, with the squares λ of their frequencies.
@@ -13,12 +13,12 @@
 //! fourth order would be as large as the bending itself. What is stretched changes the stiffness of all others, so that r gives
 //! it: a mode that bends a straight part has r = 0, since both sides are equal. Among equal modes the stiffest one counts.
 //!
-//! A steady rotation loads the part between the interfaces, and moves the modes that are left out, too. In statics they are displaced by w_d,
+//! A steady rotation loads the part between the interfaces, and moves the modes that are omitted, too. In statics they are displaced by w_d,
 //! and K_g = Σ w_d T_d with the same weights acts on those that are kept, as part of the inertia about the frame. Modes that are kept move by
 //! themselves, and their T is in h: it must not count twice.
 //!
 //! The same for accelerations would be momenta of the first order in the deformation: without the energy of the second order that belongs to
-//! them the kinetic energy would not stay positive. They are left out; forces under accelerations are those of the modes that are kept.
+//! them the kinetic energy would not stay positive. They are omitted; forces under accelerations are those of the modes that are kept.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -27,7 +27,7 @@ use crate::round_off;
 
 /// ε: modes that bend count by this part.
 const BENDING: f64 = 1e-3;
-/// Terms below this part of the largest one, in modes of equal energy, are left out.
+/// Terms below this fraction of the largest one, in modes of equal energy, are omitted.
 const MIN_TERM: f64 = 1e-6;
 
 /// The static state under a load of the floating frame, interfaces held.
@@ -158,7 +158,7 @@ impl SecondOrder {
     ) -> GeometricMatrices {
         let mut own = self.direct.through(map);
         let Some(mut modes) = Modes::of(mass, stiffness) else { return own };
-        // T over natural modes in its last two places, and over all shapes in the first one.
+        // T over natural modes in its last two positions, and over all shapes in the first one.
         let among = map * &modes.shapes;
         let cubic: Vec<DMatrix<f64>> =
             self.cubic.iter().map(|matrix| among.tr_mul(&(matrix * &among))).collect();
@@ -205,7 +205,7 @@ impl SecondOrder {
     }
 }
 
-/// T of a natural mode over natural modes; `cubic` has them in its last two places alone, and `among` maps the first one.
+/// T of a natural mode over natural modes; `cubic` has them in its last two positions alone, and `among` maps the first one.
 fn over_mode(cubic: &[DMatrix<f64>], among: &DMatrix<f64>, i: usize) -> DMatrix<f64> {
     let count = among.ncols();
     let mut sum = DMatrix::zeros(count, count);

@@ -18,17 +18,17 @@ const SHIFT: f64 = 1e-4;
 /// … and how much larger it is next time, where constraints under load could not be held with it.
 const LARGER: f64 = 100.0;
 const ATTEMPTS: usize = 4;
-/// Solutions: a motion whose square of a rate is ten times s² is left out to 1e-12.
+/// Solutions: a motion whose square of a rate is ten times s² is omitted to 1e-12.
 const SOLUTIONS: usize = 12;
 /// Corrections of each, which are to leave at most this violation of constraints [-].
 const REFINEMENTS: usize = 4;
 const VIOLATED: f64 = 1e-13;
 /// A stiffness is none where the square of its rate is this part of the small square, as where it is round-off of its terms.
 const NO_RATE: f64 = 1e-10;
-/// Levers below this part of the model's length are what an equilibrium is found to: neither the work of forces along it nor
+/// Levers below this fraction of the model's length are what an equilibrium is found to: neither the work of forces along it nor
 /// the stiffness that forces make of it means anything.
 const NO_LEVER: f64 = 1e-9;
-/// Coordinates that move by less than this part of the largest motion do not take part.
+/// Coordinates that move by less than this fraction of the largest motion do not take part.
 const TAKES_PART: f64 = 1e-6;
 /// Parts that are named.
 const MAX_LISTED: usize = 4;

@@ -1,6 +1,6 @@
 //! Second-order matrices of an assembly that is reduced: what its inertial and elastic forces do to second order in the shapes.
 //!
-//! Legend: Ψ_k shapes, with the first interface held but for its own; nodes at X + t Ψ_k are displaced along straight lines and turned by
+//! Legend: Ψ_k shapes, with the first interface held except for its own; nodes at X + t Ψ_k are displaced along straight lines and turned by
 //! rotation vectors, B_j variations of y_j there, g_j = B_j·r generalised force of a residual r; w displacements of a load state.
 //!
 //! ```text

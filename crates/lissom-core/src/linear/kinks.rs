@@ -23,7 +23,7 @@ const DIRECTIONS: usize = 3;
 const STEPS: [f64; 3] = [1e-5, 6.25e-7, 4e-8];
 /// What smooth forces leave falls by far more than this from step to step.
 const FALLS: f64 = 0.5;
-/// Differences below this part of the terms of a row do not matter.
+/// Differences below this fraction of the terms of a row do not matter.
 const MATTERS: f64 = 1e-6;
 /// How much the stiffness counts beside the damping for forces that depend on velocities.
 const BESIDE_DAMPING: f64 = 1e-3;

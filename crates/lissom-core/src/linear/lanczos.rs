@@ -25,7 +25,7 @@ const BETWEEN: usize = 8;
 const CLUSTER: f64 = 1e-5;
 /// Modes sought beyond those asked for, so that the last one is not cut out of a cluster.
 const BEYOND: usize = 4;
-/// Squares of rates below this part of the small one that stands for zero are not distinguished from rigid modes where the shift is chosen.
+/// Squares of rates below this fraction of the small one that represents zero are not distinguished from rigid modes where the shift is chosen.
 const NEAREST: f64 = 1e-4;
 /// Times the search is started again with new vectors.
 const MAX_RESTARTS: usize = 6;
@@ -33,7 +33,7 @@ const MAX_RESTARTS: usize = 6;
 const FAR_AWAY: [f64; 3] = [1e2, 1e5, 1e8];
 /// Round-off of a solve, relative to the eigenvalue's distance from the shift.
 const SOLVED: f64 = 1e-10;
-/// A shape that violates a constraint by this part of the terms of the constraints is no mode.
+/// A shape that violates a constraint by this fraction of the terms of the constraints is no mode.
 pub(super) const VIOLATED: f64 = 1e-5;
 
 /// An eigenvalue λ [1/s²] and its shape, normalised to unit modal mass.

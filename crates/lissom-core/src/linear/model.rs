@@ -20,12 +20,12 @@ use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
-/// An entry and its mirror image differ if by more than this part of the larger one, and by more than round-off of their rows.
+/// An entry and its mirror image differ if by more than this fraction of the larger one, and by more than round-off of their rows.
 const UNEQUAL: f64 = 1e-9;
 
 /// The rate at which that displacement is found, over the rate of rotation: free motions count as large ones.
 const SLOW: f64 = 1e-3;
-/// Squares of rates below this part of the small one that stands for zero are zero.
+/// Squares of rates below this fraction of the small one that represents zero are zero.
 const NEUTRAL: f64 = 1e-6;
 
 /// A linear model that does not exist.
@@ -198,7 +198,7 @@ impl<'a> LinearModel<'a> {
         Self::of(system, state, solver)
     }
 
-    /// Refuses a system with constraints between velocities, for what knows positions alone.
+    /// Rejects a system with constraints between velocities, for what knows positions alone.
     ///
     /// # Errors
     /// If there are such constraints.
@@ -459,7 +459,7 @@ fn hold(
         state.kinematics.show_multipliers(&state.multipliers);
         let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, zeros);
         system.residual(&at, &mut residual);
-        // Places stay: violations are none of the state's concern here.
+        // Positions stay: violations are none of the state's concern here.
         residual[count..].fill(0.0);
         forces.copy_from_slice(&residual[..count]);
         solver.solve(&mut residual, count);
@@ -543,7 +543,7 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
         let starts = rows.map(|row| pattern.column_starts()[row as usize]);
         let first = pattern.column(rows[0] as usize);
         for (offset, &row) in first.iter().enumerate() {
-            // The columns of a node have one pattern but for drives, which see no node.
+            // The columns of a node have one pattern except for drives, which see no node.
             let mass = starts.map(|start| parts.mass[start + offset]);
             debug_assert!(starts.iter().all(|&start| pattern.row_indices()[start + offset] == row));
             for j in 0..6 {
@@ -553,7 +553,7 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
     }
 }
 
-/// Whether stiffness and mass are symmetric but for round-off.
+/// Whether stiffness and mass are symmetric except for round-off.
 pub(super) fn is_symmetric(system: &System, representative: &Representative, parts: &Linearization) -> bool {
     let pattern = system.pattern();
     let quantities = system.layout().quantities();

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! G turns the vectors of nodes on the axis, and moves the pattern of displacements over the N equal nodes around it on by
-//! their discrete Fourier series: these are the multi-blade coordinates, here as values at the blades where they stand.
+//! their discrete Fourier series: these are the multi-blade coordinates, here as values at the blades where they are.
 //!
 //! ```text
 //! M z̈ + (D - 2Ω M G) ż + (K - Ω D G + Ω² M G²) z + Bᵀ μ = 0,    B z = 0
@@ -29,7 +29,7 @@ use super::mode::Mode;
 use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
 
-/// Places that differ by less, over the length of the model, and axes [rad], are the same.
+/// Positions that differ by less, over the length of the model, and axes [rad], are the same.
 const SAME: f64 = 1e-6;
 /// Blades are at most so many.
 const MAX_BLADES: usize = 12;
@@ -132,7 +132,7 @@ impl<'a> LinearModel<'a> {
     }
 }
 
-/// The axis of rotation: a place on it, its direction, and the rate; and which nodes turn.
+/// The axis of rotation: a position on it, its direction, and the rate; and which nodes turn.
 struct Axis {
     place: Vector3,
     direction: Vector3,
@@ -190,7 +190,7 @@ impl Axis {
     /// such node.
     fn images(&self, at: &Kinematics, blades: usize) -> Option<Vec<Option<NodeId>>> {
         let part = self.rotation(std::f64::consts::TAU / blades as f64);
-        // By the place along the axis and the distance from it, so that few are compared.
+        // By the position along the axis and the distance from it, so that few are compared.
         let mut near: BTreeMap<i64, Vec<NodeId>> = BTreeMap::new();
         let cell = |place: &Vector3| {
             let height = (place - self.place).dot(&self.direction);

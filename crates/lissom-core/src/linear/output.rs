@@ -4,7 +4,7 @@
 //! δy = c_q δq + c_v δv + c_a δa + c_λ δλ + c_u δu
 //! ```
 //!
-//! q places (body variations and coordinates), v twists and rates, a their derivatives, λ multipliers, u held values. About a
+//! q positions (body variations and coordinates), v twists and rates, a their derivatives, λ multipliers, u held values. About a
 //! moving state the unknowns are departures η from going on, δv = η̇ + ad_V η and δa = η̈ + ad_V η̇ + ad_V̇ η.
 
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ use crate::signals::HeldId;
 /// Derivatives of a number by row; rows that are not there have none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputDerivatives {
-    /// By places.
+    /// By positions.
     pub by_place: BTreeMap<usize, f64>,
     /// By twists and rates.
     pub by_rate: BTreeMap<usize, f64>,
@@ -32,7 +32,7 @@ pub struct OutputDerivatives {
 }
 
 impl OutputDerivatives {
-    /// Amplitude of the number where the unknowns and multipliers move as `amplitudes` times e^{st}, held values left out, and
+    /// Amplitude of the number where the unknowns and multipliers move as `amplitudes` times e^{st}, held values omitted, and
     /// the sum of the sizes of its terms.
     pub fn amplitude(&self, s: Complex64, amplitudes: &[Complex64]) -> (Complex64, f64) {
         let factors = [Complex64::from(1.0), s, s * s, Complex64::from(1.0)];
@@ -50,7 +50,7 @@ impl OutputDerivatives {
 }
 
 impl LinearModel<'_> {
-    /// Derivatives by the unknowns of this model, from those by places, twists and accelerations as they are.
+    /// Derivatives by the unknowns of this model, from those by positions, twists and accelerations as they are.
     #[must_use]
     pub fn along_departures(&self, mut output: OutputDerivatives) -> OutputDerivatives {
         if self.is_at_rest() {

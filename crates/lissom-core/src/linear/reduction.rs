@@ -29,11 +29,11 @@ use crate::kinematics::{LOCKED, NodeId};
 use crate::round_off;
 use crate::system::{Linearization, State, System};
 
-/// Forces on parts between the interfaces that displace them by less than this part of the model's length are round-off.
+/// Forces on parts between the interfaces that displace them by less than this fraction of the model's length are round-off.
 const BALANCED: f64 = 1e-7;
-/// Forces of rigid displacements below this part of the terms they are made of are round-off.
+/// Forces of rigid displacements below this fraction of the terms they are made of are round-off.
 const RIGID: f64 = 1e-6;
-/// Preload that displaces by less than this part of the model's length is none.
+/// Preload that displaces by less than this fraction of the model's length is none.
 const NO_PRELOAD: f64 = 1e-9;
 
 /// A reduction that does not exist.
@@ -86,11 +86,11 @@ pub enum ReductionError {
 pub struct Reduction {
     /// Its matrices: six unknowns of each interface in inertial axes, then the modes of unit modal mass.
     pub matrices: ReducedMatrices,
-    /// Places of the interfaces [m].
+    /// Positions of the interfaces [m].
     pub places: Vec<Vector3>,
     /// Frequencies of the modes with the interfaces held [Hz].
     pub frequencies: Vec<f64>,
-    /// Number of shapes behind the modes that make up for those left out.
+    /// Number of shapes behind the modes that make up for those omitted.
     pub corrections: usize,
     /// Whether a count shows that no mode was missed.
     pub is_counted: bool,
@@ -106,7 +106,7 @@ pub struct Assembly<'a> {
     pub free: &'a System,
     /// With locked interfaces: the same nodes, coordinates and joints.
     pub locked: Option<&'a System>,
-    /// Places in equilibrium, without velocities.
+    /// Positions in equilibrium, without velocities.
     pub state: &'a State,
     /// The interfaces, the first of which will carry the floating frame.
     pub interfaces: &'a [NodeId],

@@ -4,7 +4,7 @@
 //! (s² M + s D + K) x + Bᵀ μ = f,    B x = g
 //! ```
 //!
-//! Each solution is refined with the equations as they stand, and judged by what it leaves of them.
+//! Each solution is refined with the equations as they are, and judged by what it leaves of them.
 
 use num_complex::Complex64;
 

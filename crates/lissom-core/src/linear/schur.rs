@@ -9,7 +9,7 @@ use num_complex::Complex64;
 const MAX_ITERATIONS: usize = 300;
 /// An exceptional shift follows so many iterations without deflation.
 const EXCEPTIONAL: usize = 10;
-/// A subdiagonal entry below this part of the matrix's norm, times the round-off, is zero whatever its neighbours.
+/// A subdiagonal entry below this fraction of the matrix's norm, times the round-off, is zero whatever its neighbours.
 const TINY: f64 = 1e-12;
 
 /// Unitary Q and upper triangular T with A = Q T Qᴴ; none if an entry is not finite or the iteration does not converge.

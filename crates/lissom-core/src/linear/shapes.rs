@@ -15,7 +15,7 @@ use crate::kinematics::LOCKED;
 pub struct NodeShape {
     /// Name of the node.
     pub node: String,
-    /// Its place in the state about which the mode oscillates [m].
+    /// Its position in the state about which the mode oscillates [m].
     pub position: [f64; 3],
     /// Displacement [m, for unit modal mass].
     pub displacement: [Complex64; 3],

@@ -20,7 +20,7 @@ use crate::system::{Linearization, System};
 /// The square of the rate from which the search for modes starts, relative to that of the stiffest parts.
 pub(super) const SMALL: f64 = 1e-6;
 
-/// The pivot of a redundant constraint's multiplier is this part of the terms it is made of, or less.
+/// The pivot of a redundant constraint's multiplier is this fraction of the terms it is made of, or less.
 const REDUNDANT: f64 = 1e-12;
 
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².

@@ -1,4 +1,4 @@
-//! The linear model as first-order equations in as many states as it has freedoms,
+//! The linear model as first-order equations in as many states as it has degrees of freedom,
 //!
 //! ```text
 //! ẋ = A x + B u,    y = C x + D u
@@ -16,9 +16,9 @@ use crate::kinematics::Quantity;
 
 /// Most coordinates of a model whose matrices are filled.
 const MAX_COORDINATES: usize = 600;
-/// A pivot of the constraints below this part of the largest is none.
+/// A pivot of the constraints below this fraction of the largest is none.
 const RANK: f64 = 1e-9;
-/// A reduced mass matrix of a smaller ratio between pivots has freedoms without mass.
+/// A reduced mass matrix of a smaller ratio between pivots has degrees of freedom without mass.
 const SINGULAR: f64 = 1e-13;
 
 /// Matrices of first-order equations.
@@ -46,7 +46,7 @@ pub enum StateSpaceError {
     /// Inputs act on constraints.
     #[error("an input is a prescribed motion, whose velocity and acceleration would be inputs as well")]
     PrescribedInput,
-    /// Some freedoms have no mass.
+    /// Some degrees of freedom have no mass.
     #[error("freedoms without mass are left, whose velocities are no states")]
     Massless,
     /// Forces depend on normal forces.
@@ -256,7 +256,7 @@ impl Reduced {
         let count = model.coordinate_count();
         let (z, x, u) = (self.t.ncols(), self.s.ncols(), inputs.len());
         let (states, width) = (2 * z + x, 2 * z + x + u);
-        // Places, rates and accelerations of all coordinates, from z, x, ż and u.
+        // Positions, rates and accelerations of all coordinates, from z, x, ż and u.
         let mut place = DMatrix::zeros(count, width);
         place.columns_mut(0, z).copy_from(&self.t);
         place.columns_mut(z, x).copy_from(&self.s);

@@ -1,6 +1,6 @@
-//! Steady rotation: the places at which a model keeps turning as it does, without any change in the axes of its nodes.
+//! Steady rotation: the positions at which a model keeps turning as it does, without any change in the axes of its nodes.
 //!
-//! The field of velocities that nodes have at the start, each its own, stays in space; places are found at which the equations
+//! The field of velocities that nodes have at the start, each its own, stays in space; positions are found at which the equations
 //! of motion hold with constant body twists. Newton's method with the linear model about the state, in departures from going on:
 //!
 //! ```text
@@ -57,7 +57,7 @@ pub enum SteadyError {
     /// Velocities or the linear model do not exist.
     #[error(transparent)]
     Linear(#[from] LinearError),
-    /// No places were found.
+    /// No positions were found.
     #[error(
         "no steady rotation was found from the places of the file: the last correction was {0:.1e} of the model's length; at this \
          speed there may be none, or the velocities at the start are no steady rotation"
@@ -77,7 +77,7 @@ impl Diagnose for SteadyError {
 /// The state of steady rotation with the velocities of `state`, which the constraints may correct.
 ///
 /// # Errors
-/// If nothing turns, or there are no such places.
+/// If nothing turns, or there are no such positions.
 pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
     if rate_of(state) == 0.0 {
         return Err(SteadyError::AtRest);

@@ -39,7 +39,7 @@ pub(super) fn take_forces(system: &System, parts: &mut Linearization, is_at_rest
     }
 }
 
-/// Refuses constraints between velocities, for analyses that know positions alone.
+/// Rejects constraints between velocities, for analyses that know positions alone.
 pub(super) fn refuse(system: &System) -> Result<(), LinearError> {
     if let Some(joint) = system.joints().iter().find(|joint| !joint.impulses.is_empty()) {
         return Err(LinearError::Rolls { joint: joint.name.clone() });

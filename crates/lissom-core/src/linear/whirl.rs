@@ -14,7 +14,7 @@ use num_complex::Complex64;
 use super::mode::Mode;
 use super::model::LinearModel;
 
-/// A mode with less displacement across the axis than this part of all is none that whirls.
+/// A mode with less displacement across the axis than this fraction of all is none that whirls.
 const LATERAL: f64 = 1e-6;
 /// Parts of forward and backward that differ by less are an ellipse, with two frequencies in axes at rest.
 const CIRCULAR: f64 = 0.999;

@@ -10,7 +10,7 @@
 //!
 //! α = 1 is Radau IIA's matrix, α = 0 a symplectic one. On linear problems the family is that of the
 //! time-discontinuous schemes [Bauchau and Theron 1996; Bauchau, Bottasso and Trainelli 2003]. The proof that the
-//! energy never grows stands in `docs/theory/energy-decaying.md`.
+//! energy never grows is in `docs/theory/energy-decaying.md`.
 
 use super::radau_iia::two_stage_collocation;
 use super::scheme::{Scheme, SchemeError, SchemeKind, Tableau, within};

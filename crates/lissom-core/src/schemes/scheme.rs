@@ -48,7 +48,7 @@ impl Combination {
 /// One stage: an instant at which equilibrium and constraints hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stage {
-    /// Place in the step, 0 … 1.
+    /// Position in the step, 0 … 1.
     pub abscissa: f64,
     /// q' at the stage, less that at the start.
     pub rate: Combination,

@@ -225,7 +225,7 @@ impl Configuration {
         }
     }
 
-    /// The configuration with one unknown's place moved: by a body variation, or in its increment.
+    /// The configuration with one unknown's position moved: by a body variation, or in its increment.
     pub(crate) fn displaced(&self, system: &System, row: usize, change: f64, chart: bool) -> Self {
         let mut moved = self.copy();
         match unknown(system.layout(), row) {

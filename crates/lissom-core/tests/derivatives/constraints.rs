@@ -180,7 +180,7 @@ fn every_kind_is_numbered_and_named() {
     }
 }
 
-/// A constraint that is there twice leaves the same freedoms, closes a loop, and each of its equations repeats others, but for
+/// A constraint that is there twice leaves the same degrees of freedom, closes a loop, and each of its equations repeats others, except for
 /// those that the coordinates of the copy take. One that is there once closes none.
 #[test]
 fn every_kind_that_is_there_twice_repeats_itself() {

@@ -102,7 +102,7 @@ fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
 }
 
 /// The force that a spring tells, times the rate that it tells, is the power of its forces, and so its motion is of the joint or
-/// of the places that it acts on.
+/// of the positions that it acts on.
 #[test]
 fn springs_report_the_motion_that_their_forces_work_on() {
     for (seed, kind) in SPRINGS.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Every way to lock some of six relative freedoms: derivatives, and the freedom that is left.
+//! Every way to lock some of six relative degrees of freedom: derivatives, and the freedom that is left.
 
 use lissom_core::joints;
 use lissom_core::registry::{Parameters, Value};
@@ -67,7 +67,7 @@ fn equations_are_the_locked_components() {
     }
 }
 
-/// Small motions of the freedoms that are left do not violate the equations, large turns about a free axis included.
+/// Small motions of the degrees of freedom that are left do not violate the equations, large turns about a free axis included.
 #[test]
 fn what_is_not_locked_is_free() {
     let turn = |k: usize, size: f64| {

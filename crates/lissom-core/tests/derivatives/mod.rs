@@ -339,7 +339,7 @@ fn sliders_whose_tips_turn_with_the_line() {
     }
 }
 
-/// Two bodies and a joint of a kind that stands between two nodes.
+/// Two bodies and a joint of a kind that is between two nodes.
 fn joined(kind: &joints::JointKind, random: &mut Random) -> (System, State) {
     let (mut builder, nodes) = two_bodies(random);
     let placement = Placement {
@@ -462,7 +462,7 @@ fn constraint_accelerations_are_second_derivatives() {
     }
 }
 
-/// Places moved by one rigid motion leave every element's forces as they are in its own axes, and a beam
+/// Positions moved by one rigid motion leave every element's forces as they are in its own axes, and a beam
 /// that is moved rigidly from its stress-free state feels none.
 #[test]
 fn rigid_motion_changes_no_force() {

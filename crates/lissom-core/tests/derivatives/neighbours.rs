@@ -1,4 +1,4 @@
-//! Elements that stand for a weighted sum of neighbouring elements: their forces are that sum, and there are none where forces are not
+//! Elements that represent a weighted sum of neighbouring elements: their forces are that sum, and there are none where forces are not
 //! proportional to what differs.
 
 use lissom_core::elements::Element;

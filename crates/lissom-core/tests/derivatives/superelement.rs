@@ -1,4 +1,4 @@
-//! Superelements: derivatives, invariance under rigid motion, conservation, and what matrices are refused.
+//! Superelements: derivatives, invariance under rigid motion, conservation, and what matrices are rejected.
 
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::superelement::{

@@ -13,7 +13,7 @@ fn given(function: &Function, at: f64, length: f64) -> [f64; 4] {
     [function.value(at), function.first_derivative(at), function.second_derivative(at), third / (2.0 * step)]
 }
 
-/// The radius of a wheel beyond its nominal one, over the place along its axis from the nominal circle on.
+/// The radius of a wheel beyond its nominal one, over the position along its axis from the nominal circle on.
 #[derive(Clone, Debug)]
 pub enum WheelProfile {
     /// A cone, by its slope.
@@ -23,7 +23,7 @@ pub enum WheelProfile {
 }
 
 impl WheelProfile {
-    /// f, f' and f'' at a place.
+    /// f, f' and f'' at a position.
     pub(super) fn at<T: Number>(&self, place: T) -> [T; 3] {
         let [value, first, second, third] = match self {
             Self::Cone(slope) => [slope * place.value(), *slope, 0.0, 0.0],
@@ -33,7 +33,7 @@ impl WheelProfile {
     }
 }
 
-/// The head of a rail over the place u along it, which is 0 at the nominal place of contact.
+/// The head of a rail over the position u along it, which is 0 at the nominal position of contact.
 #[derive(Clone, Debug)]
 pub enum RailProfile {
     /// A circle of this radius [m], whose tangent at u = 0 rises outwards by this angle [rad]; u is the length of the arc.
@@ -43,7 +43,7 @@ pub enum RailProfile {
         /// Angle [rad].
         cant: f64,
     },
-    /// Height over the lateral place u, and a length over which it changes [m].
+    /// Height over the lateral position u, and a length over which it changes [m].
     Given(Function, f64),
 }
 
@@ -90,7 +90,7 @@ impl RailProfile {
         }
     }
 
-    /// Radius of the circle that fits it at the nominal place of contact, and the angle of its tangent there.
+    /// Radius of the circle that fits it at the nominal position of contact, and the angle of its tangent there.
     pub(super) fn osculating(&self) -> (f64, f64) {
         match self {
             Self::Circle { radius, cant } => (*radius, *cant),
@@ -98,7 +98,7 @@ impl RailProfile {
         }
     }
 
-    /// How far a point (outwards, upwards) is over the head, roughly, and the place u below it.
+    /// How far a point (outwards, upwards) is over the head, roughly, and the position u below it.
     pub(super) fn clearance(&self, [outwards, upwards]: [f64; 2]) -> (f64, f64) {
         match self {
             Self::Circle { radius, cant } => {

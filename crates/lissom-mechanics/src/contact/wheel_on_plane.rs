@@ -113,7 +113,7 @@ impl Contact {
     pub(crate) fn gap_hessian(&self, rotation: &Matrix3) -> Matrix6 {
         let Touch { normal, cosine, upright, .. } = self.touch(rotation);
         let turned = skew(&normal);
-        // d(u/S)/du = 1/S³ but for the round-off that S is kept away from zero with.
+        // d(u/S)/du = 1/S³ except for the round-off that S is kept away from zero with.
         let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
         let tilting = slope * self.axis.cross(&normal) * (self.axis.transpose() * turned)
             + cosine / upright * skew(&self.axis) * turned;
@@ -145,7 +145,7 @@ mod tests {
     /// Rims as many spheres, at so many angles about the axis.
     const SPHERES: usize = 20_000;
 
-    /// Least height of the rim over the plane, and the place from the wheel's centre, in the tip's axes, that is lowest.
+    /// Least height of the rim over the plane, and the position from the wheel's centre, in the tip's axes, that is lowest.
     fn lowest(contact: &Contact, rotation: &Matrix3, position: &Vector3) -> (f64, Vector3) {
         let up = contact.side * rotation.row(2).transpose();
         let across = contact.axis.cross(&up).normalize();

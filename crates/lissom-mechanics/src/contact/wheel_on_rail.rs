@@ -1,8 +1,8 @@
-//! Where a wheel touches a rail: the place at which both surfaces have one normal.
+//! Where a wheel touches a rail: the position at which both surfaces have one normal.
 //!
-//! Legend: base's axes e₁ outwards across the track, e₂ up, e₃ along the rail; x tip's origin, a axis of the wheel, ξ place along it from the
+//! Legend: base's axes e₁ outwards across the track, e₂ up, e₃ along the rail; x tip's origin, a axis of the wheel, ξ position along it from the
 //! nominal circle on, b distance of that from the tip's origin; r(ξ) radius; p, q directions across the axis, down and along; ψ shift
-//! angle from p to q; u place on the rail's head with point Q, normal N and tangent t.
+//! angle from p to q; u position on the rail's head with point Q, normal N and tangent t.
 //!
 //! ```text
 //! p = a × e₃/C,   q = (e₃ - a₃ a)/C,   C² = 1 - a₃²,      d = cos ψ p + sin ψ q,   sin ψ = r' a₃/C
@@ -26,11 +26,11 @@ use crate::round_off;
 const NEVER_ZERO: f64 = 1e-14;
 /// Samples of a profile that is given.
 const SAMPLES: usize = 64;
-/// Iterations after which the place of contact counts as not found.
+/// Iterations after which the position of contact counts as not found.
 const MAX_ITERATIONS: usize = 40;
-/// Cosine of the angle from the top of the head up to which a place of contact is on its tread.
+/// Cosine of the angle from the top of the head up to which a position of contact is on its tread.
 const STEEPEST: f64 = 0.5;
-/// Clearances below this part of the wheel's radius are contacts.
+/// Clearances below this fraction of the wheel's radius are contacts.
 const NEARLY_TOUCHING: f64 = 1e-6;
 
 /// A wheel and a rail.
@@ -48,16 +48,16 @@ pub struct RailContact {
     pub wheel: WheelProfile,
     /// Profile of the rail.
     pub rail: RailProfile,
-    /// Places along the axis at which the wheel's profile is that of the tread [m].
+    /// Positions along the axis at which the wheel's profile is that of the tread [m].
     pub tread: [f64; 2],
 }
 
 /// Where a wheel touches its rail, and what acts there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RailContactValues {
-    /// Place along the wheel's axis, outwards from the nominal circle [m].
+    /// Position along the wheel's axis, outwards from the nominal circle [m].
     pub on_wheel: f64,
-    /// Place on the rail from its nominal place of contact: length of the arc of a circle, lateral place of other profiles [m].
+    /// Position on the rail from its nominal position of contact: length of the arc of a circle, lateral position of other profiles [m].
     pub on_rail: f64,
     /// Angle from the lowest spoke to that of the contact [rad].
     pub shift_angle: f64,
@@ -117,7 +117,7 @@ impl<T: Number> Pose<T> {
     }
 }
 
-/// A place on the wheel where its normal lies across the rail.
+/// A position on the wheel where its normal lies across the rail.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelPoint<T> {
     /// a, in the base's axes.
@@ -143,7 +143,7 @@ pub struct Place<T> {
     pub on_rail: T,
 }
 
-/// A place of contact, and whether it is one.
+/// A position of contact, and whether it is one.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     /// The point of contact.
@@ -152,7 +152,7 @@ pub struct Found {
 }
 
 impl RailContact {
-    /// The wheel at a place along its axis.
+    /// The wheel at a position along its axis.
     pub(crate) fn wheel_point<T: Number>(&self, pose: &Pose<T>, along: T) -> WheelPoint<T> {
         let axis = pose.apply([self.axis.x, self.axis.y, self.axis.z].map(T::constant));
         let [first, second, third] = axis;
@@ -264,7 +264,7 @@ impl RailContact {
         Place { along, on_rail }
     }
 
-    /// Angle of the spoke at a place from the lowest one, along the rail [rad].
+    /// Angle of the spoke at a position from the lowest one, along the rail [rad].
     pub fn shift_angle(&self, pose: &Pose<f64>, along: f64) -> f64 {
         let WheelPoint { axis: [first, second, third], spoke, .. } = self.wheel_point(pose, along);
         let up = second * self.side;
@@ -279,7 +279,7 @@ impl RailContact {
         self.equations(pose, &self.place(pose).place).1
     }
 
-    /// Place of contact with its derivatives, those of the implicit function.
+    /// Position of contact with its derivatives, those of the implicit function.
     pub(crate) fn varied_place<const N: usize>(
         &self,
         pose: &Pose<f64>,
@@ -329,7 +329,7 @@ impl RailContact {
 }
 
 impl RailContact {
-    /// What is in doubt about the place of contact, in words that follow the wheel's name.
+    /// What is in doubt about the position of contact, in words that follow the wheel's name.
     pub fn doubt(&self, pose: &Pose<f64>) -> Option<String> {
         let Found { place, is_common_normal } = self.place(pose);
         if !is_common_normal {
@@ -359,7 +359,7 @@ impl RailContact {
         })
     }
 
-    /// Another place along the axis where the clearance is least and nearly zero, for profiles that are given.
+    /// Another position along the axis where the clearance is least and nearly zero, for profiles that are given.
     fn second_place(&self, pose: &Pose<f64>, first: f64) -> Option<f64> {
         if let (WheelProfile::Cone(_), RailProfile::Circle { .. }) = (&self.wheel, &self.rail) {
             return None;
@@ -436,7 +436,7 @@ mod tests {
     use super::*;
     use crate::registry::TimeFunction;
 
-    /// A wave with a drift, of amplitude and length [m] and slope: several places of a wheel come near to its rail.
+    /// A wave with a drift, of amplitude and length [m] and slope: several positions of a wheel come near to its rail.
     #[derive(Debug)]
     struct Waves(f64, f64, f64);
 
@@ -468,7 +468,7 @@ mod tests {
         }
     }
 
-    /// A waved wheel on a rounded rail, on both sides, rolled and shifted: the place of contact is the one of all its places that
+    /// A waved wheel on a rounded rail, on both sides, rolled and shifted: the position of contact is the one of all its positions that
     /// comes nearest to the rail.
     #[test]
     fn given_profiles_touch_where_they_are_nearest() {
@@ -516,7 +516,7 @@ mod tests {
         for (found, wanted) in &places {
             assert!((found - wanted).abs() < 5e-5, "{found}, nearest {wanted}");
         }
-        // Several places have been found.
+        // Several positions have been found.
         let is_there = |low: f64, high: f64| places.iter().any(|(found, _)| (low..high).contains(found));
         assert!(is_there(-0.05, -0.03) && is_there(-0.01, 0.01) && is_there(0.05, 0.07), "{places:?}");
     }

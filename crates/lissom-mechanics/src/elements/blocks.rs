@@ -12,7 +12,7 @@ use crate::kinematics::{Kinematics, NodeId};
 /// All elements of a batch, eight to a block.
 pub trait Blocks: Send + Sync {
     /// Computes the forces of whole blocks and hands each block's to `add`, in order: first the block's number, then
-    /// the forces, local unknown after local unknown; in lanes beyond the last element stands anything. The same
+    /// the forces, local unknown after local unknown; in lanes beyond the last element is anything. The same
     /// elements give the same forces to the last bit, whichever blocks are asked for.
     fn forces(
         &self,
@@ -22,9 +22,9 @@ pub trait Blocks: Send + Sync {
         add: &mut dyn FnMut(usize, &[Block]),
     );
 
-    /// Hands the derivatives of the forces by places to `add` in the same way, row after row of the local matrices,
+    /// Hands the derivatives of the forces by positions to `add` in the same way, row after row of the local matrices,
     /// with the stresses of another configuration in the geometric stiffness. Default: `false`, and nothing is
-    /// computed; so as well where forces depend on more than places.
+    /// computed; so as well where forces depend on more than positions.
     fn stiffness(
         &self,
         _processor: pulp::Arch,

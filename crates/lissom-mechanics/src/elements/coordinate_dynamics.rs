@@ -147,7 +147,7 @@ fn is_indefinite(matrix: &DMatrix<f64>) -> bool {
     eigenvalues.min() < -round_off::COUPLING * eigenvalues.amax().max(1.0)
 }
 
-/// A matrix of the size of the coordinates: zeros where it is not given; a single number stands for all of the diagonal.
+/// A matrix of the size of the coordinates: zeros where it is not given; a single number represents all of the diagonal.
 fn matrix(parameters: &Parameters, name: &str, count: usize) -> Result<DMatrix<f64>, ParameterError> {
     if !parameters.has(name) {
         return Ok(DMatrix::zeros(count, count));

@@ -16,7 +16,7 @@ pub enum Attachment {
     TwoNodes,
     /// A joint's algebraic coordinate of this quantity.
     Coordinate(Quantity),
-    /// Places one after the other, each carried by a node, and algebraic coordinates if there are any.
+    /// Positions one after the other, each carried by a node, and algebraic coordinates if there are any.
     Places,
     /// Several algebraic coordinates, of any quantity.
     Coordinates,

@@ -1,6 +1,6 @@
 //! What pushes back: inertia, stiffness, loads.
 //!
-//! An element sees places, twists and accelerations in SI and answers with forces and their
+//! An element sees positions, twists and accelerations in SI and answers with forces and their
 //! derivatives. It knows no time step, no scheme and no scaling.
 
 pub mod beam;
@@ -73,8 +73,8 @@ impl std::ops::AddAssign for Energy {
     }
 }
 
-/// Derivatives of an element's forces, as dense local matrices: row `i`, column `j` stands at
-/// `i * size + j`. Unknowns are six body-frame freedoms per node, then the coordinates.
+/// Derivatives of an element's forces, as dense local matrices: row `i`, column `j` is at
+/// `i * size + j`. Unknowns are six body-frame degrees of freedom per node, then the coordinates.
 #[derive(Clone, Debug)]
 pub struct Tangents {
     size: usize,
@@ -84,7 +84,7 @@ pub struct Tangents {
     pub damping: Vec<f64>,
     /// With respect to accelerations.
     pub mass: Vec<f64>,
-    /// How many of the last local unknowns are multipliers. Derivatives by them stand with the stiffness.
+    /// How many of the last local unknowns are multipliers. Derivatives by them are with the stiffness.
     multipliers: usize,
 }
 
@@ -172,7 +172,7 @@ pub enum LinearLimit {
     Load,
     /// What moments couple of bending and twist.
     Moment,
-    /// Forces of modes that are left out, under sudden loads.
+    /// Forces of modes that are omitted, under sudden loads.
     LeftOut,
 }
 
@@ -210,7 +210,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         &[]
     }
 
-    /// Adds the forces [N, N m] that stand on the left-hand side of the equations of motion,
+    /// Adds the forces [N, N m] that are on the left-hand side of the equations of motion,
     /// six per node in the node's body frame, then one per coordinate. Hot: called in every iteration.
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
 
@@ -234,7 +234,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
 
     /// Where forces are proportional to what a number of the model changes, as to a stiffness or a mass: an element whose
     /// forces are their derivative by the number, from this element in neighbouring models with the weights of a
-    /// difference. Default: there is none, and differences of forces stand for it.
+    /// difference. Default: there is none, and differences of forces represent it.
     fn derivative(_neighbours: &[(&Self, f64)]) -> Option<Self>
     where
         Self: Sized,

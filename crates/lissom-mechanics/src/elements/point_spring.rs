@@ -122,7 +122,7 @@ impl Point {
         }
     }
 
-    /// Derivative of the position (or velocity) with respect to the node's body-frame freedoms.
+    /// Derivative of the position (or velocity) with respect to the node's body-frame degrees of freedom.
     pub(super) fn gradient(&self) -> SMatrix<f64, 3, 6> {
         let mut gradient = SMatrix::<f64, 3, 6>::zeros();
         gradient.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.rotation);

@@ -21,7 +21,7 @@ pub fn gauss_legendre(points: usize) -> &'static [(f64, f64)] {
 }
 
 /// Points and weights of the Gauss-Lobatto rule, end points included, exact to degree 2 n - 3, for
-/// n = 2 … 4. These points are also the places of a beam element's nodes.
+/// n = 2 … 4. These points are also the positions of a beam element's nodes.
 pub fn gauss_lobatto(points: usize) -> &'static [(f64, f64)] {
     const TWO: [(f64, f64); 2] = [(-1.0, 1.0), (1.0, 1.0)];
     const THREE: [(f64, f64); 3] = [(-1.0, 1.0 / 3.0), (0.0, 4.0 / 3.0), (1.0, 1.0 / 3.0)];

@@ -8,7 +8,7 @@
 //! rows of the tip's frame Σ Λ̇_k b_k,   of the base's -Aᵀ Σ Λ̇_k b_k,   of Λ_k:  b_k·(V_tip - A V_base) = 0
 //! ```
 //!
-//! A constraint between velocities is no derivative of one between places, and so it has no multiplier among those.
+//! A constraint between velocities is no derivative of one between positions, and so it has no multiplier among those.
 //! With impulses for coordinates the matrix by velocities is symmetric, [0 Bᵀ; B 0], and the equation holds at every stage
 //! of a scheme: the forces do no work there. With a linear law of creep c there are no impulses, but forces in place of
 //! Λ̇_k, b_k·(V_tip - A V_base)/c.

@@ -1,7 +1,7 @@
 //! A wheel on a plane that yields and slips: a one-sided normal force, and friction by a law over the sliding velocity.
 //!
 //! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative twist, η
-//! its variation of place, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
+//! its variation of position, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
 //!
 //! ```text
 //! g = ±x₃ - r S - ρ,     N = k δ max(0, 1 + a δ̇) for δ > 0,     wrench on the tip N b_n - N μ(σ) Σ s_k/σ b_k

@@ -1,7 +1,7 @@
-//! A rope over pulleys: a spring and damper without compression along the line through several places, over which it slides
+//! A rope over pulleys: a spring and damper without compression along the line through several positions, over which it slides
 //! without friction, so that its tension is the same all along. Pulleys have no radius. Drums pay it out.
 //!
-//! Legend: x_p places, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates of drums
+//! Legend: x_p positions, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates of drums
 //! that are q_d0 at the start, r_d what they pay out per unit.
 //!
 //! ```text
@@ -77,7 +77,7 @@ const MAX_NODES: usize = 4;
 const MAX_DRUMS: usize = 2;
 /// Local unknowns of so many nodes and drums.
 const MAX_UNKNOWNS: usize = 6 * MAX_NODES + MAX_DRUMS;
-/// Places a rope may lead over.
+/// Positions a rope may lead over.
 const MAX_PLACES: usize = 16;
 
 /// A rope over pulleys.
@@ -85,7 +85,7 @@ const MAX_PLACES: usize = 16;
 pub struct Rope {
     /// Those that it leads over, each once, without the ground.
     nodes: Vec<NodeId>,
-    /// Places in their order along the rope: which of the nodes, none for the ground, and where on it.
+    /// Positions in their order along the rope: which of the nodes, none for the ground, and where on it.
     places: Vec<(Option<usize>, Vector3)>,
     /// Coordinates of drums, and of each what it pays out per unit and its value at the start.
     drums: Vec<CoordinateId>,
@@ -188,7 +188,7 @@ struct Segment {
 struct Shape {
     points: [Point; MAX_PLACES],
     segments: [Segment; MAX_PLACES],
-    /// Number of places.
+    /// Number of positions.
     count: usize,
     /// Elongation of the whole and its rate [m, m/s].
     elongation: f64,
@@ -200,13 +200,13 @@ impl Shape {
         &self.segments[..self.count - 1]
     }
 
-    /// Difference of what belongs to the parts before and after the place `index`.
+    /// Difference of what belongs to the parts before and after the position `index`.
     fn difference(&self, index: usize, of: impl Fn(&Segment) -> Vector3) -> Vector3 {
         let before = index.checked_sub(1).map_or_else(Vector3::zeros, |before| of(&self.segments[before]));
         before - self.segments().get(index).map_or_else(Vector3::zeros, of)
     }
 
-    /// Derivative of the whole length by the place `index`.
+    /// Derivative of the whole length by the position `index`.
     fn pull(&self, index: usize) -> Vector3 {
         self.difference(index, |segment| segment.direction)
     }
@@ -260,7 +260,7 @@ impl Rope {
         self.law.evaluate(shape.elongation, shape.rate, self.switch_states.of(at))
     }
 
-    /// Adds the forces of pulls on all places [N, inertial axes].
+    /// Adds the forces of pulls on all positions [N, inertial axes].
     fn add_pulls(&self, shape: &Shape, pull: impl Fn(usize) -> Vector3, out: &mut [f64]) {
         for (index, (node, _)) in self.places.iter().enumerate() {
             let Some(node) = node else { continue };
@@ -291,7 +291,7 @@ impl Element for Rope {
         self.add_winding(tension, out);
     }
 
-    /// The length is integrated; what that misses is put back along the relative velocities of the places.
+    /// The length is integrated; what that misses is put back along the relative velocities of the positions.
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let start = self.shape(step.start);
         let mut moves = [Vector3::zeros(); MAX_PLACES];
@@ -307,7 +307,7 @@ impl Element for Rope {
             })
             .sum();
         let shapes = step.stages.map(|at| self.shape(at));
-        // Of the places alone: what a winch does is known exactly, and so are coordinates.
+        // Of the positions alone: what a winch does is known exactly, and so are coordinates.
         let frees = step.stages.map(|at| self.free(at));
         let places = [0, 1].map(|j| shapes[j].rate + frees[j][1]);
         let square = |shape: &Shape| shape.segments().iter().map(|own| own.speed.norm_squared()).sum::<f64>();
@@ -327,7 +327,7 @@ impl Element for Rope {
         }
     }
 
-    /// With the gradients G of the length and R of its rate by places: δ(T G) = G (k G + c R)ᵀ δq + c G Gᵀ δv + T δG.
+    /// With the gradients G of the length and R of its rate by positions: δ(T G) = G (k G + c R)ᵀ δq + c G Gᵀ δv + T δG.
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let shape = self.shape(at);
         let response = self.tension(&shape, at);

@@ -80,7 +80,7 @@ pub trait AnyBatch: Send + Sync {
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
     /// Times at which forces are known not to be smooth [s].
     fn breakpoints(&self) -> Vec<f64>;
-    /// Gives every item a place for the sides of its switches, from the held value `first` on, and says how many.
+    /// Gives every item a position for the sides of its switches, from the held value `first` on, and says how many.
     fn freeze_switches(&mut self, first: usize) -> usize;
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
@@ -537,7 +537,7 @@ pub fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
 #[inline]
 pub fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
     for (rows, forces) in rows.chunks(6).zip(forces.chunks(6)) {
-        // Most nodes have all their freedoms, six rows in a row.
+        // Most nodes have all their degrees of freedom, six rows in a row.
         if let (&[first, .., last], [a, b, c, d, e, f]) = (rows, forces)
             && first != LOCKED
             && last == first + 5

@@ -6,7 +6,7 @@ use crate::joints::derivatives::Derivatives;
 /// Derivatives of the equations of motion in SI, each on the values of the tangent's pattern.
 #[derive(Clone, Debug, Default)]
 pub struct Linearization {
-    /// ∂/∂ place, constraint forces at constant multipliers included.
+    /// ∂/∂ position, constraint forces at constant multipliers included.
     pub stiffness: Vec<f64>,
     /// ∂/∂ twist.
     pub damping: Vec<f64>,

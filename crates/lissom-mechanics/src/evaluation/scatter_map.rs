@@ -44,7 +44,7 @@ impl ScatterMap {
     }
 
     /// Adds the local matrix over `rows`, [`LOCKED`] where there is none. The square of the rows from `filled` on is
-    /// left out: it stays zero.
+    /// omitted: it stays zero.
     pub fn push(&mut self, pattern: &Pattern, rows: &[u32], filled: usize) {
         for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
             let seen = if j < filled { rows } else { &rows[..filled] };

@@ -12,7 +12,7 @@ use crate::joints::derivatives::{Derivatives, OWN, TIP};
 /// Factors of the derivatives in a tangent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend<T> {
-    /// Of ∂/∂ place.
+    /// Of ∂/∂ position.
     pub place: f64,
     /// Of ∂/∂ twist.
     pub rate: T,
@@ -31,7 +31,7 @@ pub struct Sum<'a, T> {
     pub blend: Blend<T>,
     /// The tangent, on its pattern.
     pub values: &'a mut [T],
-    /// Takes the diagonal of ∂/∂ place by row, of translations at least; may have no room.
+    /// Takes the diagonal of ∂/∂ position by row, of translations at least; may have no room.
     pub stiffness: &'a mut [f64],
 }
 
@@ -46,7 +46,7 @@ pub enum TangentAssembler<'a> {
     Complex(Sum<'a, Complex64>),
 }
 
-/// An element's or joint's place in the system.
+/// An element's or joint's position in the system.
 #[derive(Clone, Copy)]
 pub struct Slot<'a> {
     /// Row of each local unknown, or locked.

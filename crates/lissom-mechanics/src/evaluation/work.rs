@@ -56,7 +56,7 @@ fn work_along<E: Element + ?Sized>(
         let forces = [locals[0][position], locals[1][position]];
         sum += along(forces, end.value - start.value, [start.rate, end.rate], elapsed);
     }
-    // Forces stand on the left-hand side of the equations of motion.
+    // Forces are on the left-hand side of the equations of motion.
     -sum
 }
 
@@ -67,7 +67,7 @@ pub fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
         element.forces(at, forces);
         let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
         let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
-        // Forces stand on the left-hand side of the equations of motion.
+        // Forces are on the left-hand side of the equations of motion.
         -twists.chain(rates).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
     })
 }

@@ -1,6 +1,6 @@
 //! Directions of a slider's tip that stay across its line: the tip turns with the tangent, or with the sections as well.
 //!
-//! Legend: d = R_t e direction of the tip, y(s) = Σ w_k⁽ᵖ⁾(s) u_k what it stays across: the tangent with places u_k = x_k and p = 1, or
+//! Legend: d = R_t e direction of the tip, y(s) = Σ w_k⁽ᵖ⁾(s) u_k what it stays across: the tangent with positions u_k = x_k and p = 1, or
 //! an axis of the sections with their directions u_k = R_k g_k and p = 0; o_k the point of a node in its axes.
 //!
 //! ```text
@@ -22,7 +22,7 @@ use crate::kinematics::{Kinematics, NodeMotion};
 pub enum Across {
     /// The tangent of the line.
     Tangent,
-    /// The directions that the nodes carry, in their axes, blended as their places are.
+    /// The directions that the nodes carry, in their axes, blended as their positions are.
     Sections(Vec<Vector3>),
 }
 

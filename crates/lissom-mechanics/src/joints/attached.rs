@@ -47,7 +47,7 @@ pub struct AttachedJoint {
 }
 
 impl AttachedJoint {
-    /// The same place for a joint of its own.
+    /// The same position for a joint of its own.
     pub(super) fn with_joint(&self, joint: Box<dyn AnyJoint>) -> Self {
         Self {
             name: self.name.clone(),
@@ -210,7 +210,7 @@ impl AttachedJoint {
         chart: Chart<'_>,
         out: &mut Derivatives,
     ) {
-        // The Hessian of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
+        // The Hessian of the augmented term, w c ∂²c/∂q², is omitted: it vanishes at the solution, and far
         // from it, with w c much larger than the multipliers, it would spoil the correction.
         let mut mu = Equations::default();
         let own = self.first_multiplier..self.first_multiplier + self.equations();

@@ -81,7 +81,7 @@ impl Batches {
         self.0.iter().map(|batch| &**batch)
     }
 
-    /// Takes note of the start of a step.
+    /// Records the start of a step.
     #[inline]
     pub fn begin(&self, start: &Kinematics, out: &mut JointStarts) {
         out.0.resize_with(self.0.len(), Vec::new);
@@ -99,7 +99,7 @@ pub trait JointBatch: Send + Sync {
     fn starts(&self) -> &[usize];
     /// Joints in a block.
     fn block_items(&self, block: usize) -> Range<usize>;
-    /// Takes note of the start of a step.
+    /// Records the start of a step.
     fn begin(&self, start: &Kinematics, out: &mut Vec<StartBlock>);
     /// Computes forces and violations of whole blocks, or violations alone, and hands each block's to `add`, in order.
     fn evaluate(
@@ -365,7 +365,7 @@ impl Pack {
                 gathered.coordinates[k][lane] = increments.coordinates[self.coordinates[k][lane] as usize];
             }
         }
-        // No formula branches on what stands in lanes beyond the last joint.
+        // No formula branches on what is in lanes beyond the last joint.
         for lane in 0..self.count {
             let (first, count) = self.equations[lane];
             let own = first as usize..(first + count) as usize;

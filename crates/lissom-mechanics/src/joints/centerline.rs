@@ -1,19 +1,19 @@
 //! A smooth line through the nodes of a beam: what slides on it sees neither kinks nor jumps of curvature where elements
 //! meet.
 //!
-//! Legend: s arc length of the undeformed beam, s_k that of node k, x_k its place, Q_k the parabola through the nodes k - 1,
+//! Legend: s arc length of the undeformed beam, s_k that of node k, x_k its position, Q_k the parabola through the nodes k - 1,
 //! k and k + 1, u = (s - s_k)/(s_{k+1} - s_k).
 //!
 //! ```text
 //! x(s) = (1 - b) Q_k + b Q_{k+1} = Σ_k w_k(s) x_k,      b = 3u² - 2u³,      Σ w_k = 1,      Σ w_k s_k = s
 //! ```
 //!
-//! Both parabolas meet at both nodes and b' vanishes there: place, tangent and curvature are continuous [cf. Overhauser 1968,
+//! Both parabolas meet at both nodes and b' vanishes there: position, tangent and curvature are continuous [cf. Overhauser 1968,
 //! who blends with b = u, and Bauchau 2000 on sliding joints]. In the first and the last interval one parabola is there alone.
 
 use lissom_motion::Vector3;
 
-/// Most nodes that a place between two of them depends on.
+/// Most nodes that a position between two of them depends on.
 pub const SUPPORT: usize = 4;
 
 /// Arc lengths of the nodes along a beam or a chain of beams.
@@ -22,7 +22,7 @@ pub struct Centerline {
     knots: Vec<f64>,
 }
 
-/// Weights of nodes at a place, and their first three derivatives by the arc length.
+/// Weights of nodes at a position, and their first three derivatives by the arc length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Support {
     /// The first of the nodes.
@@ -34,7 +34,7 @@ pub struct Support {
 }
 
 impl Support {
-    /// Σ w_k x_k of a derivative, from places by the number of the node.
+    /// Σ w_k x_k of a derivative, from positions by the number of the node.
     pub fn sum(&self, derivative: usize, place: impl Fn(usize) -> Vector3) -> Vector3 {
         (0..self.count).map(|k| self.weights[derivative][k] * place(self.first + k)).sum()
     }
@@ -63,7 +63,7 @@ impl Centerline {
         inner.partition_point(|&knot| knot <= s)
     }
 
-    /// The first node that places in an interval depend on, and how many there are.
+    /// The first node that positions in an interval depend on, and how many there are.
     pub fn nodes_of(&self, interval: usize) -> (usize, usize) {
         let first = interval.saturating_sub(1);
         let last = (interval + 2).min(self.knots.len() - 1);
@@ -126,7 +126,7 @@ impl Centerline {
         })
     }
 
-    /// x(from + change) - x(from) of unchanged places, or the same of a `derivative` of x, without cancellation: the integral of the
+    /// x(from + change) - x(from) of unchanged positions, or the same of a `derivative` of x, without cancellation: the integral of the
     /// next one over each interval, which is of the fourth degree at most.
     pub fn change(
         &self,
@@ -165,7 +165,7 @@ impl Centerline {
         sum
     }
 
-    /// Where the line through these places is nearest to a point: among many places, then by Newton's method.
+    /// Where the line through these positions is nearest to a point: among many positions, then by Newton's method.
     pub fn nearest(&self, point: &Vector3, place: impl Fn(usize) -> Vector3) -> f64 {
         const PER_INTERVAL: usize = 16;
         let steps = PER_INTERVAL * self.intervals();

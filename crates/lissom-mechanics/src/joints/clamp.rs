@@ -1,4 +1,4 @@
-//! Clamp: two nodes, or a node and the ground, share place and rotation.
+//! Clamp: two nodes, or a node and the ground, share position and rotation.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Real, Screw, Vector3};

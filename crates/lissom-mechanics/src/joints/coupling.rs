@@ -16,7 +16,7 @@ use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 pub use crate::relation::{Coupled, MAX_COUPLED, Relation, RelationPoint};
 use crate::round_off;
 
-/// A relation with its place in the system.
+/// A relation with its position in the system.
 #[derive(Debug)]
 pub struct Coupling {
     /// Name in the model.

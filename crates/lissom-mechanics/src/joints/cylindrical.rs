@@ -14,7 +14,7 @@ use super::{
 };
 use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START};
 
-/// The displacement's place among the coordinates, after the rotation.
+/// The displacement's position among the coordinates, after the rotation.
 const SLIDE: usize = 1;
 
 /// Registry entry.

@@ -14,12 +14,12 @@ use pulp::{Simd, WithSimd};
 
 use super::{ConstraintHessian, Gradient, MAX_COORDINATES, MAX_EQUATIONS};
 
-/// The tip's first local unknown. The base's six begin at 0; two places behind them stay empty, so that each side
+/// The tip's first local unknown. The base's six begin at 0; two positions behind them stay empty, so that each side
 /// fills vectors of eight.
 pub const TIP: usize = 8;
 /// The joint's own coordinates.
 pub const OWN: usize = TIP + 6;
-/// Places of local unknowns.
+/// Positions of local unknowns.
 pub const LOCAL: usize = OWN + MAX_COORDINATES;
 /// Blocks of local unknowns, one for each side; another one takes the equations.
 const SIDES: usize = 2;

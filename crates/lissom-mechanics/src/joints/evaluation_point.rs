@@ -20,7 +20,7 @@ pub struct Increments<'a> {
 /// Where residual and tangent are evaluated.
 #[derive(Clone, Copy, Debug)]
 pub struct Point<'a> {
-    /// Places, twists and accelerations.
+    /// Positions, twists and accelerations.
     pub at: &'a Kinematics,
     /// Where the stresses of the geometric stiffness are taken from: `at` itself, or, while iterations are
     /// far from equilibrium, the start of the step. Stresses of a far iterate can be larger than any that
@@ -42,7 +42,7 @@ pub struct Point<'a> {
 pub struct Augmentation {
     /// Force per violation of a length [N/m].
     pub weight: f64,
-    /// The length that stands for a radian: an angle's violation weighs its square [m].
+    /// The length that represents a radian: an angle's violation weighs its square [m].
     pub radian: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Generalised coordinates without a place in space: numbers that springs, loads, relations and the matrices of
+//! Generalised coordinates without a position in space: numbers that springs, loads, relations and the matrices of
 //! `elements::coordinate_dynamics` act on, as on the coordinates of joints. They have no equations of their own.
 
 use super::Coordinate;

@@ -55,7 +55,7 @@ pub(super) fn locking(locked: [bool; 6]) -> Box<dyn AnyJoint> {
     }
 }
 
-/// Locks some of the six relative freedoms, `LENGTHS` of them translations.
+/// Locks some of the six relative degrees of freedom, `LENGTHS` of them translations.
 #[derive(Clone, Copy, Debug)]
 pub struct Generic<const LENGTHS: usize> {
     locked: [bool; 6],

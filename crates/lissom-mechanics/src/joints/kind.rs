@@ -27,7 +27,7 @@ pub enum Frames {
     Span,
 }
 
-/// Place of the tip's joint frame at the start, seen from the base's joint frame.
+/// Position of the tip's joint frame at the start, seen from the base's joint frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     /// From the base's point to the tip's point, in the base's joint frame [m].

@@ -57,7 +57,7 @@ pub(crate) fn coincident_hessian(relative: &Relative, mu: &Vector3, out: &mut Co
 }
 
 /// Rows `row..row + 3`: the tip's point lies on the base's third axis at the displacement d, c = Rᵀ x - d e₃. Like
-/// [`coincident`] but for a constant gradient by d, so that gradient and Hessian by the relative motion are the same.
+/// [`coincident`] except for a constant gradient by d, so that gradient and Hessian by the relative motion are the same.
 /// The axes of base and tip agree, by other rows.
 pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
     coincident(relative, row, out);

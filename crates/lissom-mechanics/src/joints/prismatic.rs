@@ -14,7 +14,7 @@ use super::{
 };
 use crate::registry::DISPLACEMENT_AT_START;
 
-/// The displacement's place among the coordinates.
+/// The displacement's position among the coordinates.
 const SLIDE: usize = 0;
 
 /// Registry entry.

@@ -1,4 +1,4 @@
-//! What a joint sees of its frames' motion, over one number or several side by side: rotation, place and own
+//! What a joint sees of its frames' motion, over one number or several side by side: rotation, position and own
 //! coordinates now, and their changes since the start of the step without cancellation.
 //!
 //! With (E, p_E) and (F, p_F) the changes of base and tip joint frame, (R, x) at the start and P = Rᵀx:
@@ -146,7 +146,7 @@ pub struct RelativeIncrement<R> {
 }
 
 impl<R: Real> RelativeIncrement<R> {
-    /// From rotation and place at the start and the changes of both joint frames.
+    /// From rotation and position at the start and the changes of both joint frames.
     #[inline(always)]
     pub fn new(start: (Axes<R>, Triple<R>), base: FrameChange<R>, tip: FrameChange<R>) -> Self {
         let (rotation, place) = start;

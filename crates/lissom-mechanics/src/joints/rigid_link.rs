@@ -1,4 +1,4 @@
-//! Rigid link: two nodes at different places move as one body.
+//! Rigid link: two nodes at different positions move as one body.
 
 use super::clamp::Clamp;
 use super::kind::{Build, Frames, JointKind};

@@ -68,7 +68,7 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// Gaps below this part of the wheel's size are round-off of the places given.
+/// Gaps below this fraction of the wheel's size are round-off of the positions given.
 const CLOSED: f64 = 1e-6;
 
 fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, ParameterError> {
@@ -146,7 +146,7 @@ impl Joint for Rolling {
         ([0.0; MAX_COORDINATES], Motion::new(Rotation::identity(), self.centre))
     }
 
-    /// Measured from the start, where the wheel touches to the accuracy of the places given.
+    /// Measured from the start, where the wheel touches to the accuracy of the positions given.
     fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let Contact { axis, side, radius, .. } = self.contact;
         let cosine = relative.rotation.row(2).transpose().dot(&axis);
@@ -211,7 +211,7 @@ impl Joint for Rolling {
         let cosine = normal.dot(&axis);
         let upright = upright(cosine);
         let turned = skew(&normal);
-        // d(u/S)/du = 1/S³ but for the round-off that S is kept away from zero with.
+        // d(u/S)/du = 1/S³ except for the round-off that S is kept away from zero with.
         let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
         let tilting = slope * axis.cross(&normal) * (axis.transpose() * turned)
             + cosine / upright * skew(&axis) * turned;

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! The beam takes the force at its point x(s), without moments on sections: Σ w_k = 1 and Σ w_k x_k = x(s) leave momentum and
-//! angular momentum what they were. The row of s says that the force stands across the line. Equations of a tip that turns with the
+//! angular momentum what they were. The row of s says that the force is across the line. Equations of a tip that turns with the
 //! line or with the sections are those of `alignment`.
 
 use lissom_motion::{Matrix3, Vector3, Vector6, skew};
@@ -65,12 +65,12 @@ impl CarriedPoint {
         &at.nodes[self.node]
     }
 
-    /// Its place [m].
+    /// Its position [m].
     pub fn place(&self, at: &Kinematics) -> Vector3 {
         self.motion(at).frame.transform_point(&self.point)
     }
 
-    /// Its change of place since the start of a step, without cancellation [m].
+    /// Its change of position since the start of a step, without cancellation [m].
     pub(super) fn shift(&self, increments: &Increments<'_>) -> Vector3 {
         let change = &increments.nodes[self.node];
         let local = change.shift + change.turn * self.point;
@@ -89,7 +89,7 @@ pub enum Orientation {
     Section(Vec<Vector3>),
 }
 
-/// A slider with its place in the system.
+/// A slider with its position in the system.
 #[derive(Debug)]
 pub struct Slider {
     /// Name in the model.
@@ -155,7 +155,7 @@ impl Slider {
         if local == TIP { &self.tip } else { &self.nodes[place.support.first + local] }
     }
 
-    /// Local nodes of the beam, each with the factor of its place in a derivative of c by s.
+    /// Local nodes of the beam, each with the factor of its position in a derivative of c by s.
     fn on_beam(place: &Place, derivative: usize) -> impl Iterator<Item = (usize, f64)> {
         place.weights(derivative).map(|(k, weight)| (k, -weight))
     }

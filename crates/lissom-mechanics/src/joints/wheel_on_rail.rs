@@ -23,7 +23,7 @@ use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::kinematics::Quantity;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 
-/// Gaps below this part of the wheel's radius are round-off of the places given.
+/// Gaps below this fraction of the wheel's radius are round-off of the positions given.
 const CLOSED: f64 = 1e-6;
 
 /// Half the width of a tread that is not given, in radii of the wheel.
@@ -312,7 +312,7 @@ pub struct WheelOnRail {
     creep: Option<CreepLaw>,
     /// The tip at the start, in the base's axes [m].
     centre: Vector3,
-    /// The gap at the start, round-off of the places given [m].
+    /// The gap at the start, round-off of the positions given [m].
     start: f64,
 }
 

@@ -9,7 +9,7 @@ use crate::kinematics::Quantity;
 /// Marks a freedom that is locked: it has no row.
 pub const LOCKED: u32 = u32::MAX;
 
-/// Which freedoms of a node are free.
+/// Which degrees of freedom of a node are free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedoms {
     /// None: the ground, or a frame fixed to it.
@@ -34,14 +34,14 @@ impl Freedoms {
     }
 }
 
-/// Numbering of all unknowns: node freedoms, algebraic coordinates, then multipliers.
+/// Numbering of all unknowns: node degrees of freedom, algebraic coordinates, then multipliers.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
     /// Row of each freedom of each node, or [`LOCKED`].
     pub node_rows: Vec<[u32; 6]>,
     /// Row of each algebraic coordinate.
     pub coordinate_rows: Vec<u32>,
-    /// Number of node freedoms and coordinates.
+    /// Number of node degrees of freedom and coordinates.
     pub coordinate_count: usize,
     /// Number of multipliers.
     pub multiplier_count: usize,
@@ -65,7 +65,7 @@ impl Layout {
         self.coordinate_count + self.multiplier_count
     }
 
-    /// Number of rows that belong to node freedoms and algebraic coordinates.
+    /// Number of rows that belong to node degrees of freedom and algebraic coordinates.
     pub fn coordinate_count(&self) -> usize {
         self.coordinate_count
     }
@@ -85,7 +85,7 @@ impl Layout {
         self.node_rows.len()
     }
 
-    /// Name of a node: of a body or point mass, or the place on a beam, as `beam.start` or `beam@0.5`.
+    /// Name of a node: of a body or point mass, or the position on a beam, as `beam.start` or `beam@0.5`.
     ///
     /// # Panics
     /// If there is no such node.
@@ -93,7 +93,7 @@ impl Layout {
         &self.node_names[node]
     }
 
-    /// Rows of a node's six freedoms, [`LOCKED`] where it has none.
+    /// Rows of a node's six degrees of freedom, [`LOCKED`] where it has none.
     pub fn rows_of_node(&self, node: NodeId) -> &[u32; 6] {
         &self.node_rows[node]
     }
@@ -130,7 +130,7 @@ impl Layout {
         self.impulses.iter().map(|&coordinate| (self.row_of_coordinate(coordinate), coordinate))
     }
 
-    /// Rows of states and impulses: their equations are of rates, not of places.
+    /// Rows of states and impulses: their equations are of rates, not of positions.
     pub fn rate_rows(&self) -> impl Iterator<Item = usize> + '_ {
         self.states().map(|(row, ..)| row).chain(self.impulses().map(|(row, _)| row))
     }

@@ -9,13 +9,13 @@ pub type CoordinateId = usize;
 
 /// Index of a held value: an input, or the last sample of a signal.
 pub type HeldId = usize;
-/// The ground: node 0 of every system, without freedoms.
+/// The ground: node 0 of every system, without degrees of freedom.
 pub const GROUND: NodeId = 0;
 
-/// A node: place, twist and acceleration of its body frame.
+/// A node: position, twist and acceleration of its body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeMotion {
-    /// Place of the body frame in the inertial frame.
+    /// Position of the body frame in the inertial frame.
     pub frame: Motion,
     /// Twist in the body frame: velocity [m/s], angular velocity [rad/s].
     pub twist: Vector6,

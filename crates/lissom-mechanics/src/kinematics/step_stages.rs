@@ -24,7 +24,7 @@ pub const STAGES: usize = 2;
 pub struct StepStages<'a> {
     /// Where it begins.
     pub start: &'a Kinematics,
-    /// Places, velocities and accelerations at the stages.
+    /// Positions, velocities and accelerations at the stages.
     pub stages: [&'a Kinematics; STAGES],
     /// Where it ends.
     pub end: &'a Kinematics,
@@ -34,7 +34,7 @@ pub struct StepStages<'a> {
     pub durations: [[f64; STAGES]; STAGES],
     /// How long they last on the way to the end [s].
     pub lasting: [f64; STAGES],
-    /// Weights of the stages' changes of place in that at the end.
+    /// Weights of the stages' changes of position in that at the end.
     pub reached: [f64; STAGES],
     /// A length of the system, to compare translations with rotations [m].
     pub length: f64,

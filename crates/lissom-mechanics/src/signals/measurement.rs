@@ -1,4 +1,4 @@
-//! What a signal may know of the motion: one number, with its derivatives by places and velocities.
+//! What a signal may know of the motion: one number, with its derivatives by positions and velocities.
 
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
@@ -8,7 +8,7 @@ pub const MAX_TOUCHED: usize = 14;
 /// Derivatives of a measurement: six per node it touches, by body variations and twists, then one per coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient {
-    /// By places.
+    /// By positions.
     pub by_place: [f64; MAX_TOUCHED],
     /// By velocities.
     pub by_rate: [f64; MAX_TOUCHED],

@@ -1,7 +1,7 @@
 //! Signals: numbers computed from time, inputs, first-order states and measurements of the motion, each evaluated once
 //! per stage, with exact derivatives. They are the sizes of loads and the derivatives of states.
 //!
-//! Legend: s signal, m measurement, q places, v velocities.
+//! Legend: s signal, m measurement, q positions, v velocities.
 //!
 //! ```text
 //! s_i = f_i(t, held, s_j (j < i), m_k),      ∂s_i/∂q = Σ_j ∂f_i/∂s_j ∂s_j/∂q + Σ_k ∂f_i/∂m_k ∂m_k/∂q

@@ -1,6 +1,6 @@
 //! A component of the position, displacement or velocity of a point that a node carries, in global axes.
 //!
-//! Legend: x place of the node, R its rotation, o the point in the node's axes, v and w twist, n the axis.
+//! Legend: x position of the node, R its rotation, o the point in the node's axes, v and w twist, n the axis.
 //!
 //! ```text
 //! n·(x + R o - x₀):      by place  nᵀR (δu - õ δθ)

@@ -48,7 +48,7 @@ pub enum AnalysisKind {
     Modes {
         /// How many.
         count: usize,
-        /// Whether gravity and loads are left out, and places are those of the file.
+        /// Whether gravity and loads are omitted, and positions are those of the file.
         undeformed: bool,
         /// Frequency near which they are sought [Hz]; none for the lowest ones.
         shift: Option<f64>,
@@ -141,7 +141,7 @@ pub struct Analysis {
     pub tolerance: f64,
     /// Most iterations of a step.
     pub max_iterations: usize,
-    /// What is left out of the search for a step's solution, for studies.
+    /// What is omitted from the search for a step's solution, for studies.
     pub disabled: DisabledFeatures,
     /// Steps from one record to the next.
     pub output_every: usize,

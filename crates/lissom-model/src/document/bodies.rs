@@ -136,7 +136,7 @@ fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
     context.fail(value.span, message, "check the order of the numbers")
 }
 
-/// The place `position`, the origin of the axes around it where it is not given.
+/// The position `position`, the origin of the axes around it where it is not given.
 pub(super) fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
     match reader.node("position") {
         None => reader.context.to_global(reader.scope, &Vector3::zeros()),

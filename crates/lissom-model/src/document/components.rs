@@ -117,7 +117,7 @@ fn attachment(
     registry: &Registry,
     places: &Places,
 ) -> Option<Attachment> {
-    // A part that could not be read has no place; its own error is enough.
+    // A part that could not be read has no position; its own error is enough.
     let at = |key: &str, node: &Located<NodeReference>| match reader.node(key) {
         Some(place) => reader.context.place(place, &reader.words(key)).map(|place| place.value),
         None => own_place(reader.context, reader.scope, &node.value, places),
@@ -127,7 +127,7 @@ fn attachment(
             let nodes = two_nodes(reader);
             let (axis, second_axis) = axes(reader, rule)?;
             let (base, tip) = nodes?;
-            // The ground has no place of its own: where it is the tip, the base node's place is meant.
+            // The ground has no position of its own: where it is the tip, the base node's position is meant.
             let place = if tip.value == NodeReference::Ground { at("at", &base) } else { at("at", &tip) };
             Some(Attachment::TwoNodes { at: place?, base, tip, axis, second_axis })
         }
@@ -239,7 +239,7 @@ fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Ve
     all.into_iter().collect()
 }
 
-/// Where a node is. The ground has its place where the part is that names it.
+/// Where a node is. The ground has its position where the part is that names it.
 fn own_place(
     context: &Context<'_>,
     scope: ScopeId,

@@ -35,7 +35,7 @@ pub(super) fn places(
 }
 
 impl Places {
-    /// Place of a node; the origin for the ground.
+    /// Position of a node; the origin for the ground.
     pub(super) fn of(&self, node: &NodeReference) -> Option<Vector3> {
         match node {
             NodeReference::Ground => Some(Vector3::zeros()),
@@ -60,7 +60,7 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     under_sliders(context, document);
 }
 
-/// A slider hands its force to the nodes about it: sections between them do not know where it stands. Within one element it
+/// A slider hands its force to the nodes about it: sections between them do not know where it is. Within one element it
 /// leaves out up to half of its force of the shear, and of the moment the parts of force times length of an element that
 /// `order` says; farther away both are right.
 fn under_sliders(context: &Context<'_>, document: &Document) {
@@ -157,7 +157,7 @@ impl<'d> Groups<'d> {
         number
     }
 
-    /// The number that stands for a part's group. Halves the way there for those who come later.
+    /// The number that represents a part's group. Halves the way there for those who come later.
     fn root(&mut self, part: &'d str) -> usize {
         let mut number = self.number(part);
         while self.parents[number] != number {

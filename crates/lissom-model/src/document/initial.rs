@@ -69,7 +69,7 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
     Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation })
 }
 
-/// The names of bodies, point masses and beams that the list under `key` means, each with its place.
+/// The names of bodies, point masses and beams that the list under `key` means, each with its position.
 pub(super) fn parts(reader: &Reader<'_, '_>, key: &str) -> Vec<(String, Span)> {
     let (context, what) = (reader.context, reader.words(key));
     let Some(node) = reader.node(key) else { return Vec::new() };

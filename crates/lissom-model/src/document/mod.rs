@@ -1,4 +1,4 @@
-//! The model file as plain data: everything named, checked and in SI, with the places of names and values kept
+//! The model file as plain data: everything named, checked and in SI, with the positions of names and values kept
 //! for later complaints. Knows no system, no unknowns and no time scheme.
 
 pub(crate) mod analysis;
@@ -84,7 +84,7 @@ pub struct Document {
     pub materials: Vec<Material>,
     /// Cross sections.
     pub sections: Vec<Section>,
-    /// Places by name [m].
+    /// Positions by name [m].
     pub points: BTreeMap<String, Vector3>,
     /// Flexible beams.
     pub beams: Vec<Beam>,
@@ -129,7 +129,7 @@ impl Document {
         Report::new(problems, &self.sources)
     }
 
-    /// Where a part of an expression stands, whose text is within `whole`.
+    /// Where a part of an expression is, whose text is within `whole`.
     pub(crate) fn within(&self, whole: Span, text: &str, range: &std::ops::Range<usize>) -> Span {
         self.sources.within(whole, text, range)
     }
@@ -139,12 +139,12 @@ impl Document {
         self.initial_of_parts.get(part).or(self.initial.as_ref())
     }
 
-    /// Whether places at the start are those of static equilibrium.
+    /// Whether positions at the start are those of static equilibrium.
     pub fn starts_in_equilibrium(&self) -> bool {
         self.initial.is_some_and(|initial| initial.equilibrium)
     }
 
-    /// Whether places at the start are those of a steady rotation.
+    /// Whether positions at the start are those of a steady rotation.
     pub fn starts_in_steady_rotation(&self) -> bool {
         self.initial.is_some_and(|initial| initial.steady_rotation)
     }
@@ -159,7 +159,7 @@ impl Document {
         self.beams.iter().find(|beam| beam.name.value == name)
     }
 
-    /// Place of a node at the start [m]; the ground's is the origin.
+    /// Position of a node at the start [m]; the ground's is the origin.
     pub fn node_position(&self, node: &NodeReference) -> Option<Vector3> {
         match node {
             NodeReference::Ground => Some(Vector3::zeros()),
@@ -200,7 +200,7 @@ pub struct Section {
     pub properties: SectionProperties,
 }
 
-/// A section at a place along a beam.
+/// A section at a position along a beam.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Station {
     /// Fraction of the beam, 0 to 1.
@@ -265,7 +265,7 @@ pub struct Body {
     pub mass: f64,
     /// Inertia about the centre of mass in body axes [kg m²].
     pub inertia: Matrix3,
-    /// Place of the reference frame [m].
+    /// Position of the reference frame [m].
     pub position: Vector3,
     /// Body axes as columns in global axes.
     pub axes: Matrix3,
@@ -297,7 +297,7 @@ pub struct PointMass {
     pub name: Located<String>,
     /// Mass [kg].
     pub mass: f64,
-    /// Place at the start [m].
+    /// Position at the start [m].
     pub position: Vector3,
     /// The plane it stays in; free in space when `None`.
     pub plane: Option<Plane>,
@@ -310,7 +310,7 @@ pub struct PointMass {
 pub struct Superelement {
     /// Name.
     pub name: Located<String>,
-    /// Place of the origin of its axes [m].
+    /// Position of the origin of its axes [m].
     pub position: Vector3,
     /// Its axes as columns in global axes.
     pub axes: Matrix3,
@@ -325,7 +325,7 @@ pub struct Superelement {
 }
 
 impl Superelement {
-    /// Place of an interface at the start, in global axes [m].
+    /// Position of an interface at the start, in global axes [m].
     pub fn place_of(&self, interface: &str) -> Option<Vector3> {
         let found = self.interfaces.iter().find(|own| own.name == interface)?;
         Some(self.position + self.axes * found.place)
@@ -337,7 +337,7 @@ impl Superelement {
 pub struct Interface {
     /// Name within the superelement.
     pub name: String,
-    /// Place in the axes of the part [m].
+    /// Position in the axes of the part [m].
     pub place: Vector3,
 }
 
@@ -355,7 +355,7 @@ pub enum NodeReference {
     Body(String),
     /// A point mass.
     PointMass(String),
-    /// A place along a beam.
+    /// A position along a beam.
     Beam {
         /// Name of the beam.
         beam: String,
@@ -383,7 +383,7 @@ pub enum Attachment {
         base: Located<NodeReference>,
         /// The node it leads to.
         tip: Located<NodeReference>,
-        /// Location at the start [m]; the tip node's place by default.
+        /// Location at the start [m]; the tip node's position by default.
         at: Vector3,
         /// Direction at the start, global axes, not normalised.
         axis: Option<Located<Vector3>>,
@@ -396,19 +396,19 @@ pub enum Attachment {
         base: Located<NodeReference>,
         /// The node it leads to.
         tip: Located<NodeReference>,
-        /// Location on the base at the start [m]; the node's place by default.
+        /// Location on the base at the start [m]; the node's position by default.
         at_base: Vector3,
-        /// Location on the tip at the start [m]; the node's place by default.
+        /// Location on the tip at the start [m]; the node's position by default.
         at_tip: Vector3,
     },
     /// One node.
     OneNode {
         /// The node.
         on: Located<NodeReference>,
-        /// Location at the start [m]; the node's place by default.
+        /// Location at the start [m]; the node's position by default.
         at: Vector3,
     },
-    /// Places one after the other: nodes, and locations on them at the start [m]; then coordinates of joints, if any.
+    /// Positions one after the other: nodes, and locations on them at the start [m]; then coordinates of joints, if any.
     Places(Vec<(Located<NodeReference>, Vector3)>, Vec<CoordinateName>),
     /// The relative coordinate of a joint.
     JointCoordinate {
@@ -432,7 +432,7 @@ pub enum Attachment {
         beams: Vec<Located<String>>,
         /// The node that slides.
         tip: Located<NodeReference>,
-        /// Location at the start [m]; the tip node's place by default.
+        /// Location at the start [m]; the tip node's position by default.
         at: Vector3,
     },
     /// Nothing.
@@ -450,7 +450,7 @@ pub struct Component {
     pub attachment: Attachment,
     /// The parameters of its kind that were given.
     pub parameters: Parameters,
-    /// Where each of them stands.
+    /// Where each of them is.
     pub parameter_spans: Vec<(String, Span)>,
     /// Its size and the key it is given by, where it is more than a function of time. Its parameter is then 1.
     pub signal: Option<(&'static str, Located<Formula>)>,
@@ -465,7 +465,7 @@ pub struct Component {
 }
 
 impl Component {
-    /// Where the parameter `name` stands, or the component's own name.
+    /// Where the parameter `name` is, or the component's own name.
     pub fn span_of(&self, name: &str) -> Span {
         let found = self.parameter_spans.iter().find(|(known, _)| known == name);
         found.map_or(self.name.span, |(_, span)| *span)
@@ -481,8 +481,8 @@ pub struct InitialMotion {
     pub angular_velocity: Vector3,
     /// A point of the motion [m].
     pub about: Vector3,
-    /// Whether the places at the start are those of static equilibrium.
+    /// Whether the positions at the start are those of static equilibrium.
     pub equilibrium: bool,
-    /// Whether the places at the start are those of a steady rotation with the velocities given.
+    /// Whether the positions at the start are those of a steady rotation with the velocities given.
     pub steady_rotation: bool,
 }

@@ -1,4 +1,4 @@
-//! Keys of parts, of places relative to parts, and of motions at the start.
+//! Keys of parts, of positions relative to parts, and of motions at the start.
 
 use super::tables::{TOP, has_named_entries};
 use crate::keys::{Key, Shape, optional, required};

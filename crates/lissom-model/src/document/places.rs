@@ -1,4 +1,4 @@
-//! Places and nodes as they are named in a model file.
+//! Positions and nodes as they are named in a model file.
 
 use lissom_motion::Vector3;
 
@@ -11,7 +11,7 @@ use crate::suggest;
 use crate::text::Node;
 use crate::text::Value;
 
-/// A place, or a node that has one.
+/// A position, or a node that has one.
 #[derive(Clone, Debug)]
 pub(super) enum PlaceOrNode {
     Place(Located<Vector3>),

@@ -99,7 +99,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
     })
 }
 
-/// The interfaces with their places in the axes of the part.
+/// The interfaces with their positions in the axes of the part.
 fn interfaces(reader: &Reader<'_, '_>) -> Option<Vec<Interface>> {
     let (context, node) = (reader.context, reader.node("interfaces")?);
     let what = reader.words("interfaces");

@@ -12,7 +12,7 @@ use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
 use crate::sections::{GENERAL, KINDS, NAMES};
 
-/// What stands at the top of a model file under one word.
+/// What is at the top of a model file under one word.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Holds {
     /// A value.

@@ -1,4 +1,4 @@
-//! Bounds of an expression over an interval of its variable, by interval arithmetic [Moore 1966]: never too narrow but for
+//! Bounds of an expression over an interval of its variable, by interval arithmetic [Moore 1966]: never too narrow except for
 //! round-off, and wider than they need be where the variable stands in several places.
 
 use std::f64::consts::{PI, TAU};

@@ -15,7 +15,7 @@ use super::{Expression, ExpressionError, Jet, Step, breakpoints, run, run_contin
 pub struct Name {
     /// The name, as `tip.u1`.
     pub text: String,
-    /// Where it stands first in the expression.
+    /// Where it is first in the expression.
     pub range: Range<usize>,
 }
 

@@ -13,7 +13,7 @@ const INTERVALS: usize = 32;
 const HALVINGS: usize = 60;
 /// Lines in a general direction at each distance.
 const GENERAL_LINES: usize = 4;
-/// Differences of values and gradients below this part of those at the ends of the interval are round-off.
+/// Differences of values and gradients below this fraction of those at the ends of the interval are round-off.
 const ROUND_OFF: f64 = 1e-6;
 
 /// Where an expression is not smooth.

@@ -9,7 +9,7 @@ use super::Names;
 use crate::document::{AssemblyRequest, Document};
 use crate::report::Problem;
 
-/// Displacements below this part of the model's size, and turns below this angle [rad], are round-off.
+/// Displacements below this fraction of the model's size, and turns below this angle [rad], are round-off.
 const NOTHING: f64 = 1e-12;
 
 /// A part that an assembly has moved.

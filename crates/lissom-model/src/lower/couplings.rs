@@ -165,7 +165,7 @@ fn named(
     }
 }
 
-/// Refuses relations that do not hold at the start.
+/// Rejects relations that do not hold at the start.
 pub(super) fn check(document: &Document, system: &System, state: &State, problems: &mut Vec<Problem>) {
     for coupling in system.couplings() {
         let Some(component) = document.joints.iter().find(|joint| joint.name.value == coupling.name) else {
@@ -174,7 +174,7 @@ pub(super) fn check(document: &Document, system: &System, state: &State, problem
         let mut violation = [0.0];
         coupling.violation(&state.kinematics, &mut violation);
         let [violation] = violation;
-        // A value that is not a number is refused too.
+        // A value that is not a number is rejected too.
         if violation.abs() <= SAME_PLACE {
             continue;
         }

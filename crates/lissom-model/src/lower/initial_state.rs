@@ -15,7 +15,7 @@ const SAME_PLACE: f64 = 1e-6;
 /// A rotation whose twists change by more, relative to the square of its rate, is not steady.
 const STEADY: f64 = 1e-5;
 
-/// Moves places to where the model keeps turning with the velocities that it has.
+/// Moves positions to where the model keeps turning with the velocities that it has.
 pub(super) fn steady_rotation(
     document: &Document,
     system: &System,
@@ -47,12 +47,12 @@ pub(super) fn steady_rotation(
 
 /// How far beside a kink functions are looked at, relative to the whole run.
 const ASIDE: f64 = 1e-9;
-/// Speeds that differ by less than this part of the largest speed are the same.
+/// Speeds that differ by less than this fraction of the largest speed are the same.
 const SAME_SPEED: f64 = 1e-3;
 /// Instants at which the largest speed is looked for.
 const INSTANTS: u32 = 64;
 
-/// Refuses prescribed motions that begin elsewhere; warns of those whose speed jumps.
+/// Rejects prescribed motions that begin elsewhere; warns of those whose speed jumps.
 pub(super) fn drives(
     document: &Document,
     system: &System,

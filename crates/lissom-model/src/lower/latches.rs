@@ -64,7 +64,7 @@ pub(super) fn add(
     let fault = |error| Problem::error(span, format!("latch of joint `{name}`: {error}"));
     let parameters = Parameters::new().with("engaged", Value::Input(engaged));
     builder.add_of_kind(kind, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
-    // A latch that has let go does not engage again: its coordinate leaves the place from where it was held.
+    // A latch that has let go does not engage again: its coordinate leaves the position from where it was held.
     let released = builder.add_held(&format!("{name}, released"), 0.0);
     let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {
         let signal = Signal {

@@ -48,7 +48,7 @@ pub use resource_limits::check_run;
 pub struct Lowered {
     /// What is simulated.
     pub system: Arc<System>,
-    /// Places and velocities at the start.
+    /// Positions and velocities at the start.
     pub state: State,
     /// Scheme, step size, scaling, limits, solver.
     pub settings: Settings,
@@ -134,7 +134,7 @@ impl Names {
     }
 }
 
-/// A place on a beam where something is attached has no node.
+/// A position on a beam where something is attached has no node.
 fn no_node(reference: &Located<NodeReference>, beam: &str, line: &BeamLine, fraction: f64) -> Problem {
     let nearest = line
         .places
@@ -160,7 +160,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     lower_locked(document, &[])
 }
 
-/// The same with all freedoms of some nodes locked.
+/// The same with all degrees of freedom of some nodes locked.
 ///
 /// # Errors
 /// As [`lower`].

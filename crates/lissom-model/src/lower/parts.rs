@@ -49,7 +49,7 @@ fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
     }
 }
 
-/// Gives all nodes the velocities at the start that belong to their places in `at`.
+/// Gives all nodes the velocities at the start that belong to their positions in `at`.
 pub(super) fn velocities(document: &Document, names: &Names, system: &System, at: &mut Kinematics) {
     let mut set = |node: NodeId, velocities: &dyn Fn(&Motion) -> (Vector3, Vector3)| {
         let (velocity, angular) = velocities(&at.nodes[node].frame);

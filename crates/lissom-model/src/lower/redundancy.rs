@@ -8,7 +8,7 @@ use lissom_core::system::{State, System};
 use crate::channels::Channel;
 use crate::document::OutputKind;
 
-/// Changes below this part of the largest multiplier added are round-off.
+/// Changes below this fraction of the largest multiplier added are round-off.
 const ROUND_OFF: f64 = 1e-6;
 /// Columns named in a message.
 const MAX_LISTED: usize = 6;

@@ -93,7 +93,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Arc length from the beam's start to each of the places along it [m].
+/// Arc length from the beam's start to each of the positions along it [m].
 fn arc_lengths(beam: &Beam, places: &[f64]) -> Vec<f64> {
     const CHORDS: usize = 64;
     let mut lengths = vec![0.0; places.len()];

@@ -76,7 +76,7 @@ impl CurveRecord {
         }
         let begins = self.begun == 0;
         for (curve, &value) in self.curves.iter_mut().zip(values) {
-            // What is no number has no place in a drawing, and is dropped there; here it would hide the extremes.
+            // What is no number has no position in a drawing, and is dropped there; here it would hide the extremes.
             let point = (time, value);
             match curve.last_mut() {
                 Some(last) if !begins && !value.is_nan() => {

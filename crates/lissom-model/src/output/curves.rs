@@ -56,7 +56,7 @@ pub enum CurveError {
     NoSpectrum(String),
 }
 
-/// Figures, and what was left out of them, in words.
+/// Figures, and what was omitted from them, in words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plots {
     /// The figures.

@@ -18,7 +18,7 @@ pub struct LogFigure {
     pub x_label: String,
     /// Beside the vertical axis.
     pub y_label: String,
-    /// Names and points of the curves. Points that have no logarithm are left out.
+    /// Names and points of the curves. Points that have no logarithm are omitted.
     pub curves: Vec<(String, Vec<(f64, f64)>)>,
 }
 

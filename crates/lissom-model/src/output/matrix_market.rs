@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-/// A sparse matrix of `rows` by `columns`, from its entries by row and column, counted from 0; zeros are left out.
+/// A sparse matrix of `rows` by `columns`, from its entries by row and column, counted from 0; zeros are omitted.
 pub fn sparse_matrix(
     comment: &str,
     [rows, columns]: [usize; 2],

@@ -95,7 +95,7 @@ pub(super) fn file_name(name: &str) -> String {
     name.replace(|c: char| !c.is_alphanumeric() && c != '-' && c != '.', "_")
 }
 
-/// What stands beside an axis: some kinds of output record several quantities, which their units distinguish.
+/// What is beside an axis: some kinds of output record several quantities, which their units distinguish.
 pub(super) fn quantity_of(column: &Column) -> String {
     let quantity = column.quantity.as_str();
     let word = match (quantity, column.unit.as_str()) {

@@ -36,7 +36,7 @@ impl Record {
     /// quantities are taken as the outputs' names.
     ///
     /// # Errors
-    /// If the text is something else. A last line without end, as of an interrupted run, is left out.
+    /// If the text is something else. A last line without end, as of an interrupted run, is omitted.
     pub fn from_csv(text: &str) -> Result<Self, RecordError> {
         let whole = text.rfind('\n').map_or("", |end| &text[..end]);
         let mut lines = whole.lines();
@@ -73,7 +73,7 @@ fn fields(line: &str) -> Vec<String> {
     for c in line.chars() {
         let open = fields.len() - 1;
         match c {
-            // A doubled quote inside of quotes stands for itself.
+            // A doubled quote inside of quotes represents itself.
             '"' if !inside && last == '"' => {
                 fields[open].push('"');
                 inside = true;

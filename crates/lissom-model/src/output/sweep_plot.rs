@@ -236,7 +236,7 @@ mod tests {
         assert!(plot.responses().is_err());
     }
 
-    /// Places of the lines of this width, in their order.
+    /// Positions of the lines of this width, in their order.
     fn lines(svg: &str, width: &str) -> Vec<Vec<[f64; 2]>> {
         let width = format!("stroke-width=\"{width}\"");
         let paths = svg.lines().filter(|line| line.contains("fill=\"none\"") && line.contains(&width));

@@ -102,7 +102,7 @@ struct Content {
     /// Names that are handed in.
     handed: BTreeMap<String, Entry>,
     placements: Vec<Placement>,
-    /// Whether the text of the part itself is the content: then it stands where it is.
+    /// Whether the text of the part itself is the content: then it is where it is.
     is_own: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Where parts are: the frame of a scope, of a body, and the places of points, each found when it is first asked for.
+//! Where parts are: the frame of a scope, of a body, and the positions of points, each found when it is first asked for.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -33,7 +33,7 @@ enum Finding {
 pub(crate) struct Frames(RefCell<BTreeMap<Wanted, Finding>>);
 
 impl Context<'_> {
-    /// The frame in which places of `scope` are given.
+    /// The frame in which positions of `scope` are given.
     pub(crate) fn frame(&self, scope: ScopeId) -> Option<Motion> {
         let own = &self.scopes[scope];
         let Some(parent) = own.parent else { return Some(Motion::IDENTITY) };
@@ -133,7 +133,7 @@ impl Context<'_> {
         })
     }
 
-    /// The place of the point that is called `name` in the whole model. Nothing if there is none, or if it could not be read;
+    /// The position of the point that is called `name` in the whole model. Nothing if there is none, or if it could not be read;
     /// then its mistake is reported.
     pub(crate) fn point(&self, name: &str) -> Option<Vector3> {
         let node = self.entry("points", name)?;
@@ -167,7 +167,7 @@ impl Context<'_> {
         found.map(|frame| frame.position)
     }
 
-    /// A place given in `scope`, in global axes.
+    /// A position given in `scope`, in global axes.
     pub(crate) fn to_global(&self, scope: ScopeId, place: &Vector3) -> Option<Vector3> {
         let frame = self.frame(scope)?;
         // What is not placed stays as it was written, to the last bit.

@@ -1,5 +1,5 @@
 //! Parts that repeat: sub-assemblies from files or from the model itself, named, placed and put into the model's tables
-//! under names such as `leg2.rod`. What a name, a parameter or a place means depends on the scope it was written in.
+//! under names such as `leg2.rod`. What a name, a parameter or a position means depends on the scope it was written in.
 
 mod expand;
 mod frames;
@@ -29,7 +29,7 @@ const MAX_PARTS: usize = 20_000;
 const PLACED_TABLES: [&str; 8] =
     ["points", "bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads"];
 
-/// Where a text was written: what its names, parameters and places mean.
+/// Where a text was written: what its names, parameters and positions mean.
 #[derive(Clone, Debug)]
 pub(crate) struct Scope {
     /// The scope around it; none for the model's.
@@ -62,7 +62,7 @@ pub(crate) enum Outside {
 pub(crate) struct Placement {
     /// The part to whose frame it is relative; the scope around it where there is none.
     pub(crate) part: Option<Node>,
-    /// Place of the origin.
+    /// Position of the origin.
     pub(crate) position: Option<Node>,
     /// Rotation vector.
     pub(crate) rotation: Option<Node>,
@@ -88,7 +88,7 @@ impl Scope {
     }
 }
 
-/// A model whose parts stand in its tables.
+/// A model whose parts are in its tables.
 pub(crate) struct Expanded {
     pub(crate) root: Table,
     pub(crate) scopes: Vec<Scope>,

@@ -1,4 +1,4 @@
-//! What names mean where they stand: those of a part are known inside of it without the part's name.
+//! What names mean where they are: those of a part are known inside of it without the part's name.
 
 use std::borrow::Cow;
 
@@ -64,7 +64,7 @@ impl Context<'_> {
         Some(Cow::Owned(whole))
     }
 
-    /// The name in the whole model that `text` has where it stands, of those that `exists` knows.
+    /// The name in the whole model that `text` has where it is, of those that `exists` knows.
     pub(crate) fn resolve(&self, text: &str, from: ScopeId, exists: &dyn Fn(&str) -> bool) -> Option<String> {
         let mut text = text.to_owned();
         let mut scope = from;

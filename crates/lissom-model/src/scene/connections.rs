@@ -12,7 +12,7 @@ use crate::document::{Attachment, Component, Document};
 const SAMPLES: u32 = 240;
 /// Instants at which a force per length is sampled, less one.
 const FEW_SAMPLES: u32 = 60;
-/// Most places along a beam at which a force per length is sampled.
+/// Most positions along a beam at which a force per length is sampled.
 const MAX_PLACES: usize = 13;
 
 /// A joint, or a drive of one.
@@ -71,9 +71,9 @@ pub struct Load {
 pub struct BeamLoad {
     /// Name of the beam.
     pub beam: String,
-    /// Places along the beam.
+    /// Positions along the beam.
     pub anchors: Vec<Anchor>,
-    /// Force per length [N/m] at each place, at equal distances from the start to the end of the analysis; one instant
+    /// Force per length [N/m] at each position, at equal distances from the start to the end of the analysis; one instant
     /// where it does not change. In global axes, those of a follower in the node's.
     pub vectors: Vec<Vec<[f64; 3]>>,
     /// Whether it turns with the nodes.

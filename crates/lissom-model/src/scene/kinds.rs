@@ -120,7 +120,7 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
     use Drawn::Solids;
     Some(match kind {
         "point" => Drawn::Coil,
-        // A pulley at every place, and the rope between.
+        // A pulley at every position, and the rope between.
         "rope" => {
             Drawn::WithRod(|[b, t]| [vec![b.ring(0.5, 0.2, 0.0, Dark)], vec![t.ring(0.5, 0.2, 0.0, Dark)]])
         }

@@ -1,7 +1,7 @@
-//! What a model looks like: parts with their shapes, joints with their axes, springs and loads, each at its place in
+//! What a model looks like: parts with their shapes, joints with their axes, springs and loads, each at its position in
 //! the frames of the nodes. Together with the poses of the nodes it is all that a picture needs. Knows no pictures.
 //!
-//! Serialises to `scene.json`. Lengths are in metres, angles in radians; places and directions are in the frame of the
+//! Serialises to `scene.json`. Lengths are in metres, angles in radians; positions and directions are in the frame of the
 //! node they name. Node 0 is the ground.
 
 mod connections;
@@ -58,9 +58,9 @@ pub struct Scene {
     pub start: f64,
     /// Last time [s].
     pub end: f64,
-    /// Whether time stands for the growth of loads.
+    /// Whether time represents the growth of loads.
     pub is_static: bool,
-    /// Where time stands for the length of an equilibrium path: the load factors, or values of a number, along it.
+    /// Where time represents the length of an equilibrium path: the load factors, or values of a number, along it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<PathValues>,
     /// Rigid bodies.
@@ -79,18 +79,18 @@ pub struct Scene {
     pub beam_loads: Vec<BeamLoad>,
     /// What joints, springs and loads look like.
     pub symbols: Vec<Symbol>,
-    /// Rods of joints that hold two places apart.
+    /// Rods of joints that hold two positions apart.
     pub rods: Vec<Rod>,
     /// What is recorded, and of which part.
     pub outputs: Vec<Output>,
 }
 
-/// A place carried by a node.
+/// A position carried by a node.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// The node.
     pub node: NodeId,
-    /// Place in its frame [m].
+    /// Position in its frame [m].
     pub position: [f64; 3],
 }
 
@@ -207,7 +207,7 @@ impl Places<'_> {
         self.lowered.drawn_frame(node)
     }
 
-    /// The place `at` of the model, carried by a node.
+    /// The position `at` of the model, carried by a node.
     fn anchor(&self, reference: &Located<NodeReference>, at: &Vector3) -> Option<Anchor> {
         let node = self.node(&reference.value)?;
         Some(Anchor { node, position: self.frame(node).inverse_transform_point(at).into() })

@@ -38,7 +38,7 @@ pub struct PointMass {
     pub mass: f64,
 }
 
-/// A section at a place along a beam.
+/// A section at a position along a beam.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Station {
     /// Fraction of the beam, 0 to 1.

@@ -1,4 +1,4 @@
-//! A scene along an equilibrium path, where time stands for the length of the path.
+//! A scene along an equilibrium path, where time represents the length of the path.
 
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
@@ -44,7 +44,7 @@ impl PathValues {
 
 impl Scene {
     /// The same scene along an equilibrium path. With `scales_loads` loads are those at the start of the analysis times the
-    /// values, which then are load factors; without, loads and stiffnesses may depend on the values and are left out.
+    /// values, which then are load factors; without, loads and stiffnesses may depend on the values and are omitted.
     #[must_use]
     pub fn along(mut self, path: PathValues, scales_loads: bool) -> Self {
         let length = path.lengths.last().copied().unwrap_or(0.0);

@@ -50,7 +50,7 @@ pub struct Solid {
     pub form: Form,
     /// Its sizes, in the order of the form.
     pub size: [f64; 3],
-    /// Its centre, from the place of the symbol, in the frame of the node.
+    /// Its centre, from the position of the symbol, in the frame of the node.
     pub place: [f64; 3],
     /// Its axis in the frame of the node, of length one. It leads there from the solid's second axis by the shortest turn.
     pub axis: [f64; 3],
@@ -84,7 +84,7 @@ impl Axes {
         Solid { form, size, place: place.into(), axis: self.0[along].into(), tone }
     }
 
-    /// A cylinder about the axis `along` through the place of the symbol.
+    /// A cylinder about the axis `along` through the position of the symbol.
     pub(super) fn cylinder(&self, along: usize, radius: f64, length: f64, tone: Tone) -> Solid {
         self.solid(Form::Cylinder, [radius, length, 0.0], (along, [0.0; 3]), tone)
     }

@@ -1,4 +1,4 @@
-//! Symbols of joints, springs and loads at their places: solids that nodes carry, and rods between two nodes.
+//! Symbols of joints, springs and loads at their positions: solids that nodes carry, and rods between two nodes.
 
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ pub struct Symbol {
     pub solids: Vec<Solid>,
 }
 
-/// A straight rod between two places.
+/// A straight rod between two positions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rod {
     /// Name of the joint.
@@ -73,7 +73,7 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
 
 type End = (Anchor, Axes);
 
-/// Places of a component with their axes: base and tip, one node, or those of the joints whose coordinates it acts on.
+/// Positions of a component with their axes: base and tip, one node, or those of the joints whose coordinates it acts on.
 fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Option<Vec<End>> {
     let end =
         |reference: &Located<NodeReference>, at: &Vector3, first: &Vector3, second: Option<&Vector3>| {
@@ -90,9 +90,9 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             let on_tip =
                 given("tip_axis").or_else(|| given("wheel_axis")).or_else(|| given("axle")).unwrap_or(first);
             let at_tip = match component.kind.value.as_str() {
-                // The arm leads from the hinge to the tip's own place, and a wheel's centre lies there.
+                // The arm leads from the hinge to the tip's own position, and a wheel's centre lies there.
                 "swing_arm" | "rolling" => places.frame(places.node(&tip.value)?).position,
-                // A wheel of a wheelset is beside the tip's place, outwards along the axle.
+                // A wheel of a wheelset is beside the tip's position, outwards along the axle.
                 "wheel_on_rail" => {
                     let centre = places.frame(places.node(&tip.value)?).position;
                     let outwards = on_tip.normalize() * on_tip.dot(&first).signum();
@@ -123,7 +123,7 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             Some(vec![of(joint)?, of(other)?])
         }
         Attachment::AlongBeams { tip, at, .. } => Some(vec![end(tip, at, &Vector3::z(), None)?]),
-        // What has no place is not drawn.
+        // What has no position is not drawn.
         Attachment::Nothing => None,
         Attachment::Coordinates(coordinates) => {
             let mut joints: Vec<&str> = coordinates.iter().map(|(joint, _)| joint.value.as_str()).collect();
@@ -145,7 +145,7 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
     }
 }
 
-/// The base's place and axes of the joint called `name`.
+/// The base's position and axes of the joint called `name`.
 fn of_joint(name: &str, document: &Document, places: &Places<'_>) -> Option<End> {
     let joint = document.joints.iter().find(|joint| joint.name.value == name)?;
     match &joint.attachment {
@@ -181,7 +181,7 @@ pub(super) fn attached(
 ) -> Option<(Vec<String>, Option<[Anchor; 2]>)> {
     let (base, tip, at_base, at_tip) = match &component.attachment {
         Attachment::TwoNodes { base, tip, at, .. } if component.kind.value == "swing_arm" => {
-            // The arm leads from the hinge to the tip's own place.
+            // The arm leads from the hinge to the tip's own position.
             (base, tip, *at, places.frame(places.node(&tip.value)?).position)
         }
         Attachment::TwoNodes { base, tip, .. } if component.kind.value == "rolling" => {

@@ -1,5 +1,5 @@
 //! glTF 2.0 files, `.glb` or `.gltf`: the triangles of the scene at rest, as the nodes place them. Colours, textures and
-//! animations are left out; what would be drawn in the wrong place (skins, compressed meshes) is refused.
+//! animations are omitted; what would be drawn in the wrong position (skins, compressed meshes) is rejected.
 
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector4};
 use serde_json::Value;
@@ -261,7 +261,7 @@ impl<'a> File<'a> {
     }
 }
 
-/// The place of a node by its translation, rotation and scale.
+/// The position of a node by its translation, rotation and scale.
 fn placed(node: &Value) -> Result<Matrix4<f64>, SurfaceError> {
     let shift = numbers::<3>(node, "translation")?.unwrap_or_default();
     let [x, y, z, w] = numbers::<4>(node, "rotation")?.unwrap_or([0.0, 0.0, 0.0, 1.0]);

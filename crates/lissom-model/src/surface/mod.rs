@@ -21,7 +21,7 @@ const MAX_TRIANGLES: usize = 500_000;
 /// A surface of triangles in body axes. Seen from outside their points run counterclockwise.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
-    /// Places [m].
+    /// Positions [m].
     pub points: Vec<[f32; 3]>,
     /// Points of each triangle.
     pub triangles: Vec<[u32; 3]>,

@@ -24,7 +24,7 @@ fn numbers(bytes: &[u8]) -> Option<Vec<Triangle>> {
     Some(bytes[84..].chunks_exact(50).map(triangle).collect())
 }
 
-/// Words, of which those behind `vertex` are places.
+/// Words, of which those behind `vertex` are positions.
 fn words(bytes: &[u8]) -> Result<Vec<Triangle>, SurfaceError> {
     let text = std::str::from_utf8(bytes).map_err(|_| SurfaceError::Foreign)?;
     if !text.trim_start().starts_with("solid") || !text.contains("facet") {

@@ -101,7 +101,7 @@ impl SweepFile {
         self.members
     }
 
-    /// Whether there are none; a file with no members is refused.
+    /// Whether there are none; a file with no members is rejected.
     pub fn is_empty(&self) -> bool {
         self.members == 0
     }

@@ -7,7 +7,7 @@ use toml::{Table, Value};
 
 use crate::part_axes::{End, SCENES, STEPS, entries, kind_of, near, plain, registered, tables_of};
 
-/// Kinds whose frame on the tip is at the place of the tip's node.
+/// Kinds whose frame on the tip is at the position of the tip's node.
 const SPANNING: [&str; 3] = ["rolling", "swing_arm", "wheel_on_rail"];
 
 fn vector(entry: &Table, key: &str) -> Option<Vector3> {

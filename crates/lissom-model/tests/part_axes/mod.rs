@@ -37,7 +37,7 @@ const ROTATION: [f64; 3] = [0.8, -0.5, 1.1];
 
 const STEPS: usize = 3;
 
-/// Motions agree to this part of their size.
+/// Motions agree to this fraction of their size.
 const MOTIONS: f64 = 1e-12;
 /// Forces and accelerations, in which constraints and springs multiply the round-off of positions.
 const FORCES: f64 = 1e-9;

@@ -11,7 +11,7 @@ use lissom_model::registry::Registry;
 pub(crate) enum Answer {
     /// It is read.
     Read,
-    /// It is refused, and the place of every error is told.
+    /// It is rejected, and the position of every error is told.
     Refused,
     /// Neither; in words.
     Badly(String),

@@ -62,13 +62,13 @@ pub(crate) fn tokens(text: &str) -> Vec<String> {
 /// What is done to a token.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Damage<'a> {
-    /// It is left out.
+    /// It is omitted.
     Remove,
-    /// It stands there twice.
+    /// It is there twice.
     Double,
     /// It changes places with this one.
     Swap(usize),
-    /// This stands in its place.
+    /// This is in its place.
     Replace(&'a str),
 }
 

@@ -24,7 +24,7 @@ where
     if largest == 0.0 { worst } else { worst / largest }
 }
 
-/// Rows where the dual part of a twist or of a wrench stands.
+/// Rows where the dual part of a twist or of a wrench is.
 pub(crate) const TWIST: usize = 0;
 pub(crate) const WRENCH: usize = 3;
 

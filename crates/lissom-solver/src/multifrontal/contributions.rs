@@ -1,4 +1,4 @@
-//! What fronts hand up to their parents, added run by run. Knows places, not what is done with the sums.
+//! What fronts hand up to their parents, added run by run. Knows positions, not what is done with the sums.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 

@@ -1,11 +1,11 @@
 //! Elimination tree of groups: what is left coupled when a group is eliminated, and who waits for whom. Knows
-//! groups as dense blocks, by their place in the order of elimination.
+//! groups as dense blocks, by their position in the order of elimination.
 
 use crate::ordering::GroupGraph;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Everything is numbered by place in the order of elimination.
+/// Everything is numbered by position in the order of elimination.
 pub(super) struct EliminationTree {
     /// Unknowns in each group.
     pub(super) weights: Vec<u32>,

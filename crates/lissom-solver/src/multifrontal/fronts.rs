@@ -1,4 +1,4 @@
-//! Symbolic result of the multifrontal solver: every front's size, place in memory, and the maps by which
+//! Symbolic result of the multifrontal solver: every front's size, position in memory, and the maps by which
 //! entries and contributions get there. Knows positions, never values.
 //!
 //! A front with `k` pivots and `b` boundary unknowns is stored as three column-major pieces, one after the other. A
@@ -11,7 +11,7 @@
 //! own in the other.
 //!
 //! Fronts come in parts, subtrees first and the top last, which share nothing: each has its own stacks, and after its own
-//! steps places for what its fronts have to say about unknowns outside, those on the boundary of its root. What lies there is
+//! steps positions for what its fronts have to say about unknowns outside, those on the boundary of its root. What lies there is
 //! added to the top when all subtrees are done.
 
 use std::ops::Range;
@@ -50,7 +50,7 @@ pub(super) struct Front {
     /// Which stack its contribution goes to, and where.
     pub(super) stack: usize,
     pub(super) contribution: usize,
-    /// First place of its boundary, if the places follow one another.
+    /// First position of its boundary, if the positions follow one another.
     pub(super) span: Option<usize>,
     /// Whether it is eliminated by [`super::small`].
     small: bool,
@@ -115,9 +115,9 @@ pub(super) struct Run {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Part {
     pub(super) fronts: Range<usize>,
-    /// Its steps, places for the outside included.
+    /// Its steps, positions for the outside included.
     pub(super) steps: Range<usize>,
-    /// Those places, and the steps they stand for.
+    /// Those positions, and the steps they represent.
     pub(super) places: Range<usize>,
     pub(super) outside: Vec<u32>,
     pub(super) factors: Range<usize>,
@@ -165,7 +165,7 @@ pub(super) struct Symbolic {
     has_small: bool,
 }
 
-/// The first step of every group, by its place in the order of elimination, and the steps of every front.
+/// The first step of every group, by its position in the order of elimination, and the steps of every front.
 struct Numbering {
     firsts: Vec<u32>,
     steps: Vec<Range<usize>>,
@@ -262,7 +262,7 @@ impl Symbolic {
         numbering
     }
 
-    /// Sizes of a part whose fronts are all there, and places of their boundaries.
+    /// Sizes of a part whose fronts are all there, and positions of their boundaries.
     fn finish_part(&mut self, index: usize) {
         let part = &mut self.parts[index];
         let fronts = &self.fronts[part.fronts.clone()];

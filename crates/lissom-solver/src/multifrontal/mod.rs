@@ -1,5 +1,5 @@
 //! Multifrontal LU without pivoting, the default solver: everything but the numbers is settled once, in the
-//! symbolic analysis. Knows groups and patterns, nothing of what they stand for.
+//! symbolic analysis. Knows groups and patterns, nothing of what they represent.
 //!
 //! The order of elimination comes from [`crate::minimum_degree_order`]; groups are gathered into dense fronts
 //! (Duff & Reid 1983, ACM Trans. Math. Softw. 9, 302), each of which hands what is left to its parent in the
@@ -60,7 +60,7 @@ impl<S: Scalar> Multifrontal<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
-    /// If [`Structure::check`] refuses the structure.
+    /// If [`Structure::check`] rejects the structure.
     pub fn new(structure: &Structure) -> Self {
         Self::of_panels(structure, 2)
     }

@@ -18,7 +18,7 @@ pub(super) struct Several<'a, S> {
     pub(super) symbolic: &'a Symbolic,
     pub(super) numeric: &'a Numeric<S>,
     pub(super) right_hand_sides: &'a mut [Row<S>],
-    /// Room for all steps, places for the outside of parts included, and for a front.
+    /// Room for all steps, positions for the outside of parts included, and for a front.
     pub(super) vector: &'a mut [Row<S>],
     pub(super) front: &'a mut [Row<S>],
 }

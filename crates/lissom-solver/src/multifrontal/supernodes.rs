@@ -6,7 +6,7 @@ use super::small::MAX_SMALL;
 
 /// Groups eliminated in one front.
 pub(super) struct Supernode {
-    /// Places of its groups in the order of elimination, ascending.
+    /// Positions of its groups in the order of elimination, ascending.
     pub(super) groups: Vec<u32>,
     /// Supernodes that contribute to it, by their index in postorder, ascending.
     pub(super) children: Vec<usize>,

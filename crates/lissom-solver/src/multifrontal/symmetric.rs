@@ -23,7 +23,7 @@ impl<S: Scalar> Symmetric<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
-    /// If [`Structure::check`] refuses the structure.
+    /// If [`Structure::check`] rejects the structure.
     pub fn new(structure: &Structure) -> Self {
         Self(Multifrontal::of_panels(structure, 1))
     }

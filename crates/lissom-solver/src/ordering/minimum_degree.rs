@@ -16,7 +16,7 @@ use crate::structure::{Group, Structure};
 /// chain of equal links is eliminated from both ends, and its two halves can be at the same time.
 ///
 /// # Panics
-/// If [`Structure::check`] refuses the structure.
+/// If [`Structure::check`] rejects the structure.
 pub fn minimum_degree_order(structure: &Structure) -> Vec<usize> {
     order(structure, &GroupGraph::new(structure))
 }

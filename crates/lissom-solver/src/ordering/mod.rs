@@ -52,7 +52,7 @@ impl HostCount {
 }
 
 /// The given order of the groups without hosts, with every other group right after the last of its hosts.
-/// Groups whose hosts form a cycle are left out.
+/// Groups whose hosts form a cycle are omitted.
 pub(crate) fn in_host_order(groups: &[Group], preferred: impl IntoIterator<Item = usize>) -> Vec<usize> {
     let mut hosts = HostCount::new(groups);
     let mut order = Vec::with_capacity(groups.len());

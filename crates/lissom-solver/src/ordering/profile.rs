@@ -1,7 +1,7 @@
 //! Reverse Cuthill-McKee on groups: the order for profile storage.
 //!
 //! The walk is that of Cuthill and of `McKee` 1969, turned round after George 1971; it starts from a peripheral node
-//! found as in George, Liu 1979. Groups with hosts are left out of the walk and put behind the last of their hosts.
+//! found as in George, Liu 1979. Groups with hosts are omitted from the walk and put behind the last of their hosts.
 
 use super::{GroupGraph, in_host_order};
 use crate::structure::Structure;
@@ -10,7 +10,7 @@ use crate::structure::Structure;
 /// its hosts. Deterministic.
 ///
 /// # Panics
-/// If [`Structure::check`] refuses the structure.
+/// If [`Structure::check`] rejects the structure.
 pub fn profile_order(structure: &Structure) -> Vec<usize> {
     let walk = Walk::new(structure);
     let mut reached = vec![false; structure.groups.len()];

@@ -16,7 +16,7 @@ const BESIDE: f64 = 1e-4;
 
 impl Builder {
     /// Adds a slider: a point of the node `tip` that is at `place` at the start slides along the line through `nodes`, which
-    /// are at the arc lengths `knots` [m]. Gives its coordinate, the arc length. `orientation` says what the tip turns with.
+    /// are at the arc lengths `knots` [m]. Returns its coordinate, the arc length. `orientation` says what the tip turns with.
     ///
     /// # Errors
     /// If there are too few nodes, the tip is one of them, the point is not on the line, or the tip should turn and cannot.

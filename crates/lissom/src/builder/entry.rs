@@ -1,4 +1,4 @@
-//! How the types of entries are declared: what must be given stands in `new`, the rest in a method per key.
+//! How the types of entries are declared: what must be given is in `new`, the rest in a method per key.
 
 use super::ids::Id;
 use super::written::Written;
@@ -10,7 +10,7 @@ pub trait Entry {
     /// What names are made of where none is given.
     const WORD: &'static str;
 
-    /// What stands in the model file behind its name.
+    /// What is in the model file behind its name.
     fn written(self) -> Written;
 }
 
@@ -88,7 +88,7 @@ macro_rules! fields {
     };
 }
 
-/// Declares keys that may be left out, for each of some types.
+/// Declares keys that may be omitted, for each of some types.
 macro_rules! keys {
     ([$name:ident] $($(#[$doc:meta])* $optional:ident: $holds:ty = $own:literal;)*) => {
         impl $name {

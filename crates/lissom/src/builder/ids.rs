@@ -1,4 +1,4 @@
-//! What code holds of the parts of a model that it builds: a table, a place in it, and the builder it belongs to.
+//! What code holds of the parts of a model that it builds: a table, a position in it, and the builder it belongs to.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Every builder has a number, so that the ids of one mean nothing to another.
 static BUILDERS: AtomicU64 = AtomicU64::new(0);
 
-/// Where an entry stands.
+/// Where an entry is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct AnyId {
     builder: u64,
@@ -146,7 +146,7 @@ impl IdNames {
         self.names.values().flatten().any(|known| known == name)
     }
 
-    /// The name that an id stands for.
+    /// The name that an id represents.
     ///
     /// # Errors
     /// If it is of another builder.

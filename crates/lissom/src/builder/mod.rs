@@ -22,7 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What is wrong is reported as it is for files, with the place in the code:
+//! What is wrong is reported as it is for files, with the position in the code:
 //!
 //! ```
 //! use lissom::builder::{ModelBuilder, analyses::Dynamics, parts::PointMass};
@@ -191,7 +191,7 @@ impl ModelBuilder {
         }
     }
 
-    /// Appends an entry to `text`; gives where it stands.
+    /// Appends an entry to `text`; gives where it is.
     fn write(&self, added: &Added, text: &mut String) -> (Range<usize>, Result<(), ForeignId>) {
         let start = text.len();
         let mut wrong = Ok(());

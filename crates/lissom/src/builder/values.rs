@@ -1,4 +1,4 @@
-//! Values that entries hold: nodes, places, masses, matrices.
+//! Values that entries hold: nodes, positions, masses, matrices.
 
 use super::entries::sections::SliceMass;
 use super::ids::{
@@ -7,7 +7,7 @@ use super::ids::{
 };
 use super::written::{Fields, NameOf, Written};
 
-/// A node: the ground, a body, a point mass, or a place along a beam.
+/// A node: the ground, a body, a point mass, or a position along a beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node(pub(crate) Option<(AnyId, At)>);
 
@@ -66,7 +66,7 @@ impl From<Node> for Written {
     }
 }
 
-/// A place [m], or a node of another part, which is then shared.
+/// A position [m], or a node of another part, which is then shared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
     /// Three coordinates [m].
@@ -102,7 +102,7 @@ impl From<Place> for Written {
     }
 }
 
-/// One of several places: the node that carries it, and where it is at the start.
+/// One of several positions: the node that carries it, and where it is at the start.
 impl From<(Node, Place)> for Written {
     fn from((on, at): (Node, Place)) -> Self {
         let mut fields = Fields::default();
@@ -112,7 +112,7 @@ impl From<(Node, Place)> for Written {
     }
 }
 
-/// An interface of a superelement: its name and its place in the axes of the part [m].
+/// An interface of a superelement: its name and its position in the axes of the part [m].
 impl From<(String, [f64; 3])> for Written {
     fn from((name, at): (String, [f64; 3])) -> Self {
         let mut fields = Fields::default();

@@ -1,4 +1,4 @@
-//! Values of code as they stand in a model file. Every number comes back to the last bit.
+//! Values of code as they are in a model file. Every number comes back to the last bit.
 
 use lissom_model::output::number_text;
 use lissom_model::toml_text::{key, quoted};
@@ -7,7 +7,7 @@ use super::expression::{Expression, Piece};
 use super::ids::{AnyId, ForeignId, IdNames};
 use super::values::{At, Node};
 
-/// What stands behind a key.
+/// What is behind a key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Written {
     /// A text.
@@ -39,7 +39,7 @@ pub struct NameOf(pub(crate) AnyId);
 pub struct Fields(Vec<(&'static str, Written)>);
 
 impl Fields {
-    /// Gives `key` a value, in place of an earlier one.
+    /// Returns `key` a value, in place of an earlier one.
     pub(crate) fn set(&mut self, key: &'static str, value: impl Into<Written>) {
         let value = value.into();
         match self.0.iter_mut().find(|(known, _)| *known == key) {

@@ -47,7 +47,7 @@ impl Check {
         for redundant in &freedom.redundant {
             terminal::complain(&warning(redundant));
         }
-        // What a run would refuse before its first step is refused here.
+        // What a run would reject before its first step is rejected here.
         let session = Session::start(lowered).map_err(|error| Failure::new(Exit::BadModel, error))?;
         for warning in session.warnings() {
             terminal::complain(&format!("warning: {warning}\n"));
@@ -105,7 +105,7 @@ impl Check {
             "outputs": lowered.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>(),
             "problems": document.warnings.to_value(),
         });
-        // What a run would refuse before its first step is refused here.
+        // What a run would reject before its first step is rejected here.
         let exit = match Session::start(lowered) {
             Ok(session) => {
                 let fact =

@@ -50,7 +50,7 @@ pub(super) struct Export {
     without: Option<Without>,
 }
 
-/// What may be left out.
+/// What may be omitted.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Without {
     Unsupported,

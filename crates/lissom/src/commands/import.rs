@@ -37,7 +37,7 @@ pub(super) struct Import {
     without: Vec<Part>,
 }
 
-/// What may be left out.
+/// What may be omitted.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Part {
     Limits,

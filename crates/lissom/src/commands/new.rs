@@ -8,7 +8,7 @@ use lissom_model::files;
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// The model, complete but for its title.
+/// The model, complete except for its title.
 const TEMPLATE: &str = include_str!("new_model.toml");
 
 /// Write a commented model to start from: a slider crank with a flexible rod.

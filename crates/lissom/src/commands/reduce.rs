@@ -19,7 +19,7 @@ const LISTED: usize = 6;
 ///
 /// The results go to a folder: the matrices in the Matrix Market format and as NumPy archive, and NAME.toml with the table
 /// `[superelements.NAME]` that uses them. The stiffness holds the stresses of the state, static equilibrium without gravity
-/// unless `--about` says otherwise. Joints, springs and loads between an interface and the rest of the model are left out.
+/// unless `--about` says otherwise. Joints, springs and loads between an interface and the rest of the model are omitted.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -106,7 +106,7 @@ enum From {
 
 impl Snapshot {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        // A name that says nothing is refused before a model is simulated.
+        // A name that says nothing is rejected before a model is simulated.
         let is_png = match self.out.as_deref().map(Path::extension) {
             None => false,
             Some(Some(ending)) if ending.eq_ignore_ascii_case("svg") => false,

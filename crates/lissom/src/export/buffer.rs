@@ -33,7 +33,7 @@ impl Buffer {
         self.accessors.len() - 1
     }
 
-    /// Vectors of so many numbers, with their extremes if `is_bounded`. Gives the number of the accessor.
+    /// Vectors of so many numbers, with their extremes if `is_bounded`. Returns the number of the accessor.
     pub(super) fn vectors(
         &mut self,
         values: &[f32],

@@ -21,7 +21,7 @@ pub(super) const FORMAT: Format = Format {
     write,
 };
 
-/// Place, rotation and length along the second axis of something at every frame.
+/// Position, rotation and length along the second axis of something at every frame.
 type Track = Vec<(Pose, f64)>;
 
 /// A file that grows.
@@ -234,7 +234,7 @@ impl File {
         }
         let bind = self.buffer.vectors(&floats(bind), 16, false, None);
         self.skins.push(json!({ "inverseBindMatrices": bind, "joints": bones, "skeleton": root }));
-        // A skin takes its place from its bones alone.
+        // A skin takes its position from its bones alone.
         self.nodes.push(json!({ "name": piece.name, "mesh": mesh, "skin": self.skins.len() - 1 }));
         self.nodes.len() - 1
     }

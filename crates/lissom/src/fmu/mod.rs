@@ -80,7 +80,7 @@ pub struct Interface {
     pub title: String,
 }
 
-/// A model as it stands among the resources of a unit: nothing beside it is needed.
+/// A model as it is among the resources of a unit: nothing beside it is needed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PackedModel {
     /// Version of the program that packed it.

@@ -11,7 +11,7 @@ const ROUND: usize = 20;
 /// A closed surface. Faces are convex and flat or nearly so; seen from outside their points run counterclockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    /// Places [m].
+    /// Positions [m].
     pub points: Vec<Vector3>,
     /// Points of every face.
     pub faces: Vec<Vec<u32>>,
@@ -65,7 +65,7 @@ impl Mesh {
         Self::turned(&[(radius, -0.5 * length), (1e-3 * radius, 0.5 * length)], ROUND)
     }
 
-    /// A frustum of four sides about the second axis, which stands under what the ground holds.
+    /// A frustum of four sides about the second axis, which is under what the ground holds.
     pub fn plinth(top: f64, bottom: f64, height: f64) -> Self {
         let (top, bottom) = (top * 0.5_f64.sqrt(), bottom * 0.5_f64.sqrt());
         let ring = |half: f64, at: f64| {

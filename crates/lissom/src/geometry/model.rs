@@ -49,7 +49,7 @@ pub enum Carrier {
     Node(usize),
     /// A beam: the mesh is that of the model as it is described.
     Sections(Sweep),
-    /// Two places; the mesh has the length one along its second axis.
+    /// Two positions; the mesh has the length one along its second axis.
     Span([Anchor; 2]),
     /// A load: the mesh has the length one along its second axis and begins at the origin.
     Arrow(Arrow),
@@ -67,7 +67,7 @@ pub struct Arrow {
     most: f64,
     /// Length at the largest vector [m].
     length: f64,
-    /// Whether it ends at its place.
+    /// Whether it ends at its position.
     ends_there: bool,
 }
 
@@ -104,7 +104,7 @@ impl Piece {
     }
 }
 
-/// Middle and direction of what lies between two places, and its length [m].
+/// Middle and direction of what lies between two positions, and its length [m].
 pub(crate) fn span(anchors: &[Anchor; 2], poses: &[Pose]) -> (Pose, f64) {
     let [a, b] = anchors.map(|anchor| place(&anchor, poses));
     let length = (b - a).norm();
@@ -145,9 +145,9 @@ impl Arrow {
 pub struct Geometry {
     /// The pieces, parts first.
     pub pieces: Vec<Piece>,
-    /// Least places of nodes over the motion [m].
+    /// Least positions of nodes over the motion [m].
     pub low: Vector3,
-    /// Greatest places of nodes over the motion [m].
+    /// Greatest positions of nodes over the motion [m].
     pub high: Vector3,
     /// Distance between them [m].
     pub size: f64,
@@ -253,7 +253,7 @@ impl Geometry {
                 self.add(&symbol.name, (role, Colour::Tone(tone)), mesh.moved(&at), carrier);
             }
         }
-        // A plinth stands under every joint on the ground.
+        // A plinth is under every joint on the ground.
         for joint in &scene.joints {
             let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == 0) else { continue };
             let around =
@@ -345,7 +345,7 @@ fn attached(scene: &Scene, node: usize) -> Vec<Vector3> {
     all.filter(|anchor| anchor.node == node).map(|anchor| Vector3::from(anchor.position)).collect()
 }
 
-/// Least and greatest places of all nodes but the ground over all frames, with what is on the ground.
+/// Least and greatest positions of all nodes but the ground over all frames, with what is on the ground.
 fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3) {
     let count = motion.reference().len();
     let frames = motion.times().len();

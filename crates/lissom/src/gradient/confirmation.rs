@@ -17,7 +17,7 @@ const CHANGE: f64 = 1e-4;
 const MAX_CHANGE: f64 = 1e-3;
 /// How much nearer the last runs are.
 const NEARER: f64 = 0.125;
-/// Differences of runs may miss what the derivatives add up to by this part.
+/// Differences of runs may miss what the derivatives add up to by this fraction.
 const MISSED: f64 = 1e-3;
 /// What rounding and the tolerance of the iterations may leave in a difference of runs, as part of the largest value.
 const ROUND_OFF: f64 = 1e-11;
@@ -25,7 +25,7 @@ const ROUND_OFF: f64 = 1e-11;
 const SEEN: f64 = 10.0;
 /// What a number is to contribute at least, likewise, if a change that is not too large does.
 const CLEAR: f64 = 1e4;
-/// Differences of both distances that are as near to each other as this part of what they miss deny the derivatives.
+/// Differences of both distances that are as near to each other as this fraction of what they miss deny the derivatives.
 const AGREES: f64 = 0.25;
 
 /// What runs of neighbouring models say of the derivatives.

@@ -23,10 +23,10 @@ const NEAR: f64 = 3e-5;
 const MAX_DISPLACEMENT: f64 = 1e-3;
 const SMALLER: f64 = 0.125;
 const TRIED: i32 = 5;
-/// A step that is shorter than the others by more than this part is of another size.
+/// A step that is shorter than the others by more than this fraction is of another size.
 const WHOLE: f64 = 1e-9;
 
-/// Kinks that are nearer than this part of the run are at the same time.
+/// Kinks that are nearer than this fraction of the run are at the same time.
 const SAME_TIME: f64 = 1e-12;
 
 /// What is asked, of which model.
@@ -192,7 +192,7 @@ impl ParameterSensitivities {
         Ok(())
     }
 
-    /// Derivatives of a column by all numbers, where `session` stands.
+    /// Derivatives of a column by all numbers, where `session` is.
     pub(super) fn derivatives(&mut self, session: &Session, column: usize) -> Vec<f64> {
         let Self { numbers, sensitivities, state, .. } = self;
         let base = session.simulation();

@@ -23,7 +23,7 @@ impl OutputHistory {
         self.times.len() - 1
     }
 
-    /// Takes note of where `session` stands. `derivatives` finds those of the column, now.
+    /// Records where `session` is. `derivatives` finds those of the column, now.
     pub(super) fn note(
         &mut self,
         session: &Session,

@@ -12,9 +12,9 @@ const APART: f64 = 2e-3;
 /// How much nearer the next runs are, and how often.
 const NEARER: f64 = 0.25;
 const DISTANCES: i32 = 4;
-/// Differences over two distances that differ by less than this part confirm each other …
+/// Differences over two distances that differ by less than this fraction confirm each other …
 const AGREES: f64 = 2e-3;
-/// … and so do those below this part of the largest value over the number, which is round-off.
+/// … and so do those below this fraction of the largest value over the number, which is round-off.
 const ROUND_OFF: f64 = 1e-8;
 
 /// A derivative by runs.

@@ -9,7 +9,7 @@ use super::joint_text::{Placed, write_effort};
 use super::model_text::list;
 use super::{Freedom, ImportError, Robot, RobotJoint};
 
-/// What two directions of length one may miss of a right angle or of being parallel, and places of each other [m].
+/// What two directions of length one may miss of a right angle or of being parallel, and positions of each other [m].
 const NEAR: f64 = 1e-9;
 
 /// What a chain of joints becomes.

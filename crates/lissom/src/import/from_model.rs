@@ -22,7 +22,7 @@ pub struct ModelRobot {
 /// The robot that a model describes: a tree of rigid bodies from the ground, or from one body that moves freely. Links have the
 /// axes of their bodies, and their origins in the joints that carry them.
 ///
-/// What has no place in a description and acts on the bodies (loads, springs, drives, another gravity) is in
+/// What has no position in a description and acts on the bodies (loads, springs, drives, another gravity) is in
 /// [`Robot::unsupported`].
 ///
 /// # Errors
@@ -61,7 +61,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         robot.links.push(link(body, &Motion::identity()));
         tree.frames.push(frame);
         tree.placed[0] = Some(0);
-        // A description has no place for its root.
+        // A description has no position for its root.
         if frame.position.norm() > 0.0 || frame.rotation.logarithm().norm() > 0.0 {
             robot.left_out.push(format!("the place of body `{}` at the start", body.name.value));
         }
@@ -130,7 +130,7 @@ fn ends(joint: &Component) -> [&NodeReference; 2] {
     }
 }
 
-/// Refuses models with parts that are no rigid bodies.
+/// Rejects models with parts that are no rigid bodies.
 fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     let beam = document.beams.first().map(|beam| format!("beam `{}` is flexible", beam.name.value));
     let element = document.superelements.first();

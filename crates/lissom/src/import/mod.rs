@@ -102,7 +102,7 @@ pub struct RobotJoint {
     pub parent: usize,
     /// Index of the link that it carries.
     pub child: usize,
-    /// Place of the child's frame in the parent's at the reference value.
+    /// Position of the child's frame in the parent's at the reference value.
     pub origin: Motion,
     /// Direction of the axis in the child's frame, of length one.
     pub axis: Vector3,

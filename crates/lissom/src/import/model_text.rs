@@ -29,10 +29,10 @@ pub enum Root {
 /// What becomes of what acts on a robot and no model can hold.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unsupported {
-    /// The robot is refused.
+    /// The robot is rejected.
     #[default]
     Refused,
-    /// It is left out, and the model says so.
+    /// It is omitted, and the model says so.
     LeftOut,
 }
 
@@ -193,7 +193,7 @@ fn placed(
     }
 }
 
-/// Refuses what no model can hold.
+/// Rejects what no model can hold.
 fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
     if robot.is_root_the_world && options.root == Root::Floating {
         return Err(ImportError::new(
@@ -225,7 +225,7 @@ fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Refuses values of joints that do not exist or lie beyond a limit, and followers that do not follow.
+/// Rejects values of joints that do not exist or lie beyond a limit, and followers that do not follow.
 fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), ImportError> {
     for name in pose.values.keys().chain(pose.rates.keys()) {
         if !robot.joints.iter().any(|joint| joint.name == *name && joint.moves()) {
@@ -342,7 +342,7 @@ impl Names {
     }
 }
 
-/// A name that can stand in expressions: letters, digits and underscores.
+/// A name that can be in expressions: letters, digits and underscores.
 fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let mut free: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();

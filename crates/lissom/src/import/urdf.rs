@@ -1,5 +1,5 @@
 //! URDF, the robot description of ROS: links with inertia, joints with axes, limits, friction. Shapes, transmissions and what
-//! simulators add are left out.
+//! simulators add are omitted.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -228,7 +228,7 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
         effort = number(limit, "effort")?;
         speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
         if kind != "continuous" {
-            // Left out they are zero, as the format has it.
+            // Omitted they are zero, as the format has it.
             let ends = [number(limit, "lower")?.unwrap_or(0.0), number(limit, "upper")?.unwrap_or(0.0)];
             if ends[0] > ends[1] {
                 return Err(fault(format!("its lower limit {} is above the upper one {}", ends[0], ends[1])));

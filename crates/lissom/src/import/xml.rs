@@ -1,4 +1,4 @@
-//! What readers of XML share: parsing, places in the text, numbers.
+//! What readers of XML share: parsing, positions in the text, numbers.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! What stands before the frames of a motion file.
+//! What is before the frames of a motion file.
 
 use lissom_core::kinematics::{Layout, NodeMotion};
 use lissom_model::lower::Lowered;
@@ -57,7 +57,7 @@ impl Header {
         (8 + 4 * 6 * (self.nodes.len() + self.point_count())).next_multiple_of(8)
     }
 
-    /// All that stands before the first frame.
+    /// All that is before the first frame.
     pub(super) fn to_bytes(&self, reference: &[NodeMotion]) -> Vec<u8> {
         let mut text = serde_json::to_vec(self).expect("names and numbers can always be said in JSON");
         text.resize(text.len().next_multiple_of(8), b' ');

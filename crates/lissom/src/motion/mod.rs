@@ -15,7 +15,7 @@
 //!   filled up with zeros to a multiple of 8
 //! ```
 //!
-//! Numbers are little-endian. Displacements are kept instead of places, so that small ones of large structures keep
+//! Numbers are little-endian. Displacements are kept instead of positions, so that small ones of large structures keep
 //! their digits: the relative error of a displacement is 6e-8.
 
 mod header;

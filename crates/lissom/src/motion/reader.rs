@@ -25,7 +25,7 @@ pub enum MotionError {
     NotFinite(usize),
 }
 
-/// A motion file in memory. A last frame that is not whole is left out.
+/// A motion file in memory. A last frame that is not whole is omitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     header: Header,

@@ -71,7 +71,7 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.last = Some(last);
     }
 
-    /// Writes what stands before the frames, and one frame: a picture that stands still.
+    /// Writes what is before the frames, and one frame: a picture that is at rest.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -82,7 +82,7 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.flush()
     }
 
-    /// Writes what stands before the frames, and these, whose times must ascend.
+    /// Writes what is before the frames, and these, whose times must ascend.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -100,7 +100,7 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.probes = lowered.names.lines.values().flat_map(|line| line.elements.iter().cloned()).collect();
     }
 
-    /// Writes the next frame, and before the first what stands before the frames.
+    /// Writes the next frame, and before the first what is before the frames.
     ///
     /// # Errors
     /// If it cannot be written.

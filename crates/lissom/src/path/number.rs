@@ -12,7 +12,7 @@ use lissom_model::{Document, ModelText, Problem, Report};
 
 use crate::model::{Model, Override};
 
-/// Places that differ by less, over the size of the model, and angles [rad], are the same.
+/// Positions that differ by less, over the size of the model, and angles [rad], are the same.
 const SAME: f64 = 1e-9;
 
 /// A model with a number that is varied.
@@ -23,7 +23,7 @@ pub(super) struct Varied {
     pub(super) path: String,
     /// Its value in the file.
     pub(super) from: f64,
-    /// Places of the model as it is written.
+    /// Positions of the model as it is written.
     start: Arc<Kinematics>,
 }
 
@@ -97,7 +97,7 @@ pub fn varied_number(
     Ok(Some((path.to_owned(), from)))
 }
 
-/// A node that stands elsewhere in a direction in which it has no freedom.
+/// A node that is elsewhere in a direction in which it has no freedom.
 fn moved_where_locked(lowered: &Lowered, start: &Kinematics) -> Option<String> {
     let layout = lowered.system.layout();
     let own = &lowered.state.kinematics.nodes;

@@ -105,7 +105,7 @@ fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut visi
 
 /// The normal of a face by Newell's formula; none of a face without area.
 fn normal(points: &[Vector3]) -> Option<Vector3> {
-    // About the first point, so that places far from the origin keep their digits.
+    // About the first point, so that positions far from the origin keep their digits.
     let from_first = |k: usize| points[k % points.len()] - points[0];
     let twice: Vector3 = (0..points.len()).map(|k| from_first(k).cross(&from_first(k + 1))).sum();
     twice.try_normalize(0.0)

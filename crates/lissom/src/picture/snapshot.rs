@@ -67,7 +67,7 @@ pub struct Picture {
     pub view: View,
     /// Whether the paths of observed points are drawn.
     pub paths: bool,
-    /// What stands below the panels, one after the other; their instants where there is nothing.
+    /// What is below the panels, one after the other; their instants where there is nothing.
     pub labels: Vec<String>,
 }
 
@@ -149,7 +149,7 @@ impl Picture {
         Ok(seen.chunks(1).zip(labels.chunks(1)).map(drawn).collect())
     }
 
-    /// What stands below each panel.
+    /// What is below each panel.
     fn labels(&self, scene: &Scene) -> Vec<String> {
         let of_time = |time: f64| match &scene.path {
             Some(path) => format!("{} {}", path.name, short(path.at(time))),
@@ -261,7 +261,7 @@ impl Sheet {
         drawing
     }
 
-    /// A scale that ends at a place.
+    /// A scale that ends at a position.
     fn ruler(&self, drawing: &mut Drawing, [x, y]: [f64; 2]) {
         let longest = 120.0 / self.scale;
         let power = 10_f64.powf(longest.log10().floor());
@@ -275,7 +275,7 @@ impl Sheet {
     }
 }
 
-/// The global axes about a place; the farthest first.
+/// The global axes about a position; the farthest first.
 fn axes(drawing: &mut Drawing, projection: &Projection, [x, y]: [f64; 2]) {
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| {

@@ -103,7 +103,7 @@ impl ItemBuffer {
     }
 }
 
-/// The plane of a face: how near it is at a place.
+/// The plane of a face: how near it is at a position.
 struct Plane {
     at: [f64; 3],
     slope: [f64; 2],

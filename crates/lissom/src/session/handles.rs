@@ -55,7 +55,7 @@ impl Session {
         Ok(self.values_of(channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?))
     }
 
-    /// Where the components of an output stand among the [`columns`](Self::columns), and in what is recorded.
+    /// Where the components of an output are among the [`columns`](Self::columns), and in what is recorded.
     ///
     /// # Errors
     /// If the output belongs to another model.
@@ -85,7 +85,7 @@ impl Session {
         Ok(self.set_input(&name, value)?)
     }
 
-    /// A second session that stands where this one does, and goes on from there to the same bits. It shares the system, and
+    /// A second session that is where this one does, and goes on from there to the same bits. It shares the system, and
     /// writes no states.
     ///
     /// # Errors

@@ -54,7 +54,7 @@ pub enum SessionError {
     NotInTime(&'static str),
 }
 
-/// Where a session stands.
+/// Where a session is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Time [s].
@@ -209,7 +209,7 @@ impl Session {
         &self.telemetry
     }
 
-    /// Where it stands.
+    /// Where it is.
     pub fn progress(&self) -> Progress {
         let (done, planned) = self.schedule.done();
         Progress { time: self.schedule.time(), end: self.schedule.plan().end, done, planned }
@@ -220,7 +220,7 @@ impl Session {
         self.schedule.is_finished() || self.stopped_by().is_some()
     }
 
-    /// Name of the event at which the session stands, if that is to end the run. It can still be driven on.
+    /// Name of the event at which the session is, if that is to end the run. It can still be driven on.
     pub fn stopped_by(&self) -> Option<&str> {
         self.simulation.stopped_by()
     }
@@ -278,13 +278,13 @@ impl Session {
     /// [`run`](Self::run), go on from there.
     ///
     /// # Errors
-    /// If `time` is not finite, or a step has no solution; the session then stands at the end of the last one that has.
+    /// If `time` is not finite, or a step has no solution; the session then is at the end of the last one that has.
     pub fn step_to(&mut self, time: f64) -> Result<(), StepError> {
         self.step_to_watched(time, &mut |_| ControlFlow::Continue(())).map(|_| ())
     }
 
     /// Goes on to `time` [s] as [`step_to`](Self::step_to) does. `watch` is asked before every step whether to go on; once
-    /// it says no, the session stands at the end of a step before `time`.
+    /// it says no, the session is at the end of a step before `time`.
     ///
     /// # Errors
     /// As [`step_to`](Self::step_to).

@@ -58,7 +58,7 @@ impl Observed {
         channel.evaluate(&self.system, state_of_rates.unwrap_or(state), out);
     }
 
-    /// The state with rates, accelerations and forces of constraints that agree with its places.
+    /// The state with rates, accelerations and forces of constraints that agree with its positions.
     fn consistent(&self, state: &State, step: f64) -> Option<State> {
         let rates = self.consistent_rates.as_ref()?;
         rates.lock().unwrap_or_else(PoisonError::into_inner).state(&self.system, state, step)

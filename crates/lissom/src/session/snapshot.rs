@@ -73,7 +73,7 @@ impl SessionSnapshot {
 }
 
 impl Session {
-    /// Where the session stands, with all that is needed to go on from there to the last bit.
+    /// Where the session is, with all that is needed to go on from there to the last bit.
     pub fn snapshot(&self) -> SessionSnapshot {
         SessionSnapshot {
             simulation: self.simulation.snapshot(),

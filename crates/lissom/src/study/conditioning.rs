@@ -32,7 +32,7 @@ pub const SCALINGS: [Compared; 4] = [
     Compared { name: "equilibrated", label: "equilibrated", by: ScaleBy::Physical, equilibrated: true },
 ];
 
-/// What is asked for. Numbers stand as written, so that they reach the model unchanged.
+/// What is asked for. Numbers are as written, so that they reach the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Step sizes [s].

@@ -12,7 +12,7 @@ const OFTEN: usize = 64;
 /// Is informed of the steps done and planned over all members, from any thread, and says whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync);
 
-/// Where a family stands.
+/// Where a family is.
 pub(super) struct Effort<'a> {
     watch: Watch<'a>,
     planned: usize,

@@ -18,7 +18,7 @@ pub const NOISY_STEPS: usize = 20;
 /// How much finer the steps of the reference are, and of the run that shows how good the reference is.
 pub const FINER: [usize; 2] = [8, 4];
 
-/// What is asked for. Numbers stand as written, so that they reach the model unchanged.
+/// What is asked for. Numbers are as written, so that they reach the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Step sizes [s].

@@ -16,7 +16,7 @@ pub(crate) use packed::base64;
 
 /// The page without results, as `viewer/build.js` has made it.
 const PAGE: &str = include_str!("viewer.html");
-/// Most numbers of the table that go into a page; of longer ones rows are left out.
+/// Most numbers of the table that go into a page; of longer ones rows are omitted.
 const MAX_NUMBERS: usize = 1_500_000;
 
 /// Something the reader of a page must know about the results.
@@ -107,7 +107,7 @@ impl Results {
         self
     }
 
-    /// With a scene and its motion, as they stand in the files of a run.
+    /// With a scene and its motion, as they are in the files of a run.
     ///
     /// # Errors
     /// If the bytes are no motion file.
@@ -118,7 +118,7 @@ impl Results {
         Ok(self)
     }
 
-    /// With a model as it stands at the start.
+    /// With a model as it is at the start.
     ///
     /// # Errors
     /// If the bytes are no motion file.

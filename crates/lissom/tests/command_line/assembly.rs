@@ -48,7 +48,7 @@ fn what_an_assembly_moved_is_reported_everywhere() {
     assert!((reported["moved"][0]["distance"].as_f64().unwrap() - 0.1).abs() < 1e-12, "{reported}");
     assert_eq!(reported["closed"][0]["joint"], "pin", "{reported}");
     assert!(reported["left"].as_f64().unwrap() < 1e-12, "{reported}");
-    // Displacements count from the assembled place; a point of the drawing stays on its part.
+    // Displacements count from the assembled position; a point of the drawing stays on its part.
     let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
     let first: Vec<f64> =
         history.lines().nth(1).unwrap().split(',').map(|value| value.parse().unwrap()).collect();

@@ -1,4 +1,4 @@
-//! What is changed in a model from the command line: values put in, values left out, and what is too large to be run.
+//! What is changed in a model from the command line: values put in, values omitted, and what is too large to be run.
 
 use std::fmt::Write;
 
@@ -34,7 +34,7 @@ fn what_is_unset_counts_as_never_written() {
         "{}",
         facts["scheme"]
     );
-    // Whole entries can be left out; what named them is told.
+    // Whole entries can be omitted; what named them is told.
     assert_eq!(run(&["--unset", "outputs.force"]).code, 0);
     let ended = run(&["--unset", "joints.leg"]);
     assert!(ended.code == 2 && ended.errors.contains("no `leg` here"), "{}", ended.errors);

@@ -15,7 +15,7 @@ fn reversed(text: &str) -> String {
         blocks[last].push_str(line);
         blocks[last].push('\n');
     }
-    // What stands before the first table belongs to none.
+    // What is before the first table belongs to none.
     blocks[1..].reverse();
     blocks.concat()
 }

@@ -1,4 +1,4 @@
-//! The motion file holds the places that the table holds, and is read up to where a crash has cut it.
+//! The motion file holds the positions that the table holds, and is read up to where a crash has cut it.
 
 use std::fs;
 use std::path::Path;

@@ -52,7 +52,7 @@ fn an_imported_robot_runs_as_it_is() {
     assert!(!folder.path().join("b.toml").exists());
 }
 
-/// The description of MuJoCo, by the same command: what is left out is told, what acts and is unknown refused.
+/// The description of MuJoCo, by the same command: what is omitted is told, what acts and is unknown rejected.
 #[test]
 fn an_imported_robot_of_mujoco_runs_as_it_is() {
     let folder = Folder::new("import-mjcf");

@@ -441,7 +441,7 @@ fn a_line_is_the_places_of_all_nodes() {
         assert_eq!(record.column("axis", &format!("{axis}0")), record.column("foot", axis));
         assert_eq!(record.column("axis", &format!("{axis}{last}")), record.column("end", axis));
     }
-    // Along the beam places go on.
+    // Along the beam positions go on.
     let middle = record.column("axis", "x1").unwrap()[0];
     let ends = ["x0".to_owned(), format!("x{last}")].map(|name| record.column("axis", &name).unwrap()[0]);
     assert!(middle > ends[0] && middle < ends[1], "{ends:?} {middle}");

@@ -1,4 +1,4 @@
-//! Models that once ended with a wrong answer and exit code 0, or cost far too much: each is refused, told, or right.
+//! Models that once ended with a wrong answer and exit code 0, or cost far too much: each is rejected, told, or right.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -16,7 +16,7 @@ fn run(name: &str, folder: &Folder) -> Ended {
     lissom(&["run", &model(name), "--out", "out", "--no-plots", "--quiet"], folder.path())
 }
 
-/// The run and its check are refused with these words.
+/// The run and its check are rejected with these words.
 fn refused(name: &str, code: i32, words: &[&str]) {
     let folder = Folder::new(name);
     let run = run(name, &folder);
@@ -85,7 +85,7 @@ fn contradicting_constraints_are_refused_by_name() {
 
 #[test]
 fn a_drive_that_asks_for_more_than_the_links_reach_fails_on_the_way() {
-    // The links of 1 m stand at a right angle: the slider, at 1.414 m, is pulled beyond 2 m.
+    // The links of 1 m are at a right angle: the slider, at 1.414 m, is pulled beyond 2 m.
     let folder = Folder::new("reach");
     let text = std::fs::read_to_string(model("drive-beyond-reach")).unwrap();
     let half = std::f64::consts::FRAC_1_SQRT_2;
@@ -365,7 +365,7 @@ fn steps_too_long_for_the_motion_are_reported_and_short_ones_are_not() {
     }
 }
 
-/// Places that a drive prescribes are right with any step: what tells that steps are too long are the rates of the joints.
+/// Positions that a drive prescribes are right with any step: what tells that steps are too long are the rates of the joints.
 #[test]
 fn steps_too_long_for_velocities_are_reported_and_short_ones_are_not() {
     let folder = Folder::new("rates");
@@ -377,7 +377,7 @@ fn steps_too_long_for_velocities_are_reported_and_short_ones_are_not() {
     for (scheme, step, is_reported) in [
         ("generalized-alpha", "0.15", true),
         ("hht", "0.15", true),
-        // What is recorded of drives then follows from the places.
+        // What is recorded of drives then follows from the positions.
         ("radau-iia", "0.15", false),
         ("generalized-alpha", "0.005", false),
         ("hht", "0.005", false),

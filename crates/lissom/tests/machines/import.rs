@@ -1,8 +1,8 @@
 //! Robots from URDF files against a closed form and Pinocchio 4.1: accelerations, kinetic energy and mass; a passive fall; what is
-//! refused.
+//! rejected.
 //!
 //! `robots/pinocchio.json` has what Pinocchio says of robots of the package example-robot-data 6.0.0. Their files are read where the
-//! variable `LISSOM_REFERENCES` names a folder that has them in `urdf/`, and left out otherwise.
+//! variable `LISSOM_REFERENCES` names a folder that has them in `urdf/`, and omitted otherwise.
 
 use std::fmt::Write;
 

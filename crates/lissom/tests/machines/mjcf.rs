@@ -1,5 +1,5 @@
 //! Robots from MJCF files against closed forms: frames, masses of shapes, every kind of joint and what resists it, joints of
-//! several coordinates; what is left out and what is refused.
+//! several coordinates; what is omitted and what is rejected.
 
 use std::f64::consts::PI;
 
@@ -360,7 +360,7 @@ fn what_cannot_be_said_is_reported() {
         let found = said(&text);
         assert!(found.contains(words), "{text}\n{found}");
     }
-    // What is left out on purpose stands in the model.
+    // What is omitted on purpose is in the model.
     let robot = described(&body(&format!("<joint/>{mass}<site/><site/>")).replace(
         "</mujoco>",
         "<equality><weld body1='b'/></equality><actuator><motor joint='j'/></actuator></mujoco>",

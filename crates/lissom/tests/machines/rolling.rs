@@ -74,7 +74,7 @@ end = 2.0
         )
     }
 
-    /// Place of the centre after a time.
+    /// Position of the centre after a time.
     fn place(&self, time: f64) -> [f64; 3] {
         // v = -r n e₁ with e₁ turning at Ω from y on.
         let speed = -self.radius * self.spin;

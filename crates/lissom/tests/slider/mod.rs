@@ -338,7 +338,7 @@ fn what_makes_no_sense_is_refused() {
     refused("beams = [\"bar\"]", "beams = [\"bar\", \"bar\"]", "does not begin where");
 }
 
-/// Section forces under a slider that stands between nodes: what the warning says of them. Its deflection is right.
+/// Section forces under a slider that is between nodes: what the warning says of them. Its deflection is right.
 #[test]
 fn sections_beside_a_slider_err_as_the_warning_says() {
     let (force, length) = (0.1, 4.0);

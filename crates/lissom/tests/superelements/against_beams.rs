@@ -264,7 +264,7 @@ fn free_blades_are_reduced_along_every_axis() {
     }
 }
 
-/// Matrices of the earlier form, whose loads count twice, are left out with a warning.
+/// Matrices of the earlier form, whose loads count twice, are omitted with a warning.
 #[test]
 fn geometric_matrices_of_the_earlier_form_are_left_out() {
     let text = blade('x', false, false);

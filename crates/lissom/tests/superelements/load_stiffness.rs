@@ -26,7 +26,7 @@ const SPIN: &str = "[joints.hinge]\nkind = \"prescribed_motion\"\nbase = \"groun
 /// The damped beam that spins under its weight, and what it is reduced to.
 fn spinning_models(damped: &str, report: &ReduceReport) -> (Model, Model) {
     let weighed = |text: &str, start: &str, end: &str| {
-        // Gravity and parameters stand above all tables.
+        // Gravity and parameters are above all tables.
         let text =
             text.replace("lissom = 1\n", "lissom = 1\ngravity = [0, 0, -0.5]\n[parameters]\nspeed = 1\n");
         let text = text.replace(MODES, "");
@@ -169,7 +169,7 @@ fn geometric_stiffness_keeps_energy_and_momentum() {
     }
 }
 
-/// Files of second-order matrices that do not fit are refused.
+/// Files of second-order matrices that do not fit are rejected.
 #[test]
 fn geometric_matrices_that_do_not_fit_are_refused() {
     let report = reduced_to_modes(&beam(MODES), &["bar.start", "bar.end"], 2);
@@ -201,7 +201,7 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
     );
 }
 
-/// The beam that spins at up to its first frequency: what modes that are left out would do is made up for.
+/// The beam that spins at up to its first frequency: what modes that are omitted would do is made up for.
 #[test]
 fn corrections_make_up_for_modes_left_out() {
     let damped = beam(MODES).replace("[beams.bar]", "damping = 0.01\n[beams.bar]");
@@ -221,7 +221,7 @@ fn corrections_make_up_for_modes_left_out() {
         assert!(slow < 1e-4 && fast < 3e-4 && fastest < 1.5e-3, "{modes}: {slow:e} {fast:e} {fastest:e}");
         assert!((1..20).contains(&report.corrections), "{modes}: {}", report.corrections);
     }
-    // The static response of modes that are left out stiffens six modes alone, none of which stretches the beam.
+    // The static response of modes that are omitted stiffens six modes alone, none of which stretches the beam.
     let [slow, fast, fastest] = errors(&reduced_to_modes(&damped, &["bar.start", "bar.end"], 6));
     println!("6 none {slow:e} {fast:e} {fastest:e}");
     assert!(fastest < 1.5e-3, "{fastest:e}");

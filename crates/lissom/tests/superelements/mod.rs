@@ -67,7 +67,7 @@ fn reduced(text: &str, interfaces: &[&str], modes: usize) -> ReduceReport {
     try_reduce(text, interfaces, modes).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Reduced to static shapes and modes, without what makes up for those left out.
+/// Reduced to static shapes and modes, without what makes up for those omitted.
 fn reduced_to_modes(text: &str, interfaces: &[&str], modes: usize) -> ReduceReport {
     let request = ReduceRequest { corrections: false, ..request(interfaces, modes) };
     reduce(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
@@ -174,7 +174,7 @@ fn weight_does_not_strain_what_falls() {
                 [analysis]\nkind = \"dynamics\"\nend = 0.5\nstep = 1e-2\nscheme = \"radau-iia\"\n";
     let (_, table) = report.files.last().expect("the table");
     let texts: BTreeMap<String, String> = report.files.iter().cloned().collect();
-    // Gravity stands above all tables.
+    // Gravity is above all tables.
     let (gravity, rest) = rest.split_once('\n').expect("two lines");
     let text = table.replace("lissom = 1\n", &format!("lissom = 1\n{gravity}\n"));
     let model = Model::from_text("model.toml", &format!("{text}\n{rest}")).with_known(texts);
@@ -442,7 +442,7 @@ fn files_are_read_as_they_were_written() {
     std::fs::remove_dir_all(&folder).expect("a folder");
 }
 
-/// A description of a robot has no place for it.
+/// A description of a robot has no position for it.
 #[test]
 fn no_description_of_rigid_bodies_leaves_it_out_unseen() {
     let document = Model::read(std::path::Path::new(&example("slider-crank-elastic.toml")))

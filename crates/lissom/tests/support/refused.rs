@@ -2,7 +2,7 @@
 
 use lissom::{Model, SessionError};
 
-/// Why a model is refused.
+/// Why a model is rejected.
 pub(crate) fn refused(text: &str) -> String {
     match Model::from_text("model.toml", text).session(&[]) {
         Ok(_) => panic!("{text} is no good model"),

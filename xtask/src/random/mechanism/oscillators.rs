@@ -1,4 +1,4 @@
-//! Coordinates without a place in space, with matrices of their own, which may be geared to a joint.
+//! Coordinates without a position in space, with matrices of their own, which may be geared to a joint.
 
 use super::{Maker, short};
 
@@ -33,7 +33,7 @@ impl Maker {
             short(springs[1] + between)
         ));
         for number in 1..=2 {
-            // What is compared are places.
+            // What is compared are positions.
             self.tables.push(format!(
                 "[outputs.at_own{number}]\nkind = \"expression\"\nvalue = \"own.displacement{number}\"\n"
             ));

@@ -87,7 +87,7 @@ struct Wheel {
     shape: String,
 }
 
-/// Distance of a place from the plane through a point.
+/// Distance of a position from the plane through a point.
 fn distance(place: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> f64 {
     let length = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
     (0..3).map(|k| (place[k] - at[k]) * normal[k]).sum::<f64>() / length

@@ -12,7 +12,7 @@ use crate::kinematics::{Freedoms, Kinematics, NodeId};
 
 /// Motion and section forces anywhere in a beam element, for outputs.
 pub trait BeamProbe: Send + Sync {
-    /// Place of the section at ξ ∈ [-1, 1].
+    /// Position of the section at ξ ∈ [-1, 1].
     fn frame_at(&self, at: &Kinematics, xi: f64) -> Motion;
     /// Twist of the section at ξ in its own frame [m/s, rad/s].
     fn twist_at(&self, at: &Kinematics, xi: f64) -> Vector6;

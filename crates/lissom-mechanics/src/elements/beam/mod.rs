@@ -160,7 +160,7 @@ impl<const N: usize> Beam<N> {
         })
     }
 
-    /// Place of the section at ξ ∈ [-1, 1].
+    /// Position of the section at ξ ∈ [-1, 1].
     pub fn frame_at(&self, at: &Kinematics, xi: f64) -> Motion {
         let d = combine(&lagrange::<N>(xi).0, &self.relative(at));
         self.section_frame(at, Self::REFERENCE) * Motion::exponential(&d)

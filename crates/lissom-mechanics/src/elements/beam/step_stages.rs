@@ -85,7 +85,7 @@ impl<const N: usize> Beam<N> {
         }
     }
 
-    /// Integrates the strains of every station and hands them to `each`. Gives 1/Q.
+    /// Integrates the strains of every station and hands them to `each`. Returns 1/Q.
     pub(super) fn integrate(
         &self,
         step: &StepStages<'_>,

@@ -1,4 +1,4 @@
-//! Derivatives of a beam's elastic forces by places, for one element or for several side by side. The formulas are
+//! Derivatives of a beam's elastic forces by positions, for one element or for several side by side. The formulas are
 //! those of `beam::linearize`, without damping.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 

@@ -19,7 +19,7 @@ const MAX_UNKNOWNS: usize = 255;
 pub struct InterfacePlace {
     /// Name of its node in the model.
     pub name: String,
-    /// Place in the axes of the part [m].
+    /// Position in the axes of the part [m].
     pub place: Vector3,
 }
 
@@ -28,7 +28,7 @@ pub struct InterfacePlace {
 pub struct SuperelementDescription<'a> {
     /// Name in the model.
     pub name: &'a str,
-    /// Place of the part at the start.
+    /// Position of the part at the start.
     pub frame: Motion,
     /// Its interfaces, in the order of the matrices.
     pub interfaces: &'a [InterfacePlace],

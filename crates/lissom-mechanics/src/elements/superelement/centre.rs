@@ -166,7 +166,7 @@ impl Centre {
         self.velocity + self.spin.cross(&self.place) + self.rate
     }
 
-    /// Place of the centre from the floating frame, in its axes [m].
+    /// Position of the centre from the floating frame, in its axes [m].
     pub(super) fn place(&self) -> Vector3 {
         self.place
     }
@@ -203,7 +203,7 @@ impl Centre {
         self.add_geometric(of, out);
     }
 
-    /// ∂(a_c - R_fᵀ g) by places and twists.
+    /// ∂(a_c - R_fᵀ g) by positions and twists.
     fn differentiate(&self, of: &Part, scratch: &mut Derivatives) {
         scratch.clear(of.size());
         let frame = 6 * of.frame;
@@ -261,7 +261,7 @@ impl Centre {
         }
     }
 
-    /// Adds what the forces do while their directions turn: ∂(Wᵀ F)/∂ place at constant F.
+    /// Adds what the forces do while their directions turn: ∂(Wᵀ F)/∂ position at constant F.
     fn add_geometric(&self, of: &Part, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let force = of.total * self.against;

@@ -11,7 +11,7 @@ pub struct Deformation {
     pub(super) nodes: Vec<NodeId>,
     /// Index of the interface that carries the floating frame.
     pub(super) floating: usize,
-    /// Places of the interfaces in the undeformed part [m].
+    /// Positions of the interfaces in the undeformed part [m].
     pub(super) places: Vec<Vector3>,
     /// Modal coordinates, and those of the matrices over them.
     pub(super) modes: Vec<(CoordinateId, f64)>,

@@ -2,8 +2,8 @@
 //! [Wallrapp 1994]: how first moment, inertia and angular momentum of a part depend on its deformation, the shortening of what bends
 //! included, and how much nearer interfaces come.
 //!
-//! Legend: y are the displacements, from the floating frame at the first interface and in its axes: places and rotation vectors of the
-//! interfaces, then modal coordinates; x₁ + x₂ place of a point to first and to second order in y.
+//! Legend: y are the displacements, from the floating frame at the first interface and in its axes: positions and rotation vectors of the
+//! interfaces, then modal coordinates; x₁ + x₂ position of a point to first and to second order in y.
 //!
 //! ```text
 //! ∫ρ x₂ = s,   s_k = ½ y·S_k y            J = J₀ + α·y + ½ y·A y                 (inertia about the floating frame)
@@ -64,7 +64,7 @@ pub struct GeometricMatrices {
     pub moment: [DMatrix<f64>; 3],
     /// Of points that are displaced along straight lines, with sections that do not turn.
     pub points: TurningMatrices,
-    /// What the rotation of sections adds, and the static response of modes that are left out.
+    /// What the rotation of sections adds, and the static response of modes that are omitted.
     pub sections: TurningMatrices,
     /// U and D of all that is shortened.
     pub shortening: Vec<Shortening>,

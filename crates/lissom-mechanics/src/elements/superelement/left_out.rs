@@ -1,4 +1,4 @@
-//! Forces that the modes left out of a superelement would add where it is excited faster than its modes can follow: an estimate for a
+//! Forces that the modes omitted from a superelement would add where it is excited faster than its modes can follow: an estimate for a
 //! warning.
 //!
 //! Legend: y displacements against the floating frame, M_y their mass, m total mass, G momentum by their rates, V natural modes with the
@@ -11,7 +11,7 @@
 //! ```
 //!
 //! A mode whose period is short against changes of the load follows statically, and z̈ vanishes. A sudden load accelerates all modes alike,
-//! z̈_i = -L_i a, also those that are left out, whose mass then moves with the floating frame in the model and not in the part. The highest
+//! z̈_i = -L_i a, also those that are omitted, whose mass then moves with the floating frame in the model and not in the part. The highest
 //! mode that is kept shows how much of a load is sudden.
 
 use lissom_motion::{Vector3, rotation_part, translation_part};
@@ -106,7 +106,7 @@ mod tests {
     use crate::kinematics::NodeMotion;
     use lissom_motion::Motion;
 
-    /// A rod with linear shapes: a quarter of its mass is left out, and a sixth of it times the acceleration of its end is missed.
+    /// A rod with linear shapes: a quarter of its mass is omitted, and a sixth of it times the acceleration of its end is missed.
     #[test]
     fn a_sudden_load_on_a_rod_with_linear_shapes_misses_a_quarter_of_its_mass() {
         let (total, length) = (12.0, 2.0);

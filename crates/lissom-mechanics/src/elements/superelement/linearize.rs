@@ -96,13 +96,13 @@ fn add_three(out: &mut DMatrix<f64>, first: usize, factor: &Matrix3, rows: &DMat
 /// Room for the maps and for matrices.
 #[derive(Default)]
 pub(super) struct Maps {
-    /// ∂u/∂ place, and ∂u̇/∂ place.
+    /// ∂u/∂ position, and ∂u̇/∂ position.
     displacement: Map,
     rate: Map,
-    /// ∂η/∂ twist, and by place.
+    /// ∂η/∂ twist, and by position.
     velocity: Map,
     velocity_by_place: Map,
-    /// ∂η̇/∂ twist, and by place.
+    /// ∂η̇/∂ twist, and by position.
     acceleration_by_twist: Map,
     acceleration_by_place: Map,
     first: DMatrix<f64>,

@@ -34,7 +34,7 @@ use crate::round_off;
 
 /// Share of the stiffness from which on a warning reports it.
 pub(super) const MAX_SHARE: f64 = 0.005;
-/// Bending below this part of the size of the element, and of its elongation, is nothing to be right about.
+/// Bending below this fraction of the size of the element, and of its elongation, is nothing to be right about.
 const NO_BENDING: [f64; 2] = [1e-7, 1.0];
 
 /// An interface seen from the floating frame.
@@ -206,7 +206,7 @@ impl LoadStiffness {
 }
 
 impl Part {
-    /// Centrifugal forces on the modal coordinates, of the places that the interfaces carry along with them.
+    /// Centrifugal forces on the modal coordinates, of the positions that the interfaces carry along with them.
     fn centrifugal(&self, spin: &Vector3) -> DVector<f64> {
         let first = 6 * self.nodes.len();
         let mut outward = DVector::zeros(self.size());

@@ -8,9 +8,9 @@ use super::geometric::GeometricMatrices;
 use crate::registry::ParameterError;
 use crate::round_off;
 
-/// Entries differ from their mirror images by no more than this part of their rows' diagonals.
+/// Entries differ from their mirror images by no more than this fraction of their rows' diagonals.
 const UNEQUAL: f64 = 1e-5;
-/// Forces of a rigid displacement are no more than this part of the terms they are made of; so is what a mass differs from that of a
+/// Forces of a rigid displacement are no more than this fraction of the terms they are made of; so is what a mass differs from that of a
 /// rigid body.
 const RIGID: f64 = 1e-4;
 /// Negative eigenvalues of a stiffness of so small a part of the size are those of numbers that were written with few digits.
@@ -48,7 +48,7 @@ pub struct ReducedMatrices {
 pub(super) struct RigidMotion {
     /// m.
     pub(super) total: f64,
-    /// m c from the origin of the places.
+    /// m c from the origin of the positions.
     pub(super) moment: Vector3,
     /// G = Tᵀ M.
     pub(super) carried: Matrix3xX<f64>,
@@ -56,7 +56,7 @@ pub(super) struct RigidMotion {
     error: f64,
 }
 
-/// Column `k` of the rigid motions, translations and then rotations about the origin of the places.
+/// Column `k` of the rigid motions, translations and then rotations about the origin of the positions.
 pub fn rigid_column(places: &[Vector3], size: usize, k: usize) -> Vec<f64> {
     let mut column = vec![0.0; size];
     let axis = Vector3::ith(k % 3, 1.0);

@@ -1,7 +1,7 @@
 //! Superelement: a linear elastic part that is reduced to a few interfaces and modal coordinates, on a floating frame
 //! [Géradin and Cardona 2001, ch. 9].
 //!
-//! Legend: interface i has the place x_i and the rotation R_i, and X_i in the undeformed part, whose interfaces have parallel
+//! Legend: interface i has the position x_i and the rotation R_i, and X_i in the undeformed part, whose interfaces have parallel
 //! axes; f is the interface that carries the floating frame, q are the modal coordinates, E_i = R_fᵀ R_i.
 //!
 //! ```text
@@ -12,7 +12,7 @@
 //!
 //! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. With matrices that know the
 //! rigid motions the inertia of a rigid motion is exact. K acts on the relative motion alone, so that nothing changes when
-//! the element moves rigidly. What is left out is of the square of the rate of rotation over the frequencies of the modes; where
+//! the element moves rigidly. What is omitted is of the square of the rate of rotation over the frequencies of the modes; where
 //! second-order matrices are given, `second_order` has another kinetic energy in place of this one.
 //!
 //! Without the second term of the kinetic energy a part that moves fast and turns would be bent by that: η counts in turning
@@ -86,7 +86,7 @@ pub struct Superelement {
     largest_spin: Option<f64>,
     /// What estimates how loads change the stiffness; none where nobody asks.
     load_stiffness: Option<LoadStiffness>,
-    /// What estimates the forces of modes that are left out; none where nobody asks.
+    /// What estimates the forces of modes that are omitted; none where nobody asks.
     left_out: Option<LeftOut>,
     /// What is of second order in the deformation, where the matrices know it.
     second_order: Option<Box<SecondOrder>>,
@@ -109,7 +109,7 @@ thread_local! {
 }
 
 impl Superelement {
-    /// The element between `nodes`, whose places in the undeformed part are `places` [m], with the modal `coordinates`;
+    /// The element between `nodes`, whose positions in the undeformed part are `places` [m], with the modal `coordinates`;
     /// interface `frame` carries the floating frame. The matrices are taken as they are: see [`ReducedMatrices::check`].
     pub fn new(
         (nodes, coordinates): (Vec<NodeId>, Vec<CoordinateId>),

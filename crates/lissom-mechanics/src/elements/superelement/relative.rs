@@ -142,7 +142,7 @@ impl Relative {
         }
     }
 
-    /// Adds what forces conjugate to (r, κ) do while their directions turn: ∂(Yᵀ f)/∂ place at constant f, for the interface `i`
+    /// Adds what forces conjugate to (r, κ) do while their directions turn: ∂(Yᵀ f)/∂ position at constant f, for the interface `i`
     /// and the floating frame.
     pub(super) fn add_geometric(
         &self,

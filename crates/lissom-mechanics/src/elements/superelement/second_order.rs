@@ -14,7 +14,7 @@
 //! ```
 //!
 //! The equations are those of Poincaré for L. The kinetic energy of the points is the integral ½∫ρ |v + ω × (X + Ψ y) + Ψ ẏ|² as a whole: terms
-//! of third order must not be left out, or it would not stay positive where the inertia of a motion changes by as much as it is, such as that
+//! of third order must not be omitted, or it would not stay positive where the inertia of a motion changes by as much as it is, such as that
 //! about the axis of a slender part. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, rotation_part, screw, skew, translation_part};
@@ -123,7 +123,7 @@ pub(super) struct Deformed {
     gravity: Vector3,
     /// a.
     against: Vector3,
-    /// Maps of the unknowns to y, and of places to ẏ, of places and of twists to ÿ.
+    /// Maps of the unknowns to y, and of positions to ẏ, of positions and of twists to ÿ.
     gradient: Map,
     rate_by_place: Map,
     second_by_place: Map,
@@ -381,12 +381,12 @@ impl Deformed {
         }
     }
 
-    /// Adds the derivatives of the force dual to y by places and twists.
+    /// Adds the derivatives of the force dual to y by positions and twists.
     fn add_on_shape(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let frame = of.frame;
         let (mut by_place, by_rate) = (self.shape_by_place(of, law), &turning.dual[1]);
         by_place += &turning.dual[0];
-        // By a, as it depends on the floating frame's place and twist; by ω.
+        // By a, as it depends on the floating frame's position and twist; by ω.
         let moment = MatrixXx3::from_columns(&self.moment);
         let turned = -(&moment * skew(&self.gravity));
         let by_velocity = &moment * skew(&self.spin);
@@ -443,7 +443,7 @@ impl Deformed {
         matrix
     }
 
-    /// Adds the derivatives of force and moment on the floating frame by places and twists.
+    /// Adds the derivatives of force and moment on the floating frame by positions and twists.
     fn add_on_frame(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let (w, dw) = (self.spin, self.spin_rate);

@@ -17,7 +17,7 @@ fn fractions(paths: usize, members: usize, seed: u64) -> Result<Vec<f64>, String
         let parts = permutation(members, seed, 2 * path as u64);
         for (member, part) in parts.into_iter().enumerate() {
             let within = fraction(seed, 2 * path as u64 + 1, member as u64);
-            // The largest number below 1 stands for one that would be rounded to it.
+            // The largest number below 1 represents one that would be rounded to it.
             let value = (part as f64 + within) / members as f64;
             all[member * paths + path] = value.min(1.0 - f64::EPSILON / 2.0);
         }

@@ -1,4 +1,4 @@
-//! Random numbers by place: SplitMix64 [Steele, Lea and Flood 2014], so that number k of a stream needs no number before.
+//! Random numbers by position: SplitMix64 [Steele, Lea and Flood 2014], so that number k of a stream needs no number before.
 
 const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 

@@ -60,7 +60,7 @@ impl Shared {
         (!timeout.timed_out()).then(|| Arc::clone(&state.published))
     }
 
-    /// Takes values of sliders; those that are left out go back to the file's.
+    /// Takes values of sliders; those that are omitted go back to the file's.
     pub(super) fn ask(&self, parameters: BTreeMap<String, f64>) {
         let mut state = self.lock();
         state.parameters = parameters;

@@ -130,12 +130,12 @@ impl Element {
         values.try_into().map(Some).map_err(wrong)
     }
 
-    /// A number, or what it is where it is left out.
+    /// A number, or what it is where it is omitted.
     pub(super) fn number(&self, key: &str, default: f64) -> Result<f64, ImportError> {
         Ok(self.numbers::<1>(key)?.map_or(default, |[value]| value))
     }
 
-    /// A number that may not be negative; zero where it is left out.
+    /// A number that may not be negative; zero where it is omitted.
     pub(super) fn not_negative(&self, key: &str) -> Result<f64, ImportError> {
         let value = self.number(key, 0.0)?;
         if value < 0.0 { Err(self.fault(format!("`{key}` is negative: {value}"))) } else { Ok(value) }

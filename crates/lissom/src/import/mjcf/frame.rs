@@ -1,4 +1,4 @@
-//! Places and orientations as MJCF writes them.
+//! Positions and orientations as MJCF writes them.
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
@@ -55,7 +55,7 @@ pub(super) fn from_z(direction: &Vector3) -> Rotation {
     Rotation::about_axis(&across.try_normalize(1e-14).unwrap_or_else(Vector3::x), angle)
 }
 
-/// The place of an element in the frame around it.
+/// The position of an element in the frame around it.
 pub(super) fn frame(element: &Element, angles: &Angles) -> Result<Motion, ImportError> {
     let position = Vector3::from(element.numbers::<3>("pos")?.unwrap_or_default());
     Ok(Motion::new(rotation(element, angles)?, position))

@@ -1,5 +1,5 @@
 //! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or that of their shapes, default classes, gravity.
-//! Contacts, actuators and sensors are left out; what acts on the motion and is unknown here is refused.
+//! Contacts, actuators and sensors are omitted; what acts on the motion and is unknown here is rejected.
 
 mod element;
 mod frame;
@@ -276,7 +276,7 @@ fn inertial(own: &Element, placed: &Motion) -> Result<LinkInertia, ImportError> 
     Ok(LinkInertia { mass, centre: placed.position, inertia: turn * tensor * turn.transpose() })
 }
 
-/// Refuses names that occur twice.
+/// Rejects names that occur twice.
 fn check_names(robot: &Robot) -> Result<(), ImportError> {
     let twice = |names: Vec<&str>| {
         let mut seen = BTreeSet::new();
