@@ -21,7 +21,7 @@ const NOTHING: f64 = 1e-6;
 /// Tolerance of the runs that others are compared with.
 const FINE: &str = "1e-11";
 
-/// What a run came to.
+/// Result of a run.
 struct Finished {
     failure: Option<String>,
     iterations: f64,

@@ -37,7 +37,7 @@ pub(crate) enum BenchError {
     },
 }
 
-/// What a scene came to.
+/// Result of a scene.
 struct Measured {
     name: String,
     unknowns: usize,
@@ -137,7 +137,7 @@ fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
     })
 }
 
-/// Time for which this thread had a processor, where the system tells. It is brought up to date at every tick of some
+/// Processor time of this thread, where the system reports it. It is brought up to date at every tick of some
 /// milliseconds, and when the processor is offered to others.
 pub(crate) fn processor_time() -> Option<Duration> {
     std::thread::yield_now();
@@ -145,7 +145,7 @@ pub(crate) fn processor_time() -> Option<Duration> {
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }
 
-/// Bytes of memory in use, where the system tells.
+/// Bytes of memory in use, where the system reports it.
 fn resident() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/statm").ok()?;
     let pages: u64 = text.split_whitespace().nth(1)?.parse().ok()?;

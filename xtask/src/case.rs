@@ -73,7 +73,7 @@ pub(crate) struct Case {
     /// Checks over the project's examples.
     #[serde(default)]
     pub(crate) invariant: Vec<Invariant>,
-    /// Warnings that its runs are to tell; any other fails the case.
+    /// Warnings that its runs must report; any other fails the case.
     #[serde(default)]
     pub(crate) warns: Vec<Expected>,
 }
@@ -152,7 +152,7 @@ pub(crate) enum Measure {
     Completes,
 }
 
-/// One number to compare, or several of a kind of which the worst is told.
+/// One number to compare, or several of a kind of which the worst is reported.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Quantity {
@@ -230,7 +230,7 @@ pub(crate) struct Curve {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Refinement {
-    /// In words, as `mesh, 4-node elements`.
+    /// In words, such as `mesh, 4-node elements`.
     pub(crate) name: String,
     /// Run; `main` if it is not given.
     pub(crate) run: Option<String>,

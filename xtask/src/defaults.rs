@@ -1,6 +1,6 @@
 //! `cargo xtask defaults`: which scheme and which tolerance a model gets that names neither. Runs short scenes, examples and
 //! random mechanisms with steps chosen by their error, with every scheme and tolerance, and prints how far the positions are
-//! from those of fine runs, what was told, and what it cost. Knows no mechanics.
+//! from those of fine runs, the warnings, and the cost. Knows no mechanics.
 
 use lissom::{Override, Record, Session};
 use lissom_model::document::AnalysisKind;
@@ -36,7 +36,7 @@ pub(crate) struct DefaultsArguments {
     random: u64,
 }
 
-/// A run that came to its end.
+/// A run that reached its end.
 struct Ran {
     record: Record,
     is_warned: bool,
@@ -44,7 +44,7 @@ struct Ran {
     seconds: f64,
 }
 
-/// What a scheme with a tolerance came to over all models.
+/// Results of a scheme with a tolerance over all models.
 #[derive(Default)]
 struct Tally {
     failed: Vec<String>,
@@ -89,7 +89,7 @@ pub(crate) fn defaults(arguments: &DefaultsArguments) -> Result<bool, VerifyErro
     }
     println!("{compared} models; without a result that can be trusted: {}\n", list(&left_out));
     println!(
-        "| scheme | τ | failed | error, median | of nine in ten | largest | above 1 %, told | untold | cost |\n\
+        "| scheme | τ | failed | error, median | of nine in ten | largest | above 1 %, with warning | without | cost |\n\
          |---|---|---|---|---|---|---|---|---|"
     );
     for (scheme, tallies) in SCHEMES.iter().zip(&mut tallies) {
@@ -194,7 +194,7 @@ fn distance(one: &Record, other: &Record) -> Option<f64> {
     worst
 }
 
-/// Whether a column tells a position, in this unit.
+/// Whether a column is a position, in this unit.
 fn is_place(quantity: &str, unit: &str) -> bool {
     match quantity {
         "position" | "displacement" => unit == "m",

@@ -57,7 +57,7 @@ fn difference(case: &Case, computed: &Computed) -> Option<String> {
     let scale = scale.unwrap_or(largest);
     let triples = held.iter().zip(&computed.values).zip(&computed.errors);
     triples.enumerate().find_map(|(index, ((held, value), error))| {
-        // The last digit of a double is not told from its neighbour.
+        // The last digit of a double is not distinguished from its neighbour.
         let allowed = scale * (uncertainty + 1e-15) + error;
         let is_near = (held - value).abs() <= allowed;
         if is_near {

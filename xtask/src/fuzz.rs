@@ -1,5 +1,5 @@
 //! `cargo xtask fuzz`: texts that are damaged by chance, one after the other, through the readers: model files, and expressions. Each
-//! is read or rejected with its position; none breaks the program down. A seed and a number tell a case on every machine.
+//! is read or rejected with its position; none makes it panic. A seed and a number determine a case on every machine.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Display};
@@ -188,7 +188,7 @@ impl Display for Tally {
         let Self { read, refused, badly, panicked, slowest: (longest, slowest) } = self;
         write!(
             f,
-            "{read} read, {refused} refused with their place, {badly} answered badly, {panicked} panics"
+            "{read} read, {refused} rejected with their position, {badly} answered badly, {panicked} panics"
         )?;
         write!(f, "; the slowest, number {slowest}, took {:.1} ms", 1e3 * longest.as_secs_f64())
     }
@@ -240,7 +240,7 @@ pub(crate) fn fuzz(arguments: &FuzzArguments) -> std::io::Result<bool> {
     let began = Instant::now();
     let next = AtomicU64::new(arguments.first);
     let all: Mutex<Found> = Mutex::new(Found::default());
-    // A panic is a finding, and told as one.
+    // A panic is a finding, and reported as one.
     std::panic::set_hook(Box::new(|_| {}));
     std::thread::scope(|scope| {
         for _ in 0..arguments.threads.max(1) {
@@ -288,7 +288,7 @@ pub(crate) fn fuzz(arguments: &FuzzArguments) -> std::io::Result<bool> {
     Ok(bad.is_empty() && total == end - arguments.first)
 }
 
-/// The most memory that the program has had, where the system tells.
+/// Peak memory of the program, where the system reports it.
 fn most_memory() -> Option<String> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let most = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,4 +1,4 @@
-//! Chores of the project, as `cargo xtask verify`. Knows no mechanics: it runs models and compares numbers.
+//! Chores of the project, such as `cargo xtask verify`. Knows no mechanics: it runs models and compares numbers.
 
 mod ablate;
 mod bench;
@@ -124,7 +124,7 @@ struct CountArguments {
 /// What is measured.
 #[derive(clap::Args)]
 struct BenchArguments {
-    /// Scenes by name, as `chain-s-1000`; those that are kept as files if none is given
+    /// Scenes by name, such as `chain-s-1000`; those that are kept as files if none is given
     names: Vec<String>,
     /// Runs of each scene, of which the fastest counts
     #[arg(long, default_value_t = 3)]
@@ -163,7 +163,7 @@ struct AblateArguments {
     /// Random mechanisms to run beside
     #[arg(long, default_value_t = 0)]
     random: u64,
-    /// Instead of leaving out mechanisms halve and double each number they go by
+    /// Instead of switching off features halve and double each of their parameters
     #[arg(long)]
     numbers: bool,
 }
@@ -185,7 +185,7 @@ struct VerifyArguments {
     /// Print every row
     #[arg(long, short)]
     verbose: bool,
-    /// Fail where `verification/REPORT.md` tells other digits than these runs come to
+    /// Fail if the digits in `verification/REPORT.md` differ from those of these runs
     #[arg(long)]
     fresh: bool,
 }

@@ -1,4 +1,4 @@
-//! What a verification came to: rows of the report. Knows no files.
+//! Results of a verification: rows of the report. Knows no files.
 
 use std::time::Duration;
 

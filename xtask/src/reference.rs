@@ -51,7 +51,7 @@ fn reference_text() -> String {
     format!("{NOTE}{}", manual(&registry()))
 }
 
-/// Writes them; with `check` only tells whether they are what they would be.
+/// Writes them; with `check` only reports whether they are up to date.
 ///
 /// # Errors
 /// If a file cannot be read or written.

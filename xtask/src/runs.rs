@@ -14,7 +14,7 @@ use lissom_model::output::Column;
 use crate::blade;
 use crate::case::{Case, Run};
 
-/// What a run came to.
+/// Result of a run.
 pub(crate) struct Finished {
     /// What was recorded.
     pub(crate) record: Record,
@@ -26,7 +26,7 @@ pub(crate) struct Finished {
     pub(crate) violation: f64,
     /// Mesh and step, in words.
     pub(crate) grid: String,
-    /// Reasons that it told to doubt its results.
+    /// Its warnings.
     pub(crate) warnings: Vec<String>,
 }
 
@@ -147,7 +147,7 @@ fn modes(model: &Model, overrides: &[Override], document: &Document) -> Result<F
     })
 }
 
-/// Mesh and step in words, as `8 + 4 × 4 nodes, 50 load steps`.
+/// Mesh and step in words, such as `8 + 4 × 4 nodes, 50 load steps`.
 fn grid(document: &Document) -> String {
     let mut words = Vec::new();
     for order in 1..=3 {
@@ -184,7 +184,7 @@ fn grid(document: &Document) -> String {
             format!("path to {}", short(*end))
         }
         AnalysisKind::Path { end, .. } => format!("path to load factor {}", short(*end)),
-        AnalysisKind::Buckling { count } => format!("{count} load factors of buckling"),
+        AnalysisKind::Buckling { count } => format!("{count} buckling load factors"),
         AnalysisKind::Modes { count, .. } => format!("{count} modes"),
     });
     words.join(", ")

@@ -1,4 +1,4 @@
-//! Whether `verification/REPORT.md` still says what runs come to.
+//! Whether `verification/REPORT.md` still agrees with the runs.
 
 use std::collections::HashMap;
 

@@ -43,14 +43,14 @@ impl VerifyError {
     }
 }
 
-/// The project's folder: of the run where cargo tells it, of the build otherwise.
+/// The project's folder: that of the run if cargo reports it, otherwise that of the build.
 pub(crate) fn root() -> PathBuf {
     let chores =
         std::env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").to_owned());
     Path::new(&chores).parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
-/// Runs what is asked for; whether all went well.
+/// Runs the request; whether it succeeded.
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     let began = Instant::now();
     let root = root();

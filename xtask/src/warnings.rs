@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::outcome::{Row, Verdict};
 
-/// A row where a run warns, or where a warning that is expected does not come; none where nothing is to be told.
+/// A row where a run warns, or where an expected warning is missing; otherwise none.
 pub(crate) fn row(case: &Case, reported: &[(String, String)]) -> Option<Row> {
     let unexpected = reported
         .iter()

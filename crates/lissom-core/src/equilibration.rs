@@ -87,7 +87,7 @@ impl Equilibration {
     }
 }
 
-/// The power of two next to the inverse root of `square`; 1 where there is nothing to go by.
+/// The power of two next to the inverse root of `square`; 1 if `square` is zero.
 fn power_of_two(square: f64) -> f64 {
     const BIAS: i64 = 1023;
     const FRACTION: u32 = 52;

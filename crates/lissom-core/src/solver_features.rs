@@ -11,7 +11,7 @@ pub enum SolverFeature {
     Secants,
     /// A first correction is the last where the contraction of earlier solutions says so.
     SingleCorrection,
-    /// A tangent is given up when solutions with it have become dear.
+    /// A tangent is given up when solutions with it have become expensive.
     JacobianCost,
     /// Corrections that went too far are halved.
     BackOff,
@@ -26,7 +26,11 @@ pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 7] = [
     (SolverFeature::Prediction, "prediction", "first guesses by linear prediction from earlier steps"),
     (SolverFeature::Secants, "secants", "corrections improved by secants of earlier ones"),
     (SolverFeature::SingleCorrection, "single-correction", "a first correction accepted as the last"),
-    (SolverFeature::JacobianCost, "account", "a tangent renewed when solutions with it have become dear"),
+    (
+        SolverFeature::JacobianCost,
+        "account",
+        "a tangent renewed when solutions with it have become expensive",
+    ),
     (SolverFeature::BackOff, "back-off", "corrections that went too far halved"),
     (
         SolverFeature::StartStresses,

@@ -5,3 +5,4 @@ mod derivatives;
 mod dynamics;
 mod house_rules;
 mod mobility;
+mod prose;

@@ -24,7 +24,7 @@ pub enum DrawingError {
     #[error("{0}")]
     Empty(&'static str),
     /// A polygon, line or word has no position.
-    #[error("a place in it is not a finite number")]
+    #[error("a position in it is not a finite number")]
     NotFinite,
     /// It does not fit into a picture.
     #[error(transparent)]

@@ -261,7 +261,7 @@ pub(crate) const WHICH_COORDINATE: Parameter = Parameter::optional(
     "coordinate",
     ParameterType::Positive,
     "",
-    "Which coordinate of `joint`, counted from 1; may be left out where it has one.",
+    "Which coordinate of `joint`, counted from 1; may be omitted where it has one.",
 );
 
 /// Which coordinate of the other joint, for kinds that couple two.
@@ -269,7 +269,7 @@ pub(crate) const OTHER_COORDINATE: Parameter = Parameter::optional(
     "other_coordinate",
     ParameterType::Positive,
     "",
-    "Which coordinate of `other`, counted from 1; may be left out where it has one.",
+    "Which coordinate of `other`, counted from 1; may be omitted where it has one.",
 );
 
 /// A parameter's value.

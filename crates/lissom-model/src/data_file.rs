@@ -13,7 +13,7 @@ pub(crate) enum DataError {
     /// A column is not there.
     #[error("there is no column `{name}` in the heading of line {line}")]
     NoColumn {
-        /// What was asked for.
+        /// The request.
         name: String,
         /// Line of the heading.
         line: usize,

@@ -110,7 +110,7 @@ pub(crate) enum Shape {
     Numbers,
     /// A number, a list of numbers, or a square list of lists of numbers.
     SquareMatrix,
-    /// A list of joints, or of their coordinates, as `arm.angle`.
+    /// A list of joints, or of their coordinates, such as `arm.angle`.
     Coordinates,
     /// A table that is read entry by entry.
     Table,
@@ -207,7 +207,7 @@ impl Shape {
     pub(crate) fn place_keys() -> Vec<Key> {
         vec![
             required("on", Self::Node, "", "the node that carries it"),
-            optional("at", Self::Place, "m", "location at the start; default: the node's place"),
+            optional("at", Self::Place, "m", "location at the start; default: the node's position"),
         ]
     }
 
@@ -215,7 +215,7 @@ impl Shape {
     pub(crate) fn interface_keys() -> Vec<Key> {
         vec![
             required("name", Self::Text, "", "its name: its node is `superelement.name`"),
-            optional("at", Self::Vector, "m", "place in the axes of the part; default its origin"),
+            optional("at", Self::Vector, "m", "position in the axes of the part; default its origin"),
         ]
     }
 

@@ -13,7 +13,7 @@ use crate::table_values::table_keys;
 const INTRODUCTION: &str = "\
 A model is a TOML file. Units are SI, angles radians, axes right-handed.
 
-- **Numbers.** Wherever a number stands, a text may stand instead: an expression of the `[parameters]`, such as
+- **Numbers.** Wherever a number is expected, a text is allowed: an expression of the `[parameters]`, such as
   `\"L/2\"`. A parameter may name those above it.
 - **Expressions** know `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
   `a < b`, `<=`, `>`, `>=` are 1 where they hold and 0 elsewhere; `if(condition, a, b)` is `b` where the condition is 0.
@@ -25,7 +25,7 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
   `columns = [\"time\", \"torque\"]` take two columns of a text file in the model's folder.
 - **Sizes** of loads are functions of time, or expressions that name inputs, signals, states, coordinates of joints as
   `arm.angle`, and components of outputs as `tip.u1`.
-- **Places** are three numbers or the name of an entry of `[points]`.
+- **Positions** are three numbers or the name of an entry of `[points]`.
 - **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
   Beams, bodies and point masses share one set of names.
 - **Sections** count axial, shear 2, shear 3, torsion, bending 2, bending 3; axis 1 runs along the beam, axis 3 leans
@@ -191,14 +191,14 @@ pub(crate) fn words(shape: &Shape) -> String {
             return format!("a list of {}", quoted.join(", "));
         }
         Shape::Name(table) => return format!("the name of an entry of `[{table}]`"),
-        Shape::Place => "a place",
-        Shape::PlaceOrNode => "a place or a node",
+        Shape::Place => "a position",
+        Shape::PlaceOrNode => "a position or a node",
         Shape::Node => "a node",
         Shape::Function => "a function of time",
         Shape::FunctionOf(variable) => {
             return format!("an expression of `{variable}`, or a table of it written as a function of time");
         }
-        Shape::Equation => "an expression of coordinates of joints, as `arm.angle`, and of `t`",
+        Shape::Equation => "an expression of coordinates of joints, such as `arm.angle`, and of `t`",
         Shape::Size => "a size",
         Shape::Formula => "an expression of signals",
         Shape::Signal => "an expression of signals, or `{ value, sample, start }`",
@@ -215,7 +215,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",
         Shape::Shear => "a number, two numbers, or a word",
         Shape::Stations => "a list of tables",
-        Shape::Places => "a list of `{ on, at }`, `at` may be left out",
+        Shape::Places => "a list of `{ on, at }`, `at` may be omitted",
         Shape::Interfaces => "a list of `{ name, at }`",
         Shape::Rows => "a list of pairs",
         Shape::Pair => "two numbers",
@@ -227,7 +227,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Numbers => "a list of numbers",
         Shape::SquareMatrix => "a number, a list of numbers (a diagonal), or a square matrix by rows",
         Shape::Coordinates => {
-            "a list of coordinates of joints, as `\"arm.angle\"`, or of joints: all of theirs"
+            "a list of coordinates of joints, such as `\"arm.angle\"`, or of joints: all of theirs"
         }
         Shape::Table => "a table",
     };

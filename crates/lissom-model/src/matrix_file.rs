@@ -18,7 +18,7 @@ pub(crate) enum MatrixError {
     )]
     Unknown(String),
     /// The sizes are missing.
-    #[error("line {line}: {wanted} must stand here")]
+    #[error("line {line}: {wanted} must be here")]
     Sizes {
         /// Line from 1.
         line: usize,

@@ -1,4 +1,4 @@
-//! Numbers of a model file by their paths, as `bodies.top.mass`.
+//! Numbers of a model file by their paths, such as `bodies.top.mass`.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -33,7 +33,7 @@ pub fn number_at(
             .and_then(|expression| expression.constant())
             .ok_or_else(|| format!("`{path}` is not a number: \"{words}\"")),
         Some(Value::List(_)) => Err(format!(
-            "`{path}` is a list: write a parameter into it, as \"a\" with `parameters.a`, and name that"
+            "`{path}` is a list: write a parameter into it, such as \"a\" with `parameters.a`, and name that"
         )),
         Some(Value::Table(_)) => Err(format!("`{path}` is a table: name a number in it")),
         Some(_) => Err(format!("`{path}` is not a number")),

@@ -170,7 +170,7 @@ impl Made<'_> {
                 let help = suggest::help(owner, known);
                 fault(format!("there is no `{}`", name.text))
                     .help(
-                        "name a component of another output, as `tip.u1`, a joint's coordinate, or a signal",
+                        "name a component of another output, such as `tip.u1`, a joint's coordinate, or a signal",
                     )
                     .maybe_help(help)
             })?;

@@ -348,7 +348,7 @@ fn line_starts(text: &str) -> Vec<usize> {
     std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect()
 }
 
-/// The table of a TOML text that `place` is in, as `joints.hinge`; without the key itself, where that is a number of the table.
+/// The table of a TOML text that `place` is in, such as `joints.hinge`; without the key itself, where that is a number of the table.
 fn table_at(text: &str, place: usize) -> Option<String> {
     let is_header = |line: &&str| {
         let inner = line.trim_start_matches('[').split(']').next().unwrap_or_default();
@@ -418,7 +418,7 @@ impl Report {
     }
 
     /// Every problem for programs: severity, message, help, and where it is known the file with line and column, counted from
-    /// one, and the table of the model file, as `joints.hinge`.
+    /// one, and the table of the model file, such as `joints.hinge`.
     pub fn to_value(&self) -> serde_json::Value {
         let mut lines = BTreeMap::new();
         let of = |shown: &Shown| {

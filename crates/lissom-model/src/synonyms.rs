@@ -76,7 +76,7 @@ pub(crate) fn instead_of_unit(word: &str) -> Option<&'static str> {
         "rad" => "angles are in radians: leave the unit out",
         "kg" | "g" | "m" | "cm" | "mm" | "km" | "s" | "ms" | "N" | "kN" | "Nm" | "Pa" | "kPa" | "MPa"
         | "GPa" | "Hz" | "lb" | "ft" => {
-            "numbers have no units in words: write them in kg, m, s, N and rad, as `210e9` for 210 GPa"
+            "numbers have no units in words: write them in kg, m, s, N and rad, such as `210e9` for 210 GPa"
         }
         _ => return None,
     })

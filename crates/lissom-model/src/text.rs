@@ -138,7 +138,7 @@ impl Tree {
             let done = patch.and_then(|patch| {
                 if patch.is_of_part(&self.root) {
                     let place = patch.path.first().map(|(_, span)| *span).unwrap_or_default();
-                    let message = format!("`{path}` lies in a part, where nothing can be left out");
+                    let message = format!("`{path}` lies in a part, where nothing can be omitted");
                     let help = "change the file that the part is made of, or set another value";
                     return Err(Box::new(Problem::error(place, message).help(help)));
                 }
@@ -190,7 +190,7 @@ fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
     let help = if message.contains("duplicate") {
         "every name and key may be given only once in its table"
     } else if message.contains("string values must be quoted") {
-        "texts and expressions stand in quotes, as in \"sin(t)\"; numbers as in 1.5 or 2e11"
+        "texts and expressions are in quotes, as in \"sin(t)\"; numbers as in 1.5 or 2e11"
     } else if text.get(span.end..).is_some_and(|rest| rest.starts_with(','))
         && text.get(..span.end).is_some_and(|before| before.ends_with(|last: char| last.is_ascii_digit()))
     {

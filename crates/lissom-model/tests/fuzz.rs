@@ -1,4 +1,4 @@
-//! Whatever the text, the decoder answers: it reads the model or tells what is wrong, and never breaks down.
+//! Whatever the text, the decoder reads the model or reports what is wrong, and never panics.
 
 use crate::support;
 use crate::support::answers;

@@ -60,7 +60,7 @@ fn read(text: &str) -> Document {
     read_with(text, &[("arm.toml", ARM)], &[]).map_err(|report| report.render(false)).unwrap()
 }
 
-/// What is told of a model that is wrong.
+/// The report on a model that is wrong.
 fn reported(text: &str, files: &[(&str, &str)], overrides: &[(&str, &str)]) -> String {
     read_with(text, files, overrides).expect_err("it is wrong").render(false)
 }
@@ -268,7 +268,7 @@ fn mistakes_are_shown_in_the_included_file_and_where_it_is_included() {
     assert!(text.contains("[models/sub/arm.toml:13:11]"), "the line of the file: {text}");
     assert!(text.contains("this is in the part `leg1`; the same in 2 more parts, `leg3` the last"), "{text}");
     assert!(text.contains("[models/model.toml:2:8]"), "the line of the model: {text}");
-    assert_eq!(text.matches("unknown name").count(), 1, "told once: {text}");
+    assert_eq!(text.matches("unknown name").count(), 1, "reported once: {text}");
     // Two levels.
     let middle = "[parts.inner]\ninclude = \"sub/arm.toml\"\nnames = { frame = \"ground\" }\n";
     let text = reported(
@@ -311,7 +311,7 @@ fn mistakes_with_parts_are_reported() {
         ("[parts.a]\nlike = \"b\"\n[parts.b]\nlike = \"a\"\n".to_owned(), "is like itself"),
         ("[parts.a]\ninclude = \"self.toml\"\n".to_owned(), "`self.toml` includes itself: self.toml includes self.toml"),
         ("[parts.a]\ninclude = \"one.toml\"\n".to_owned(), "one.toml includes two.toml includes one.toml"),
-        ("[parts.a]\ninclude = \"heavy.toml\"\n".to_owned(), "`gravity` cannot stand in an included file"),
+        ("[parts.a]\ninclude = \"heavy.toml\"\n".to_owned(), "`gravity` is not allowed in an included file"),
         ("bodies.a = { mass = 1, inertia = [1, 1, 1] }\n[parts.a.bodies.b]\nmass = 1\ninertia = [1, 1, 1]\n".to_owned(), "the body `a` has the name of a part"),
         (turned.to_owned(), "is none of the global axes, as its part is turned"),
         ("[parts.ground.bodies.b]\nmass = 1\ninertia = [1, 1, 1]\n".to_owned(), "`ground` cannot be the name of a part"),

@@ -132,7 +132,7 @@ impl<S: Simd> Real for Lanes<S> {
         arguments: [Self; K],
         function: fn([f64; K]) -> [[f64; N]; M],
     ) -> [[Self; N]; M] {
-        const { assert!(K > 0, "an argument tells the kind of vector") };
+        const { assert!(K > 0, "an argument selects the kind of vector") };
         let mut columns = [[0.0; WIDTH]; K];
         for k in 0..K {
             arguments[k].store(&mut columns[k], 0);

@@ -19,7 +19,7 @@ create_exception!(
     lissom,
     ModelError,
     LissomError,
-    "A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy.\n\n`problems` has them as \
+    "A model or sweep is wrong. The text underlines every mistake, with a remedy.\n\n`problems` has them as \
      `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, where it is known, `part`, `file`, `line`, \
      `column`. `part` and `remedy` are those of the first."
 );

@@ -51,7 +51,7 @@ impl Inner {
         &self.values
     }
 
-    /// Reasons to doubt the results that Python has not been given.
+    /// Warnings that Python has not received.
     fn news(&mut self) -> Vec<String> {
         let count = self.session.warnings().count();
         let news = if count > self.reported {
@@ -69,7 +69,7 @@ fn words(warning: &Warning) -> String {
     format!("{}: {warning}", warning.code())
 }
 
-/// Warns of reasons to doubt the results.
+/// Issues these warnings.
 fn warn(py: Python<'_>, news: &[String]) -> PyResult<()> {
     if news.is_empty() {
         return Ok(());
@@ -157,7 +157,7 @@ impl Simulation {
         warn(py, &outcome?)
     }
 
-    /// Reasons to doubt the results up to now, as in `summary.json`. Each is also reported by a `ModelWarning` when it comes up.
+    /// Warnings up to now, as in `summary.json`. Each is also reported by a `ModelWarning` when it comes up.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.lock().session.warnings().map(words).collect()

@@ -18,7 +18,7 @@ pub struct Refined<S> {
     pub solved: Vec<S>,
     /// Error of each unknown, `solved - exact`.
     pub errors: Vec<S>,
-    /// Whether refinement came to an end: otherwise the errors are lower bounds at best.
+    /// Whether refinement converged: otherwise the errors are lower bounds at best.
     pub converged: bool,
 }
 

@@ -214,7 +214,7 @@ impl Feedback {
         cliques
     }
 
-    /// Looks up the positions of local matrices in the tangent's pattern.
+    /// Determines the positions of local matrices in the tangent's pattern.
     pub fn locate(&mut self, pattern: &Pattern) {
         self.places = ScatterMap::new();
         for driven in &self.driven {

@@ -68,6 +68,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let end = session.output(angle)?[0];
-    assert!((end - TARGET).abs() < 1e-3, "the arm stands at {end} rad");
+    assert!((end - TARGET).abs() < 1e-3, "the arm is at {end} rad");
     Ok(())
 }

@@ -21,7 +21,7 @@ const CROSSED: f64 = 1e-7;
 /// … or after so many solutions.
 const SOLUTIONS: usize = 8;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CampbellRequest {
     /// Path of the number that is varied.

@@ -39,7 +39,7 @@ pub enum Measure {
     Rms,
 }
 
-/// An output's column and what of it is differentiated, as `tip.u3@max`.
+/// An output's column and what of it is differentiated, such as `tip.u3@max`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// Name of the column.
@@ -110,7 +110,7 @@ pub enum GradientError {
     Unlike(String),
     /// A function of time has its kinks at other times in a neighbouring model.
     #[error(
-        "another value at `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s: steps end where it stands, and see \
+        "another value at `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s: steps end where it is, and see \
          nothing of how it moves; smooth it out over several steps, or compare runs"
     )]
     KinkMoves {
@@ -464,7 +464,7 @@ impl GradientReport {
         text
     }
 
-    /// A reason to doubt the derivatives, if there is one, after its code.
+    /// A warning about the derivatives, if there is one, after its code.
     pub fn doubt(&self) -> Option<&'static str> {
         match self.confirmation {
             Some(Confirmation::Confirmed { .. }) => None,

@@ -18,7 +18,7 @@ use crate::ports::{self, Input, Observed};
 use crate::response::FrequencyError;
 use crate::session::Session;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearizeRequest {
     /// The state about which the model is linearised.
@@ -117,7 +117,7 @@ fn report_of(
         ("unknowns.csv".to_owned(), unknowns(model)),
         square("M.mtx", "mass: derivative of the forces by accelerations", &parts.mass),
         square("D.mtx", "damping: derivative of the forces by velocities", &parts.damping),
-        square("K.mtx", "stiffness: derivative of the forces by places", &parts.stiffness),
+        square("K.mtx", "stiffness: derivative of the forces by positions", &parts.stiffness),
         ("G.mtx".to_owned(), sparse_matrix("gradient of the constraints", [multipliers, count], constraint)),
     ];
     if !inputs.is_empty() {
@@ -129,7 +129,7 @@ fn report_of(
         files.push(("inputs.mtx".to_owned(), sparse_matrix(comment, size, of_inputs)));
     }
     let kinds: [(&str, &str, Part, usize, usize); 4] = [
-        ("outputs-place.mtx", "outputs by places", |output| &output.by_place, 0, count),
+        ("outputs-place.mtx", "outputs by positions", |output| &output.by_place, 0, count),
         ("outputs-rate.mtx", "outputs by velocities", |output| &output.by_rate, 0, count),
         ("outputs-acceleration.mtx", "outputs by accelerations", |output| &output.by_acceleration, 0, count),
         (
@@ -151,7 +151,7 @@ fn report_of(
         let values: Vec<Vec<f64>> = outputs.iter().map(direct).collect();
         let size = [outputs.len(), inputs.len()];
         let text =
-            full_matrix("outputs by inputs, the motion left out", size, |row, column| values[row][column]);
+            full_matrix("outputs by inputs, the motion omitted", size, |row, column| values[row][column]);
         files.push(("outputs-input.mtx".to_owned(), text));
     }
     let right: Vec<Vec<f64>> = inputs.iter().map(|input| input.right.clone()).collect();

@@ -12,7 +12,7 @@ use crate::builder::IdNames;
 use crate::prepared::Prepared;
 use crate::session::{Session, SessionError};
 
-/// A path into the model file and the value to put there, as `("analysis.step", "1e-4")`.
+/// A path into the model file and the value to put there, such as `("analysis.step", "1e-4")`.
 pub type Override = (String, String);
 
 /// The text of a model file and of the files it includes. Each is read once and may be opened many times, with different

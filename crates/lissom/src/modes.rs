@@ -32,7 +32,7 @@ const BEYOND_ROUND_OFF: f64 = 30.0;
 /// … unless round-off leaves nothing of the comparison.
 const MAX_ROUND_OFF: f64 = 1e-2;
 
-/// What is asked for beyond the model; what is omitted is as the model's table `[analysis]` says if it is of kind `modes`.
+/// The request beyond the model; what is omitted is as the model's table `[analysis]` says if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModeRequest {
     /// How many modes; 20 where nothing says otherwise.
@@ -290,7 +290,7 @@ pub(crate) fn reliable<'a>(
     }
     let names: Vec<String> = left_out.iter().map(|mode| format!("{:.4e} Hz", mode.frequency)).collect();
     chosen.warnings.push(format!(
-        "{} of {} modes are left out ({}): their coefficients change as the model turns, because parts that turn and parts that do \
+        "{} of {} modes are omitted ({}): their coefficients change as the model turns, because parts that turn and parts that do \
          not are coupled across the axis, and {reason}; such modes need Floquet's theory, which is not there",
         left_out.len(),
         left_out.len() + chosen.found.modes.len(),

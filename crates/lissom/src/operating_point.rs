@@ -44,7 +44,7 @@ pub(crate) struct LinearizationPoint<'m, 'a> {
     pub(crate) model: &'m LinearModel<'a>,
     /// What it records.
     pub(crate) channels: &'m [Channel],
-    /// Reasons to doubt what follows from the linear model.
+    /// Warnings about the results of the linear model.
     pub(crate) warnings: Vec<String>,
 }
 

@@ -110,7 +110,7 @@ impl PathEnd {
     }
 }
 
-/// What a path came to.
+/// Result of a path.
 #[derive(Debug)]
 pub struct PathReport {
     /// How it ended.
@@ -145,7 +145,7 @@ pub struct PathSession {
     unknowns: [usize; 2],
     began: Instant,
     pictures: PathPictures,
-    /// Reasons to doubt the start.
+    /// Warnings about the start.
     doubts: Vec<Warning>,
 }
 
@@ -223,7 +223,7 @@ impl PathSession {
         &self.path
     }
 
-    /// Reasons to doubt the equilibrium at which a path along a number begins.
+    /// Warnings about the equilibrium at which a path along a parameter begins.
     pub fn warnings(&self) -> &[Warning] {
         &self.doubts
     }
@@ -366,7 +366,7 @@ impl PathSession {
 }
 
 /// The equilibrium under the loads of a model whose number has its first value: loads grow from nothing, so that it is the one
-/// that the loaded model comes to. Where nothing resists them at first, it is found by relaxation, with reasons to doubt it.
+/// of the loaded model. If nothing resists the loads at first, it is found by relaxation, with warnings.
 fn under_loads(
     varied: &Varied,
     [unloaded, loaded]: [Arc<System>; 2],
@@ -407,7 +407,7 @@ fn under_loads(
     Ok((path.state().clone(), Vec::new()))
 }
 
-/// What is known before the first step.
+/// Facts known before the first step.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
     crate::summary::of_request("path", name, overrides, document)
 }

@@ -40,7 +40,7 @@ pub enum PortError {
     },
     /// Energy or momentum.
     #[error(
-        "the output `{0}` has no linear response: name places, velocities, accelerations, reactions, section forces or signals"
+        "the output `{0}` has no linear response: name positions, velocities, accelerations, reactions, section forces or signals"
     )]
     NotLinear(String),
     /// An input that acts on nothing.

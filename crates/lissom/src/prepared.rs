@@ -41,8 +41,8 @@ pub enum StartError {
     NotFinite,
     /// Positions do not satisfy the constraints.
     #[error(
-        "the places of the state violate joint `{joint}` ({equation}) by {violation:.1e}: move all parts so that joints hold, \
-         or change the places in the model"
+        "the positions of the state violate joint `{joint}` ({equation}) by {violation:.1e}: move all parts so that joints hold, \
+         or change the positions in the model"
     )]
     Violated {
         /// Name of the joint.

@@ -26,7 +26,7 @@ use crate::operating_point::OperatingPoint;
 /// square of their number.
 const SOUGHT: [usize; 2] = [3, 24];
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReduceRequest {
     /// Names of bodies, point masses, beams, superelements or entries of `[parts]` that are reduced; all where there are none.
@@ -123,7 +123,7 @@ pub fn reduce(
     let (at, layout, mut warnings) = found?;
     if has_gravity {
         warnings
-            .push("gravity is left out: weight is that of the model that uses the superelement".to_owned());
+            .push("gravity is omitted: weight is that of the model that uses the superelement".to_owned());
     }
     let chosen = Chosen::of(&document, request, &names.names)?;
     let own = chosen.document(&document)?;

@@ -1,4 +1,4 @@
-//! What a run came to.
+//! Report of a run.
 
 use std::io;
 use std::time::Duration;
@@ -55,7 +55,7 @@ pub struct EnergyChange {
     pub largest: f64,
 }
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Debug)]
 pub struct RunReport {
     /// How it ended.

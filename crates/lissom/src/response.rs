@@ -34,7 +34,7 @@ const BESIDE: f64 = 1e-4;
 /// Damping ratios below this are none.
 const UNDAMPED: f64 = 1e-9;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ResponseRequest {
     /// The state about which the model is linearised.
@@ -75,7 +75,7 @@ pub enum FrequencyError {
     /// Wheels roll on.
     #[error(
         "wheels roll on at that instant: their contacts move through the axes of the parts, in which responses are found; take a \
-         state in which they stand, or `lissom modes`, which knows axes that do not spin with the wheels"
+         state in which they are, or `lissom modes`, which knows axes that do not spin with the wheels"
     )]
     RollsOn,
     /// A solve failed.
@@ -116,7 +116,7 @@ pub struct Transfer {
 }
 
 impl Transfer {
-    /// Names of output and input, as `tip.u3/motor`.
+    /// Names of output and input, such as `tip.u3/motor`.
     pub fn name(&self) -> String {
         format!("{}/{}", self.output.name(), self.input)
     }

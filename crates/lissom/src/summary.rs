@@ -1,4 +1,4 @@
-//! The facts of `summary.json`: what was asked for, and what it came to. Scripts read these names.
+//! The facts of `summary.json`: the request and its result. Scripts read these names.
 
 use lissom_core::analysis::InitialError;
 use lissom_core::analysis::assembly::Gap;
@@ -46,7 +46,7 @@ pub fn of_left_out(summary: &mut Summary, model: &Model) {
     }
 }
 
-/// What is known before the first step. A run that cannot even start is reported as failed, with `steps` zero;
+/// Facts known before the first step. A run that cannot even start is reported as failed, with `steps` zero;
 /// [`of_run`] replaces this.
 pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered: &Lowered) -> Summary {
     let Lowered { system, settings, plan, channels, .. } = lowered;
@@ -123,7 +123,7 @@ pub fn of_beginning(summary: &mut Summary) {
     insert(summary, "stopped", json!("running"));
 }
 
-/// Adds what a run came to.
+/// Adds the result of a run.
 pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let simulation = session.simulation();
     let totals = &report.totals;

@@ -182,7 +182,7 @@ fn runs_with_jumps_that_were_found_go_on_from_a_snapshot_to_the_last_bit() {
 
 #[test]
 fn drives_that_jump_are_reported() {
-    // Whether a run comes to its end, and whether it warns.
+    // Whether a run reaches its end, and whether it warns.
     let driven = |displacement: &str, analysis: &str| {
         let drive = "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rail\"";
         let text = format!("{}\n{drive}\ndisplacement = \"{displacement}\"\n", rail("0", analysis));
@@ -292,7 +292,7 @@ fn jumps_of_what_is_sampled_or_only_recorded_end_no_steps() {
     }
 }
 
-/// Prescribed motions whose position or speed jumps are told before they run; those whose acceleration alone jumps are not, however long
+/// Prescribed motions whose position or speed jumps are reported before they run; those whose acceleration alone jumps are not, however long
 /// the run is.
 #[test]
 fn prescribed_motions_that_jump_are_reported_at_once() {
@@ -314,7 +314,7 @@ fn prescribed_motions_that_jump_are_reported_at_once() {
             .and_then(|document| lower(&document))
             .unwrap_or_else(|report| panic!("{}", report.render(false)));
         let reported =
-            lowered.warnings.iter().any(|warning| warning.to_string().contains("jumps in place or speed"));
+            lowered.warnings.iter().any(|warning| warning.to_string().contains("jumps in position or speed"));
         assert_eq!(reported, is_reported, "{motion}: {:?}", lowered.warnings);
     }
 }
@@ -361,7 +361,7 @@ fn warnings_of_drives_count_their_jumps() {
             .and_then(|document| lower(&document))
             .unwrap_or_else(|report| panic!("{motion}: {}", report.render(false)));
         let warnings: Vec<String> = lowered.warnings.iter().map(ToString::to_string).collect();
-        let found = warnings.iter().find(|warning| warning.contains("jumps in place or speed"));
+        let found = warnings.iter().find(|warning| warning.contains("jumps in position or speed"));
         assert_eq!(found.is_some(), wanted.is_some(), "{motion}: {warnings:?}");
         assert!(
             found.is_none_or(|found| wanted.is_some_and(|wanted| found.contains(wanted))),

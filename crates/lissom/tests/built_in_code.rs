@@ -1,4 +1,4 @@
-//! Models built in code are those of files, to the last bit; and what is wrong with them is told.
+//! Models built in code are those of files, to the last bit; their errors are reported.
 
 use lissom::builder::analyses::{Dynamics, Statics};
 use lissom::builder::joints::{
@@ -168,7 +168,7 @@ fn ids_of_another_model_are_refused() {
     builder.add_named("hinge", Revolute::new(GROUND, body, [0.0, 0.0, 1.0]));
     let report = builder.build().unwrap_err().render(false);
     assert!(report.contains("`hinge`: a body of another model"), "{report}");
-    assert!(report.contains("built_in_code.rs:"), "the place in the code is told: {report}");
+    assert!(report.contains("built_in_code.rs:"), "the location in the code is reported: {report}");
 }
 
 #[test]

@@ -332,7 +332,7 @@ fn check_counts_freedoms_and_names_redundant_constraints() {
 
 #[test]
 fn schema_kinds_and_version_are_reported() {
-    let folder = Folder::new("told");
+    let folder = Folder::new("reported");
     let run = lissom(&["schema"], folder.path());
     let schema: serde_json::Value = serde_json::from_str(&run.output).unwrap();
     assert_eq!(schema["title"], "Lissom model");

@@ -96,14 +96,14 @@ fn a_contact_that_steps_do_not_resolve_is_reported() {
                 reported += usize::from(is_reported(&run));
                 lost += usize::from(error > 0.1);
                 assert!(error < 0.05 || is_reported(&run), "{scheme}, {stiffness} N/m, {step} s: {error:.3}");
-                // A contact of 31 steps: nothing to tell.
+                // A contact of 31 steps: no warning.
                 let is_resolved =
                     stiffness.parse::<f64>().unwrap() * step.parse::<f64>().unwrap().powi(2) < 0.02;
                 assert!(!(is_resolved && is_reported(&run)), "{scheme}, {stiffness} N/m, {step} s");
             }
         }
     }
-    assert!(reported >= 30 && lost >= 15, "{reported} told, {lost} of them lose a tenth of the velocity");
+    assert!(reported >= 30 && lost >= 15, "{reported} reported, {lost} of them lose a tenth of the velocity");
     let run = finished(&bounce("stiffness = 1e8", "scheme = \"radau-iia\"\nstep = 1e-3"));
     let text = run.simulation().warnings()[0].to_string();
     assert!(

@@ -161,7 +161,7 @@ fn roots_at_ends_of_steps_happen_there_and_once() {
     }
 }
 
-/// What comes to zero at the end of a step and turns back is no event; what happens a little before it is found there.
+/// A value that reaches zero at the end of a step and turns back is no event; one that does so shortly before is located.
 #[test]
 fn numbers_that_turn_back_at_the_end_of_a_step_do_not_pass() {
     // x = t/2 - t²: its rate is zero at 0.25 s, where x is 1/16.

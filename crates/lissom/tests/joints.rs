@@ -345,7 +345,7 @@ fn wrong_locks_are_reported() {
 }
 
 /// A slider on an arm that turns at a constant rate: r̈ = ω² r, and the guide's side force is Coriolis's, 2 m ω ṙ. The
-/// reaction is told in global axes, in those of the arm and in those of the slider.
+/// reaction is reported in global axes, in those of the arm and in those of the slider.
 #[test]
 fn a_slider_on_a_turning_arm_feels_coriolis() {
     let record = run(

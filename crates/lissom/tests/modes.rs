@@ -416,7 +416,7 @@ fn what_means_nothing_is_refused() {
         try_find(&two_masses([0.0; 2]), OperatingPoint::Time(0.5), 1),
         Err(ModesError::Time { .. })
     ));
-    // Swinging: told that coefficients are frozen.
+    // Swinging: a warning reports that coefficients are frozen.
     let report = find(&text, OperatingPoint::Time(0.3), 1);
     assert!(report.warnings[0].contains("not steady"), "{:?}", report.warnings);
 }

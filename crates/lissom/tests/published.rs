@@ -32,7 +32,7 @@ fn oscillation([mass, damping, stiffness]: [f64; 3], force: f64, [place, rate]: 
     rest + (-decay * time).exp() * (cosine * (omega * time).cos() + sine * (omega * time).sin())
 }
 
-/// Where x'' = a(t, x, x') comes to, by the classical Runge-Kutta method in small steps.
+/// Solution of x'' = a(t, x, x') by the classical Runge-Kutta method in small steps.
 fn motion(acceleration: &dyn Fn(f64, [f64; 2]) -> f64, start: [f64; 2], end: f64) -> f64 {
     const STEPS: u32 = 400_000;
     let step = end / f64::from(STEPS);
@@ -258,7 +258,7 @@ const EXUDYN: &[Published] = &[
         refined: Some((0.506_557_558_35, 1e-09)),
     },
     Published {
-        name: "a body on springs and dampers of six freedoms",
+        name: "a body on springs and dampers with six degrees of freedom",
         called: "connectorRigidBodySpringDamperTest",
         text: include_str!("published/six-springs.toml"),
         end: 0.1,

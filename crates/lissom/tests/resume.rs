@@ -35,7 +35,7 @@ fn lissom() -> Command {
     command
 }
 
-/// The summary without what the clock has told.
+/// The summary without times of the clock.
 fn facts(folder: &Path) -> Value {
     let mut facts: Value =
         serde_json::from_str(&fs::read_to_string(folder.join("summary.json")).unwrap()).unwrap();
@@ -61,7 +61,7 @@ fn started_with_plots(model: &str, more: &[&str], out: &Path) -> Command {
     command
 }
 
-/// Runs to the end; what does not come to it within minutes is killed, and the test fails.
+/// Runs to the end; a run that does not finish within minutes is killed, and the test fails.
 fn finished(command: &mut Command) -> Output {
     let mut child = command.spawn().unwrap();
     let began = Instant::now();
@@ -91,7 +91,7 @@ fn killed(start: &dyn Fn() -> Command, out: &Path, patience: Duration) -> usize 
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.code().is_none(), "{command:?}: {errors}");
         kills += 1;
-        assert!(kills < 500, "{command:?} does not come to an end");
+        assert!(kills < 500, "{command:?} does not finish");
         // Killed before the first checkpoint there is nothing to go on with.
         command = if out.join("checkpoint.lissom").is_file() {
             let mut command = lissom();

@@ -126,7 +126,7 @@ fn statics_along_a_prescribed_motion_gives_the_torques_of_its_drives() {
         record.column(owner, part).unwrap()
     };
     let (first, second) = (column("first"), column("second"));
-    // The start is an equilibrium as well: no torque is missing there, and no jump is told.
+    // The start is an equilibrium as well: no torque is missing there, and no jump is reported.
     assert_eq!(session.warnings().count(), 0);
     for (k, &t) in record.times.iter().enumerate() {
         let (a, b) = (0.8 * (std::f64::consts::TAU * t).sin(), t);

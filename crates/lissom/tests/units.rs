@@ -5,7 +5,7 @@ use std::path::Path;
 
 use lissom::Model;
 
-/// What a run came to: iterations, tangents, and the last record with its columns' units.
+/// Result of a run: iterations, tangents, and the last record with its columns' units.
 struct Run {
     iterations: usize,
     tangents: usize,

@@ -1,5 +1,5 @@
 //! Wheels on rails: the wheelset of Simeon, Fuehrer and Rentrop 1991 with its published digits, all schemes, stability, and what
-//! is told where the model of one contact ends.
+//! is reported where the model of one contact ends.
 
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, SessionError};

@@ -137,7 +137,7 @@ fn sparse(table: &Table, scaling: &str) -> [String; 4] {
     ]
 }
 
-/// What the augmented, sparse combination with a scaling came to, if it has factors.
+/// Result of the augmented, sparse combination with a scaling, if it has factors.
 fn combination<'a>(table: &'a Table, scaling: &str) -> Option<&'a Factored> {
     let wanted = |case: &&Case| case.augmented && case.solver == "sparse" && scaling_name(case) == scaling;
     table.cases.iter().find(wanted).and_then(|case| case.outcome.as_ref().ok())

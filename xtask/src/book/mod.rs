@@ -71,7 +71,7 @@ impl BookError {
     }
 }
 
-/// Where generators find models and tell how far they are.
+/// Where generators find models and report their progress.
 struct Studio {
     root: PathBuf,
     bar: ProgressBar,
@@ -98,7 +98,7 @@ impl Studio {
     }
 }
 
-/// Makes what is asked for, or checks; whether all is well.
+/// Generates or checks what is requested; whether it succeeded.
 pub(crate) fn figures(arguments: &FiguresArguments) -> Result<bool, BookError> {
     let root = root();
     if arguments.check {

@@ -154,7 +154,7 @@ const PROBLEMS: &[Problem] = &[
 
 const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha", "hht"];
 
-/// What a run came to.
+/// Result of a run.
 struct Run {
     values: Vec<f64>,
     steps: usize,
@@ -241,7 +241,7 @@ impl Problem {
         let settings = [
             ("step", format!("{size:e}")),
             ("output_every", steps.to_string()),
-            // What is the default: models of the verification ask for more.
+            // The default; models of the verification require more.
             ("tolerance", newton(scheme, 1e-8)),
         ];
         self.run(studio, scheme, &settings)

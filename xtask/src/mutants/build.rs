@@ -1,4 +1,4 @@
-//! Builds the tests of the copy once, with all mutants in them, and tells those that are no program.
+//! Builds the tests of the copy once, with all mutants in them, and reports those that do not compile.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -72,7 +72,7 @@ pub(crate) enum MutantsError {
         what: String,
     },
     /// Tests fail in code that is not broken.
-    #[error("the tests fail without a mutant, so that they tell nothing of mutants:\n{0}")]
+    #[error("the tests fail without a mutant, so their results with mutants are meaningless:\n{0}")]
     Baseline(String),
     /// Something else than a mutant keeps the tests from being built.
     #[error("the tests cannot be built:\n{0}")]

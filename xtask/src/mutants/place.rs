@@ -35,7 +35,7 @@ pub(super) struct Mutant {
     pub(super) line: usize,
     /// What is done, in which function, and the how manyth such change of the file it is if there are several.
     pub(super) what: String,
-    /// Tells whether the function has changed.
+    /// Whether the function has changed.
     pub(super) mark: u64,
     /// Bytes of the file.
     pub(super) range: Range<usize>,

@@ -11,7 +11,7 @@ use super::place::{CHOSEN, Mutant};
 
 /// Environment variable with the number of the mutant.
 pub(super) const VARIABLE: &str = "LISSOM_MUTANT";
-/// Value of [`VARIABLE`] with which none is chosen, and each that a thread comes to is written down.
+/// Value of [`VARIABLE`] with which none is chosen, and each that a thread reaches is recorded.
 pub(super) const RECORD: &str = "4294967294";
 /// Environment variable with the file that it is written to: a number and a thread's name on each line.
 pub(super) const REACHED: &str = "LISSOM_MUTANTS_REACHED";

@@ -1,4 +1,4 @@
-//! Whether the tests notice a mutant: those that come to it run, the shortest first, until one fails.
+//! Whether the tests notice a mutant: those that reach it run, the shortest first, until one fails.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};
@@ -17,7 +17,7 @@ use super::switch::{REACHED, RECORD, VARIABLE};
 const PATIENCE: f64 = 5.0;
 /// at the least so long [s]: the machine may be busy otherwise.
 const SHORTEST: f64 = 30.0;
-/// Bytes of addresses that a program may have: a loop that comes to no end may store something in each round.
+/// Bytes of addresses that a program may have: an endless loop may store something in each round.
 const ADDRESSES: &str = "--as=12000000000";
 /// What `timeout` exits with where it has ended a program, or killed it.
 const TIMED_OUT: [i32; 2] = [124, 137];
@@ -27,7 +27,7 @@ const TIMED_OUT: [i32; 2] = [124, 137];
 pub(super) enum Outcome {
     /// A test failed, this one first.
     Caught(String),
-    /// The tests did not come to an end.
+    /// The tests did not finish.
     Hung,
     /// It is no program.
     NotBuilt,
@@ -62,14 +62,14 @@ struct Unbroken {
     seconds: f64,
     /// Its tests.
     tests: BTreeSet<String>,
-    /// Threads that come to a mutant, by its number. Each test runs in a thread of its name.
+    /// Threads that reach a mutant, by its number. Each test runs in a thread of its name.
     reached: BTreeMap<usize, BTreeSet<String>>,
-    /// Whether it bears no recording, so that it is not known which mutants it comes to.
+    /// Whether it cannot be recorded, so that it is not known which mutants it reaches.
     is_unknown: bool,
 }
 
 impl Unbroken {
-    /// The tests that come to a mutant; an empty list for all.
+    /// The tests that reach a mutant; an empty list for all.
     fn tests_at(&self, number: usize) -> Option<Vec<String>> {
         if self.is_unknown {
             return Some(Vec::new());
@@ -149,7 +149,7 @@ impl Trials {
         Ok(Unbroken { built, seconds: run.seconds, tests: run.tests, reached, is_unknown })
     }
 
-    /// Runs the tests that come to a mutant until one fails.
+    /// Runs the tests that reach a mutant until one fails.
     ///
     /// # Errors
     /// If a program cannot be run.
@@ -230,7 +230,7 @@ impl Trials {
     }
 }
 
-/// The test that a line tells the result of, and whether it passed.
+/// The test whose result a line reports, and whether it passed.
 fn result(line: &str) -> Option<(&str, bool)> {
     let (test, result) = line.strip_prefix("test ")?.rsplit_once(" ... ")?;
     let test = test.strip_suffix(" - should panic").unwrap_or(test);

@@ -1,4 +1,4 @@
-//! Random numbers of a case: SplitMix64 [Steele, Lea and Flood 2014], so that a seed tells the case on every machine.
+//! Random numbers of a case: SplitMix64 [Steele, Lea and Flood 2014], so that a seed determines the case on every machine.
 
 /// A stream of random numbers.
 pub(crate) struct Draw(u64);

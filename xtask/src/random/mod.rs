@@ -1,5 +1,5 @@
 //! `cargo xtask random`: random mechanisms through the same path as a user's model file, each with several schemes and
-//! steps, against energy, momentum, a quarter of the step and each other. A seed tells every case.
+//! steps, against energy, momentum, a quarter of the step and each other. A seed determines every case.
 
 pub(crate) mod draw;
 mod mechanism;
@@ -65,7 +65,7 @@ pub(crate) fn random(arguments: &RandomArguments) -> std::io::Result<bool> {
     let limit = arguments.minutes.map(|minutes| Duration::from_secs_f64(minutes.max(0.0) * 60.0));
     let next = AtomicU64::new(arguments.first);
     let found: Mutex<Vec<(u64, Vec<Finding>)>> = Mutex::new(Vec::new());
-    // A panic is a finding, and told as one.
+    // A panic is a finding, and reported as one.
     std::panic::set_hook(Box::new(|_| {}));
     std::thread::scope(|scope| {
         for _ in 0..arguments.threads.max(1) {

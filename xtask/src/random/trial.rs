@@ -1,4 +1,4 @@
-//! One random mechanism, run by several schemes and steps, and what that tells: whether a run ended well with a wrong
+//! One random mechanism, run by several schemes and steps, and the conclusions: whether a run ended well with a wrong
 //! answer, failed, or warned without need.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -18,7 +18,7 @@ const STEP: f64 = 1e-3;
 /// Drift of energy or momentum, over what is turned over, that counts as wrong.
 const DRIFT: f64 = 0.01;
 
-/// What a trial came to.
+/// Result of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Finding {
     /// All schemes agree.
@@ -113,7 +113,7 @@ const REFERENCES: [Way; 2] = [
     },
 ];
 
-/// A run that came to its end.
+/// A run that reached its end.
 struct Ran {
     record: Record,
     warnings: Vec<String>,
@@ -154,7 +154,7 @@ fn run(text: &str, way: &Way) -> Result<Ran, NotRan> {
     })
 }
 
-/// Columns that tell where the parts are.
+/// Columns with positions of the parts.
 fn places(record: &Record) -> Vec<usize> {
     let is_place = |index: &usize| {
         let output = &record.columns[*index].output;

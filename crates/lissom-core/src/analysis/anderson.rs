@@ -142,7 +142,7 @@ impl Anderson {
         }
     }
 
-    /// Takes note of the secant from the last correction to this one.
+    /// Records the secant from the last correction to this one.
     #[inline(always)]
     fn note(&mut self, corrections: &[Vec<f64>], credible: f64) {
         let slot = self.next;

@@ -362,7 +362,7 @@ impl StepEquations<'_> {
         largest
     }
 
-    /// Takes note of how the tangent in use is scaled.
+    /// Records how the tangent in use is scaled.
     fn note_scales(&mut self) {
         self.work.note_scales(self.system.layout(), &self.scaled);
     }

@@ -29,7 +29,7 @@ pub struct Case {
     pub augmented: bool,
     /// Name of the solver.
     pub solver: &'static str,
-    /// What it came to.
+    /// Its result.
     pub outcome: Result<Factored, Stopped>,
 }
 

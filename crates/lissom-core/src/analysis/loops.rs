@@ -86,7 +86,7 @@ fn columns_of(constraint: &dyn Constraint, layout: &Layout) -> Vec<usize> {
 }
 
 /// Takes away constraints with a side that nothing else holds, and that is free enough to satisfy them: equations on fewer
-/// freedoms than they are may repeat each other without any loop.
+/// degrees of freedom than they are may be redundant without any loop.
 fn take_ends(system: &System, is_kept: &mut [bool]) {
     let layout = system.layout();
     let sides: Vec<Vec<Vec<usize>>> = system

@@ -1,4 +1,4 @@
-//! How many freedoms the constraints leave, and which of them repeat others: rank of B at a configuration,
+//! Number of degrees of freedom that the constraints leave, and redundant constraints: rank of B at a configuration,
 //! by elimination of its rows in the order of the joints.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -16,16 +16,16 @@ const LARGE_ENOUGH: f64 = 0.1;
 /// What takes part in a dependence by less than this is round-off.
 const TAKES_PART: f64 = 1e-6;
 
-/// Count of freedoms.
+/// Count of degrees of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
-    /// Node freedoms and algebraic coordinates.
+    /// Degrees of freedom of nodes and algebraic coordinates.
     pub coordinates: usize,
     /// Equations of joints and drives.
     pub constraints: usize,
     /// Independent ones among them.
     pub rank: usize,
-    /// Freedoms left: coordinates less independent equations.
+    /// Degrees of freedom: coordinates less independent equations.
     pub freedoms: usize,
     /// Equations that follow from earlier ones.
     pub redundant: Vec<Redundant>,
@@ -40,7 +40,7 @@ pub struct Redundant {
     pub equation: &'static str,
     /// Joints whose equations it follows from.
     pub among: Vec<String>,
-    /// The direction in inertial axes that its joint repeats, as `translation along y`; none of drives and couplings.
+    /// The direction in inertial axes that its joint repeats, such as `translation along y`; none of drives and couplings.
     pub direction: Option<String>,
     /// Multipliers, and their values, that are in equilibrium with each other without any load: what may be added to
     /// those of a solution. The one of this equation is 1.
@@ -72,7 +72,7 @@ pub fn has_loops(system: &System) -> bool {
     !loops::of(system).is_empty()
 }
 
-/// Freedoms and redundant constraints of `system` at `state`.
+/// Degrees of freedom and redundant constraints of `system` at `state`.
 pub fn mobility(system: &System, state: &State) -> Mobility {
     let layout = system.layout();
     let mut result = Mobility {

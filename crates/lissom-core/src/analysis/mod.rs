@@ -1,4 +1,4 @@
-//! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
+//! What the user asks for: consistent initial values, time steps, load steps, mobility.
 
 pub mod accumulated;
 mod anderson;

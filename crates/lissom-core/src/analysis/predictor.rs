@@ -19,7 +19,7 @@ use crate::tuning::{Tuning, TuningParameter};
 
 /// Steps that are looked back at most, K.
 const MAX_STEPS: usize = 8;
-/// A prediction that would have left more than this part of what the scheme's own guess missed is not followed: where
+/// A prediction that would have left more than this fraction of what the scheme's own guess missed is not followed: where
 /// motion has just jumped, or constraints lose their rank, it leads to other branches.
 const CREDIBLE: f64 = 0.5;
 
@@ -138,7 +138,7 @@ impl Predictor {
         self.processor.0.dispatch(Improve { memory: self, guess });
     }
 
-    /// Takes note of what was found, and so of what the scheme's guess, given by stage, has missed.
+    /// Records the solution, and so the error of the scheme's guess, given by stage.
     pub(crate) fn learn<'a>(
         &mut self,
         found: &[Vec<f64>],
@@ -217,7 +217,7 @@ impl pulp::WithSimd for Improve<'_> {
     }
 }
 
-/// Takes note of one stage, whose first block is `first`; gives the products of what was missed now with what was
+/// Records one stage, whose first block is `first`; returns the products of what was missed now with what was
 /// missed before, by place, and with itself.
 struct Note<'a> {
     memory: &'a mut Predictor,

@@ -45,7 +45,7 @@ pub struct Simulation {
     /// Numbers that depend on the whole motion.
     pub(crate) accumulation: Accumulation,
     pub(crate) monitors: Monitors,
-    /// Reasons to doubt the motion up to the state.
+    /// Warnings about the motion up to the state.
     pub(crate) warnings: Vec<Warning>,
     pub(crate) totals: Totals,
     /// Whether the integrator still holds the step that led to the state.
@@ -98,7 +98,7 @@ impl Simulation {
         &self.energy_balance
     }
 
-    /// Reasons to doubt the motion up to the state, each kind once.
+    /// Warnings about the motion up to the state, each kind once.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
     }

@@ -205,7 +205,7 @@ impl Known {
         self.follow(time, (rank, named), smallest / most)
     }
 
-    /// Takes note of the size of what vanishes in a singular position, with its number, and returns the position and the
+    /// Records the size of what vanishes in a singular position, with its number, and returns the position and the
     /// equation to be named, if the motion has come through one.
     fn follow(&mut self, time: f64, (number, equation): (usize, usize), size: f64) -> Option<(f64, usize)> {
         self.looks.push((time, number, size));

@@ -161,7 +161,7 @@ impl Workspace {
         }
     }
 
-    /// Takes note of what the scheme's first guess has missed; `multipliers` are those at the start of the step.
+    /// Records the error of the scheme's first guess; `multipliers` are those at the start of the step.
     pub(crate) fn learn(&mut self, scheme: &Scheme, multipliers: &[f64]) {
         for (stage, predicted) in scheme.stages.iter().zip(&mut self.predicted) {
             self.unit.predict(&stage.prediction, predicted);
@@ -172,7 +172,7 @@ impl Workspace {
         self.is_miss_known = true;
     }
 
-    /// Takes note of how residuals are to be scaled for the tangent in use.
+    /// Records how residuals are to be scaled for the tangent in use.
     pub(crate) fn note_scales(&mut self, layout: &Layout, scaled: &Scaled) {
         self.row_factors.fill(1.0);
         scaled.scale_residual(layout, &mut self.row_factors);

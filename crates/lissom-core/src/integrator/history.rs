@@ -124,7 +124,7 @@ impl IntegratorHistory {
                 *slope = (now - before) / elapsed;
             }
         } else if delay != 0.0 {
-            // At the start the memory is the acceleration a little later.
+            // At the start the memory is the acceleration shortly after it.
             self.slope.copy_from_slice(&state.algorithmic);
             for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
                 for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {

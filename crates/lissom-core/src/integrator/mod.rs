@@ -85,7 +85,7 @@ impl Integrator {
         }
     }
 
-    /// Solves a step of `size` [s] and leaves what it comes to in `attempt`.
+    /// Solves a step of `size` [s] and leaves the result in `attempt`.
     ///
     /// # Errors
     /// If Newton's iterations do not converge, the tangent has no factorisation, or something at the end is not finite.
@@ -159,7 +159,7 @@ impl Integrator {
         self.work.note_scales(system.layout(), &self.scaled);
     }
 
-    /// Leaves what the increments and multipliers found come to at the end of `attempt`, which began at `state`.
+    /// Writes the end of `attempt`, which began at `state`, from the increments and multipliers found.
     pub(crate) fn finish(
         &mut self,
         problem: Problem<'_>,

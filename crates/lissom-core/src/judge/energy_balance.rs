@@ -22,7 +22,7 @@ use crate::system::{State, System};
 
 /// A surplus of this part of the energy turned over is reported.
 const NOTEWORTHY: f64 = 0.05;
-/// A surplus of this part of the energy turned over, over a run or in a single step, makes the motion unbelievable.
+/// A surplus of this part of the energy turned over, over a run or in a single step, makes the motion invalid.
 const GROSS: f64 = 0.25;
 /// Places are known to this part of the representative length: energies below are round-off.
 const PLACE: f64 = 1e-7;
@@ -156,13 +156,13 @@ impl EnergyBalance {
         after
     }
 
-    /// Takes note of an impact that takes energy at an instant.
+    /// Records an impact that dissipates energy at an instant.
     pub(crate) fn record_impact(&mut self, system: &System, before: &Kinematics, after: &Kinematics) {
         self.latches += system.energy(before).kinetic - system.energy(after).kinetic;
         self.weigh(system.energy(after), None);
     }
 
-    /// Takes note of the energy; in statics with the part of the weight that acts as a load.
+    /// Records the energy; in statics with the part of the weight that acts as a load.
     fn weigh(&mut self, energy: Energy, of_weight: Option<f64>) {
         if let Some(part) = of_weight {
             self.loads -= part * (energy.potential - self.energy.potential);

@@ -118,7 +118,7 @@ impl Judge<'_> {
         })
     }
 
-    /// Told where constraints are violated by more than solving leaves, and less than what fails.
+    /// Constraints violated by more than solving leaves, and less than what fails, are reported.
     pub(crate) fn regularized(&self, end: &State, worst: f64) -> Option<Warning> {
         let is_reported = worst > NOTEWORTHY_VIOLATION;
         is_reported.then(|| Warning::RegularizedConstraints {

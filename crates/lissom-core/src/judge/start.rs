@@ -16,7 +16,7 @@ const WRITTEN: f64 = 1e-6;
 const NOTHING: f64 = 1e-4;
 /// Rates of constraints that stay above this part of the largest rate contradict each other.
 const MAX_RATE: f64 = 1e-6;
-/// Deformation rates below this part of the largest speed over the representative length are not worth telling.
+/// Deformation rates below this part of the largest speed over the representative length are not worth reporting.
 const JOLT: f64 = 1e-3;
 
 /// Deformation rates below are round-off of a model at rest [1/s].
@@ -89,7 +89,7 @@ pub(crate) fn velocities(
     Ok(warnings)
 }
 
-/// The coordinate whose given rate is changed most, where that is worth telling beside the `largest` speed of a node.
+/// The coordinate whose given rate is changed most, where that is significant beside the `largest` speed of a node.
 fn rates_of_coordinates(
     system: &System,
     (length, largest): (f64, f64),

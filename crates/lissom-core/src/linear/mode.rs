@@ -8,7 +8,7 @@ use super::model::LinearError;
 /// Growth is distinguished from round-off by a damping ratio below this.
 const GROWING: f64 = -1e-7;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeOptions {
     /// How many modes, at most.

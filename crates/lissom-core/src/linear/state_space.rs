@@ -47,7 +47,7 @@ pub enum StateSpaceError {
     #[error("an input is a prescribed motion, whose velocity and acceleration would be inputs as well")]
     PrescribedInput,
     /// Some degrees of freedom have no mass.
-    #[error("freedoms without mass are left, whose velocities are no states")]
+    #[error("degrees of freedom without mass are left, whose velocities are no states")]
     Massless,
     /// Forces depend on normal forces.
     #[error(
@@ -232,7 +232,7 @@ fn solve(matrix: &DMatrix<f64>, right: DMatrix<f64>) -> Result<DMatrix<f64>, Sta
     Ok(DMatrix::from_fn(right.nrows(), right.ncols(), |i, j| solution[(i, j)] / size(i)))
 }
 
-/// What the equations come to in independent coordinates; columns of rates and accelerations are z, x, ż and u.
+/// The equations in independent coordinates; columns of rates and accelerations are z, x, ż and u.
 struct Reduced {
     t: DMatrix<f64>,
     s: DMatrix<f64>,

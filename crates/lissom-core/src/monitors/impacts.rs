@@ -18,7 +18,7 @@ use crate::system::System;
 const STEPS: u8 = 2;
 /// Part of its rate that an approach keeps there if the contact is resolved.
 const KEPT: f64 = 0.5;
-/// Approaches slower than this part of the fastest one of the same switch hold no energy worth telling: a hundredth.
+/// Approaches slower than this part of the fastest one of the same switch hold no significant energy: a hundredth.
 const SLOW: f64 = 0.1;
 
 /// What is known of one switch.
@@ -106,7 +106,7 @@ impl Monitor for Impacts {
 }
 
 impl Approach {
-    /// Takes note of the value at `time` [s], after a step of this duration [s].
+    /// Records the value at `time` [s], after a step of this duration [s].
     fn accept(&mut self, value: f64, duration: f64, time: f64) {
         let entry = self.passed.map(|(entry, _)| entry);
         let last = self.rate;
@@ -118,7 +118,7 @@ impl Approach {
         }
     }
 
-    /// Takes note of the value after a step of this duration [s], and says whether the motion was stopped too fast.
+    /// Records the value after a step of this duration [s], and returns whether the motion was stopped too fast.
     fn is_stopped(&mut self, value: f64, duration: f64) -> bool {
         let before = std::mem::replace(&mut self.value, value);
         let rate = (value - before) / duration;

@@ -1,4 +1,4 @@
-//! Monitors look at every accepted step and report reasons to doubt the motion. They change nothing of it.
+//! Monitors check every accepted step and report warnings. They do not change the motion.
 //!
 //! A monitor is one file and one line of `KINDS`. What it has learned is part of snapshots, under its name: a snapshot that was
 //! taken without a monitor can be restored with it.

@@ -1,5 +1,5 @@
 //! Whether steps of planned size resolve the motion: now and then the error of two steps in a row is estimated, and what
-//! such errors come to over the run is compared with how far the model moves.
+//! such errors add up to over the run is compared with how far the model moves.
 //!
 //! ```text
 //! E_i = s min(Σ |ẽ_i|, 8 A_i),      A_i = |e_i| / (C (ωh)³),   ωh = |e_i - e_i'| / |e_i|
@@ -8,7 +8,7 @@
 //! Legend: e error of a step, ẽ the same filtered through the tangent (see `error_estimate`), by unknown and scaled; e' that of
 //! the step after it; A amplitude of what is missed: an oscillation that gets out of phase errs twice by it, and it was larger
 //! before it was damped;
-//! s part of the sum that errors at the end come to, by scheme. Fitted to some eight hundred random mechanisms, where the
+//! s fraction of the sum that errors at the end amount to, by scheme. Fitted to some eight hundred random mechanisms, where the
 //! error beside the reference was mostly 0.2 to 3.6 times E.
 
 use serde::{Deserialize, Serialize};
@@ -87,7 +87,7 @@ impl Resolution {
         self.pairs.is_due(fraction)
     }
 
-    /// Takes note of the errors of a step: filtered and not, by coordinate row. Whether a pair is complete.
+    /// Records the errors of a step: filtered and not, by coordinate row. Whether a pair is complete.
     fn note<'e>(&mut self, errors: impl Iterator<Item = [f64; 2]> + Clone + 'e) -> bool {
         if !self.pairs.is_complete() {
             for (first, errors) in self.first.iter_mut().zip(errors) {

@@ -18,7 +18,7 @@ use super::scheme::{Scheme, SchemeKind};
 /// of what is missed, errors at the end of a run are near the tolerance.
 const ERROR_CONSTANT: f64 = 0.5;
 /// With steps of one size the scheme errs by a power of the step less than that part: measured, a quarter of the sum where
-/// it comes to some per cent.
+/// it is some per cent.
 const PLANNED_SHARE: f64 = 0.25;
 
 /// Registry entry.

@@ -161,7 +161,7 @@ pub struct Scheme {
     pub error_constant: f64,
     /// Order of the errors that step control keeps at the tolerance: those of positions, unless velocities are of lower order.
     pub controlled_order: i32,
-    /// Part of the sum of such errors that errors at the end of a run with steps of one size come to.
+    /// Error at the end of a run with steps of one size, as a fraction of the sum of such errors.
     pub planned_share: f64,
     /// Whether inertia takes part.
     pub dynamic: bool,

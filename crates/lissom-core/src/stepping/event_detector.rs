@@ -139,7 +139,7 @@ impl EventDetector {
         held.iter_mut().zip(sides).for_each(|(held, side)| *held = f64::from(*side));
     }
 
-    /// Takes note of the sides of all values that have none yet, or are neither among those `kept` nor `but`.
+    /// Records the sides of all values that have none yet, or are neither among those `kept` nor `but`.
     fn note(&mut self, kept: std::ops::Range<usize>, but: &[usize]) {
         let known = &mut self.known;
         for (k, value) in self.values.iter().enumerate() {
@@ -325,7 +325,7 @@ impl EventDetector {
         share(if is_early { far } else { near })
     }
 
-    /// Takes note of the end of a step that was accepted, and of what passed through zero there. Gives the events that
+    /// Records the end of an accepted step, and what passed through zero there. Returns the events that
     /// happened.
     ///
     /// # Errors

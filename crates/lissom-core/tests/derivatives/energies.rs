@@ -1,4 +1,4 @@
-//! Every registered spring: its forces at rest are the gradient of its energy, and what it tells of its motion belongs to them.
+//! Every registered spring: its forces at rest are the gradient of its energy, and the motion that it reports belongs to them.
 
 use lissom_core::elements::{Attached, Attachment, ElementKind, SPRINGS};
 use lissom_core::kinematics::{Kinematics, Quantity};
@@ -101,7 +101,7 @@ fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
     }
 }
 
-/// The force that a spring tells, times the rate that it tells, is the power of its forces, and so its motion is of the joint or
+/// The force that a spring reports, times the rate that it reports, is the power of its forces, and so its motion is of the joint or
 /// of the positions that it acts on.
 #[test]
 fn springs_report_the_motion_that_their_forces_work_on() {
@@ -125,7 +125,7 @@ fn springs_report_the_motion_that_their_forces_work_on() {
                 Unknown::Multiplier(_) => 0.0,
             })
             .sum();
-        // A contact tells what pushes apart.
+        // A contact reports what pushes apart.
         let force = if kind.name == "rolling_contact" { -force } else { force };
         assert!(
             (force * rate - power).abs() < 1e-12 * (1.0 + power.abs()),

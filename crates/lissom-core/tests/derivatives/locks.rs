@@ -38,7 +38,7 @@ fn derivatives_of_every_way_to_lock() {
         let mut absolute = vec![0.0; carried.len()];
         system.violations(&here.at, &mut absolute);
         for (a, b) in carried.iter().zip(&absolute) {
-            assert!((a - b).abs() < 1e-13, "{mask:06b}: {a} carried, {b} outright");
+            assert!((a - b).abs() < 1e-13, "{mask:06b}: {a} carried, {b} absolute");
         }
     }
 }

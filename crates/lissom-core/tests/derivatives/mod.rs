@@ -382,7 +382,7 @@ fn violation_changes_agree_with_violations() {
         let mut absolute = vec![0.0; count];
         system.violations(&here.at, &mut absolute);
         for (a, b) in carried.iter().zip(&absolute) {
-            assert!((a - b).abs() < 1e-13, "{}: {a} carried, {b} outright", kind.name);
+            assert!((a - b).abs() < 1e-13, "{}: {a} carried, {b} absolute", kind.name);
         }
     }
 }
@@ -405,7 +405,7 @@ fn a_slider_carries_its_violation_past_nodes() {
         system.stage_violations(&here.point(0.0), &mut carried);
         system.violations(&here.at, &mut absolute);
         for (a, b) in carried.iter().zip(&absolute) {
-            assert!((a - b).abs() < 1e-13, "{a} carried, {b} outright");
+            assert!((a - b).abs() < 1e-13, "{a} carried, {b} absolute");
         }
         if size > 1.0 {
             continue;

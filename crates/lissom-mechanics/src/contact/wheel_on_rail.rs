@@ -10,7 +10,7 @@
 //! ```
 //!
 //! A rail is the same all along, so that the common normal has no part along e₃; this gives ψ at once, and the rest is a
-//! problem of the plane for ξ and u. For a cone on a circle P goes along a straight line, and ξ and u are known outright:
+//! problem of the plane for ξ and u. For a cone on a circle P goes along a straight line, and ξ and u follow directly:
 //! the foot of the circle's centre on it. Other profiles start from the sample of smallest clearance, and Newton's method
 //! goes on from there: the answer depends on the configuration alone. The gap does not change with ξ, ψ and u to first
 //! order, so that its gradient is N at the wheel's point of contact. Derivatives of ξ and u are those of the implicit
@@ -353,7 +353,7 @@ impl RailContact {
         }
         self.second_place(pose, place.along).map(|second| {
             format!(
-                "touches its rail at two places at once, {:.5} and {second:.5} m from its nominal circle: one constraint holds one",
+                "touches its rail at two positions at once, {:.5} and {second:.5} m from its nominal circle: one constraint holds one",
                 place.along
             )
         })

@@ -78,7 +78,7 @@ fn build(
     let count = coordinates.len();
     if count > MAX_COORDINATES {
         let problem =
-            format!("names {count} coordinates; at most {MAX_COORDINATES} stand in one entry: take several");
+            format!("names {count} coordinates; at most {MAX_COORDINATES} are in one entry: take several");
         return Err(ParameterError::new("coordinates", problem));
     }
     let [mass, damping, stiffness] =

@@ -71,7 +71,7 @@ impl Attached {
     pub fn places(self) -> Result<(Vec<Carried>, Vec<CoordinateId>), ParameterError> {
         match self {
             Self::Places(places, coordinates) => Ok((places, coordinates)),
-            _ => Err(ParameterError::new("along", "must list places")),
+            _ => Err(ParameterError::new("along", "must list positions")),
         }
     }
 

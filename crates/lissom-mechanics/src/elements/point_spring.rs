@@ -77,7 +77,7 @@ fn build(
     if distance == 0.0 {
         return Err(ParameterError::new(
             "tip",
-            "is at the same place as `base`: the spring has no direction",
+            "is at the same position as `base`: the spring has no direction",
         ));
     }
     Ok(Contribution::of(

@@ -183,7 +183,7 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
     }
     for other in ["friction_coefficient", "slip_velocity"] {
         if parameters.has(other) {
-            return wrong(format!("stands in place of the law with `{other}`: leave one of them out"));
+            return wrong(format!("replaces the law with `{other}`: leave one of them out"));
         }
     }
     let function = parameters.function("traction")?;

@@ -26,7 +26,7 @@ use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parame
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "rope",
-    summary: "Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.",
+    summary: "Rope that slides over several points without friction: reeving over pulleys, and hoists by its length.",
     sample: "stiffness = 1e4\ndamping = 10.0\nlength = \"3 - 0.1*t\"",
     parameters: &[
         Parameter::optional(
@@ -125,15 +125,18 @@ fn build(
         along.iter().map(|(node, place)| model.frame(*node).transform_point(place)).collect();
     let fault = |problem: &str| Err(ParameterError::new("along", problem));
     if points.len() < 2 {
-        return fault("needs two places at least");
+        return fault("needs at least two points");
     }
     if points.len() > MAX_PLACES {
-        return fault("has more than 16 places: tie two ropes to a part between");
+        return fault("has more than 16 points: attach two ropes to a part in between");
     }
     let lengths = points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
     if let Some(index) = lengths.clone().position(|length| length == 0.0) {
-        let problem =
-            format!("has the places {} and {} at one point: the rope has no direction", index + 1, index + 2);
+        let problem = format!(
+            "has the points {} and {} at one position: the rope has no direction",
+            index + 1,
+            index + 2
+        );
         return fault(&problem);
     }
     let at_start: f64 = lengths.sum();

@@ -29,7 +29,7 @@ pub struct Batch<E> {
     starts: Vec<usize>,
     /// Where each item's local matrix lies in the pattern.
     places: ScatterMap,
-    /// The items laid out for evaluation several at a time, for kinds that are.
+    /// The items in lanes, for kinds that are evaluated several at a time.
     blocks: Option<Box<dyn Blocks>>,
     processor: pulp::Arch,
 }
@@ -40,9 +40,9 @@ pub trait AnyBatch: Send + Sync {
     fn count(&self) -> usize;
     /// Whether forces depend on multipliers.
     fn sees_multipliers(&self) -> bool;
-    /// Looks up the rows of the items.
+    /// Determines the rows of the items.
     fn connect(&mut self, layout: &Layout);
-    /// Looks up the positions of local matrices in the tangent's pattern.
+    /// Determines the positions of local matrices in the tangent's pattern.
     fn locate(&mut self, pattern: &Pattern);
     /// Free rows of each item.
     fn cliques(&self) -> Vec<Vec<usize>>;
@@ -64,7 +64,7 @@ pub trait AnyBatch: Send + Sync {
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]);
     /// Energy of all items [J].
     fn energy(&self, at: &Kinematics) -> Energy;
-    /// Appends the strain energy of every item [J], with whom it belongs to.
+    /// Appends the strain energy of every item [J] with its owner.
     fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>);
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
@@ -72,7 +72,7 @@ pub trait AnyBatch: Send + Sync {
     fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
         Vector3::zeros()
     }
-    /// Elongation, rate and force of an item that is like a spring.
+    /// Elongation, rate and force of a spring-like item.
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
     /// Power of an item's forces [W].
     fn power(&self, item: usize, at: &Kinematics) -> f64;
@@ -80,7 +80,7 @@ pub trait AnyBatch: Send + Sync {
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
     /// Times at which forces are known not to be smooth [s].
     fn breakpoints(&self) -> Vec<f64>;
-    /// Gives every item a position for the sides of its switches, from the held value `first` on, and says how many.
+    /// Assigns every item slots for the sides of its switches, from the discrete value `first` on; returns their number.
     fn freeze_switches(&mut self, first: usize) -> usize;
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
@@ -88,15 +88,15 @@ pub trait AnyBatch: Send + Sync {
     fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>);
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
-    /// What goes furthest beyond the range of an element's linear law.
+    /// The largest exceedance of the range of an element's linear law.
     fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange>;
-    /// Hands on the mass matrix of every item that has one, row after row: its nodes, its coordinates, its rows.
+    /// Passes on the mass matrix of every item that has one, row after row: its nodes, its coordinates, its rows.
     fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>));
     /// The first node of an item whose kinetic energy is not positive in every motion.
     fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId>;
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
     fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
-    /// What of these elements differs from those of neighbouring models, which come with the weights of a difference; none
+    /// Difference of these elements from those of neighbouring models, which come with the weights of a difference; none
     /// where that cannot be determined.
     fn changed(&self, neighbours: &[(&dyn AnyBatch, f64)], layout: &Layout) -> Option<Changed>;
     /// Adds the forces of some items alone.
@@ -107,18 +107,18 @@ pub trait AnyBatch: Send + Sync {
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
 
-/// The number of an element in its system.
+/// The index of an element in its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ElementId {
     /// Its batch; none where a signal drives it.
     pub batch: Option<usize>,
-    /// Its number in the batch, or among loads that signals multiply.
+    /// Its index in the batch, or among loads that signals multiply.
     pub item: usize,
 }
 
 /// An element of any kind that is not in a batch yet.
 pub trait AnyElement: Send + Sync {
-    /// Joins the batch of its kind, or begins one.
+    /// Adds it to the batch of its kind, or begins one.
     fn join(self: Box<Self>, batches: &mut Vec<Box<dyn AnyBatch>>) -> ElementId;
     /// The same as a load of size one, which a signal multiplies.
     fn into_load(self: Box<Self>) -> Box<dyn Element>;
@@ -141,13 +141,13 @@ impl<E: Element> AnyElement for E {
     }
 }
 
-/// What of the elements of a kind differs between two models.
+/// Difference between the elements of a kind in two models.
 pub enum Changed {
     /// Nothing.
     Nothing,
-    /// Elements whose forces are the derivative by the number.
+    /// Elements whose forces are the derivative by the parameter.
     Derivative(Box<dyn AnyBatch>),
-    /// These items, whose forces are to be compared.
+    /// Indices of items whose forces are to be compared.
     Items(Vec<usize>),
 }
 
@@ -162,7 +162,7 @@ pub struct Mass<'a> {
 }
 
 impl Mass<'_> {
-    /// Each local unknown's part of M x, with its row.
+    /// Each local unknown's component of M x, with its row.
     pub fn times<T: Copy + std::iter::Sum<T> + std::ops::Mul<f64, Output = T>>(
         &self,
         local: &[T],
@@ -174,7 +174,7 @@ impl Mass<'_> {
     }
 }
 
-/// Whom an element belongs to: its first node that is not the ground, or its first coordinate.
+/// Owner of an element: its first node that is not the ground, or its first coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct Owner {
     /// The first node that is not the ground.
@@ -203,7 +203,7 @@ impl<E: Element> Batch<E> {
         Slot { rows: self.item_rows(item), segments: self.places.of(item) }
     }
 
-    /// Takes an item's derivatives through the chart and hands them over.
+    /// Transforms an item's derivatives by the chart and passes them on.
     fn receive(
         &self,
         index: usize,
@@ -505,7 +505,7 @@ impl<E: Element> AnyBatch for Batch<E> {
     }
 }
 
-/// Takes local derivatives through the chart, for nodes whose six columns begin as given.
+/// Transforms local derivatives by the chart, for nodes whose six columns begin as given.
 pub fn through(chart: Chart<'_>, nodes: impl Iterator<Item = (NodeId, usize)>, scratch: &mut Tangents) {
     let size = scratch.size();
     for (node, column) in nodes {

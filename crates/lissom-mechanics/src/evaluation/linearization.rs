@@ -38,7 +38,7 @@ impl Default for Scratch {
 }
 
 impl Linearization {
-    /// Zeros, so many for each matrix.
+    /// Zeros, the given number for each matrix.
     pub fn zeros(entries: usize) -> Self {
         let zeros = vec![0.0; entries];
         Self {
@@ -52,7 +52,7 @@ impl Linearization {
         }
     }
 
-    /// Puts derivatives by multipliers to those of the constraints, Bᵀ in their columns: B stays in their rows.
+    /// Adds derivatives by multipliers to those of the constraints, Bᵀ in their columns: B stays in their rows.
     pub fn fold_multipliers(&mut self) {
         for (entry, value) in self.constraint.iter_mut().zip(&mut self.by_multiplier) {
             *entry += std::mem::take(value);

@@ -30,7 +30,7 @@ impl Segment {
     }
 }
 
-/// Runs of several local matrices, one after the other.
+/// Segments of several local matrices, one after the other.
 #[derive(Clone, Debug, Default)]
 pub struct ScatterMap {
     segments: Vec<Segment>,
@@ -84,7 +84,7 @@ impl ScatterMap {
         self.starts.shrink_to_fit();
     }
 
-    /// Runs of a local matrix.
+    /// Segments of a local matrix.
     pub fn of(&self, item: usize) -> &[Segment] {
         &self.segments[self.starts[item] as usize..self.starts[item + 1] as usize]
     }

@@ -10,7 +10,7 @@ thread_local! {
     static LARGE_SCRATCH: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Calls `work` with so many zeros. Only the first large element of a thread allocates.
+/// Calls `work` with the given number of zeros. Only the first large element of a thread allocates.
 pub fn with_scratch<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
     if size <= STAGES * USUAL_UNKNOWNS {
         return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);

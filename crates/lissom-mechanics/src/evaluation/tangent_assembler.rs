@@ -1,5 +1,5 @@
-//! What takes the derivatives of elements and joints: each kind of derivative on its own, or their weighted sum, the
-//! tangent, at once. Knows no scheme: the weights are somebody else's.
+//! Assembles the derivatives of elements and joints: each kind of derivative separately, or their weighted sum, the
+//! tangent. Independent of the scheme, which supplies the weights.
 
 use lissom_solver::Scalar;
 use num_complex::Complex64;
@@ -24,21 +24,21 @@ pub struct Blend<T> {
     pub constraint: f64,
 }
 
-/// A tangent in the making.
+/// A tangent under assembly.
 #[derive(Debug)]
 pub struct Sum<'a, T> {
     /// Factors of the derivatives.
     pub blend: Blend<T>,
     /// The tangent, on its pattern.
     pub values: &'a mut [T],
-    /// Takes the diagonal of ∂/∂ position by row, of translations at least; may have no room.
+    /// Receives the diagonal of ∂/∂ position by row, of translations at least; may be empty.
     pub stiffness: &'a mut [f64],
 }
 
-/// What takes the derivatives.
+/// Destination of the derivatives.
 #[derive(Debug)]
 pub enum TangentAssembler<'a> {
-    /// Each on its own.
+    /// Each kind separately.
     Separate(&'a mut Linearization),
     /// Their sum with real factors.
     Real(Sum<'a, f64>),
@@ -56,7 +56,7 @@ pub struct Slot<'a> {
 }
 
 impl TangentAssembler<'_> {
-    /// Sets everything to zero.
+    /// Sets all values to zero.
     pub fn clear(&mut self) {
         match self {
             Self::Separate(linearization) => linearization.clear(),

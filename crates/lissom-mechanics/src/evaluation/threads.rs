@@ -1,14 +1,14 @@
-//! Evaluation on several threads: elements and joints compute their local forces side by side, then these are added
-//! up in the order in which one thread would. So results do not depend on the number of threads, not by a bit.
+//! Evaluation on several threads: elements and joints compute their local forces in parallel, then these are added
+//! in the order of a single thread. Results are therefore bitwise independent of the number of threads.
 
 use std::ops::Range;
 
 use lissom_motion::WIDTH;
 
-/// With fewer elements or joints than this another thread takes about as long to wake as it helps.
+/// With fewer elements or joints than this, waking another thread costs about what it saves.
 pub const WORTH_WHILE: usize = 4000;
 
-/// Room for local forces, and how many threads share the work. Waking them allocates a little.
+/// Memory for local forces, and the number of threads. Waking them allocates a little.
 #[derive(Clone, Debug)]
 pub struct Threads {
     count: usize,
@@ -16,7 +16,7 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// For batches of parts whose numbers begin at `starts`; none where one thread is all there is, or enough.
+    /// For batches of parts whose numbers begin at `starts`; none if there is only one thread, or one is enough.
     pub fn new<'a>(starts: impl Iterator<Item = &'a [usize]>, threads: usize) -> Option<Self> {
         let (mut parts, mut longest) = (0, 0);
         for own in starts {

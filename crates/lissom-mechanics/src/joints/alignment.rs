@@ -1,4 +1,4 @@
-//! Directions of a slider's tip that stay across its line: the tip turns with the tangent, or with the sections as well.
+//! Directions of a slider's tip that stay perpendicular to its line: the tip turns with the tangent, or with the sections as well.
 //!
 //! Legend: d = R_t e direction of the tip, y(s) = Σ w_k⁽ᵖ⁾(s) u_k what it stays across: the tangent with positions u_k = x_k and p = 1, or
 //! an axis of the sections with their directions u_k = R_k g_k and p = 0; o_k the point of a node in its axes.
@@ -17,7 +17,7 @@ use super::slider::{CarriedPoint, LOCAL, OWN, Place, Row, TIP};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::{Kinematics, NodeMotion};
 
-/// What a direction of the tip stays across.
+/// What a direction of the tip stays perpendicular to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Across {
     /// The tangent of the line.
@@ -26,7 +26,7 @@ pub enum Across {
     Sections(Vec<Vector3>),
 }
 
-/// A direction of the tip, in its axes, and what it stays across.
+/// A direction of the tip, in its axes, and what it stays perpendicular to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
     /// A unit vector in the axes of the tip.
@@ -80,7 +80,7 @@ impl Aligned<'_> {
         }
     }
 
-    /// u̇_k and what ü_k holds besides accelerations of the node.
+    /// u̇_k, and the terms of ü_k without accelerations of the node.
     fn vector_rates(&self, node: usize, at: &Kinematics) -> [Vector3; 2] {
         let motion = self.motion(node, at);
         match &self.alignment.across {
@@ -205,7 +205,7 @@ impl Aligned<'_> {
         out[OWN][OWN] += mu * direction.dot(&self.across(place, 2, at));
     }
 
-    /// What c̈ holds besides B v̇.
+    /// The terms of c̈ other than B v̇.
     pub(crate) fn acceleration(&self, place: &Place, at: &Kinematics, rate: f64) -> f64 {
         let order = self.order();
         let [turning, bending] = turning(&at.nodes[self.tip.node], &self.alignment.direction);

@@ -1,4 +1,4 @@
-//! A joint in its place: between two nodes, with its rows in the system. Turns the joint's equations in
+//! A joint between two nodes, with its rows in the system. Transforms the joint's equations in
 //! the relative motion into equations in the unknowns of the nodes.
 //!
 //! ```text
@@ -47,7 +47,7 @@ pub struct AttachedJoint {
 }
 
 impl AttachedJoint {
-    /// The same position for a joint of its own.
+    /// The same with another joint.
     pub(super) fn with_joint(&self, joint: Box<dyn AnyJoint>) -> Self {
         Self {
             name: self.name.clone(),
@@ -138,7 +138,7 @@ impl AttachedJoint {
         gradient
     }
 
-    /// A relative motion, and coordinates, that satisfy the equations: those the joint was made with.
+    /// A relative motion and coordinates that satisfy the equations: those at which the joint was created.
     pub fn as_built(&self) -> (Relative, JointCoordinates) {
         let (values, relative) = self.joint.initial();
         (Relative::at_start(&relative), JointCoordinates { value: values, ..JointCoordinates::default() })
@@ -149,7 +149,7 @@ impl AttachedJoint {
         self.configuration_from(self.start(increments.start), increments)
     }
 
-    /// The same where relative rotation and position at the start are known.
+    /// The same with known relative rotation and position at the start.
     pub(crate) fn configuration_from(
         &self,
         start: (Matrix3, Vector3),
@@ -286,7 +286,7 @@ impl AttachedJoint {
         (inverse * right).into()
     }
 
-    /// Where a wheel touches its rail and what acts there, for the multipliers `mu`; none for joints that are no such contact.
+    /// Where a wheel touches its rail and what acts there, for the multipliers `mu`; none for other joints.
     pub fn rail_contact(&self, at: &Kinematics, mu: &Equations) -> Option<RailContactValues> {
         let contact = self.joint.rail_contact()?;
         let (relative, _) = self.evaluate_absolute(at);

@@ -1,6 +1,6 @@
 //! Joints of one kind together: one virtual call per kind, then eight joints at a time in the lanes of vector registers.
 //!
-//! What is constant stands lane by lane in blocks of eight, whatever the processor; so does what is constant over a
+//! Constants are stored lane by lane in blocks of eight, whatever the processor, and so is what is constant over a
 //! step, in [`JointStarts`]. Motions and multipliers are gathered at each evaluation. The last block repeats its last
 //! joint.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
@@ -68,7 +68,7 @@ impl Batches {
         self.0.push(Box::new(batch));
     }
 
-    /// The batches, each with what is known of its joints at the start of the step.
+    /// The batches, each with the values of its joints at the start of the step.
     pub fn with_starts<'a>(
         &'a self,
         starts: Option<&'a JointStarts>,
@@ -126,7 +126,7 @@ pub trait JointBatch: Send + Sync {
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
 
-/// What is wanted of an evaluation.
+/// What an evaluation computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// Forces and violations.
@@ -143,7 +143,7 @@ struct Batch<J> {
     processor: pulp::Arch,
 }
 
-/// What is constant of eight joints.
+/// Constants of eight joints.
 struct Pack {
     count: usize,
     /// Base and tip node.
@@ -158,7 +158,7 @@ struct Pack {
     equations: [(u32, u32); WIDTH],
 }
 
-/// What eight joints see at a point, and what they answer.
+/// Inputs and results of eight joints at an evaluation point.
 struct BatchScratch {
     gathered: Gathered,
     results: Results,
@@ -179,9 +179,9 @@ thread_local! {
     };
 }
 
-/// What eight joints see at a point.
+/// Inputs of eight joints at an evaluation point.
 struct Gathered {
-    /// Turn, column by column, and shift of base and tip node.
+    /// Rotation, column by column, and translation of base and tip node.
     changes: [[Block; 12]; 2],
     coordinates: [Block; MAX_COORDINATES],
     multipliers: [Block; MAX_EQUATIONS],
@@ -233,7 +233,7 @@ impl<J: Joint> JointBatch for Batch<J> {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
     ) {
-        // Analyses that take no steps have none at hand.
+        // Analyses that take no steps have none.
         let mut own = Vec::new();
         let starts = starts.unwrap_or_else(|| {
             self.begin(point.increments.start, &mut own);
@@ -276,7 +276,7 @@ impl<J: Joint> JointBatch for Batch<J> {
     }
 }
 
-/// Lays out what is constant of joints of any kind, given by their indices among all.
+/// Arranges the constants of joints of any kind, given by their indices among all.
 fn packs(indices: &[u32], joints: &[AttachedJoint], constants: &[[f64; MAX_CONSTANTS]]) -> Vec<Pack> {
     let of = |chunk: &[u32], lane: usize| &joints[chunk[lane.min(chunk.len() - 1)] as usize];
     indices
@@ -365,7 +365,7 @@ impl Pack {
                 gathered.coordinates[k][lane] = increments.coordinates[self.coordinates[k][lane] as usize];
             }
         }
-        // No formula branches on what is in lanes beyond the last joint.
+        // No formula branches on the contents of lanes beyond the last joint.
         for lane in 0..self.count {
             let (first, count) = self.equations[lane];
             let own = first as usize..(first + count) as usize;
@@ -381,7 +381,7 @@ impl Pack {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
-                // Nothing is left over of other joints, which may not have been numbers.
+                // Values left by other joints may not be numbers.
                 for k in multipliers.len()..J::MAX_ROWS {
                     gathered.multipliers[k][lane] = 0.0;
                     gathered.violations[k][lane] = 0.0;

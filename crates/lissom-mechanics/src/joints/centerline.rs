@@ -1,4 +1,4 @@
-//! A smooth line through the nodes of a beam: what slides on it sees neither kinks nor jumps of curvature where elements
+//! A smooth line through the nodes of a beam, without kinks or jumps of curvature where elements
 //! meet.
 //!
 //! Legend: s arc length of the undeformed beam, s_k that of node k, x_k its position, Q_k the parabola through the nodes k - 1,
@@ -9,11 +9,11 @@
 //! ```
 //!
 //! Both parabolas meet at both nodes and b' vanishes there: position, tangent and curvature are continuous [cf. Overhauser 1968,
-//! who blends with b = u, and Bauchau 2000 on sliding joints]. In the first and the last interval one parabola is there alone.
+//! who blends with b = u, and Bauchau 2000 on sliding joints]. The first and the last interval have one parabola only.
 
 use lissom_motion::Vector3;
 
-/// Most nodes that a position between two of them depends on.
+/// Maximum number of nodes that a position between two of them depends on.
 pub const SUPPORT: usize = 4;
 
 /// Arc lengths of the nodes along a beam or a chain of beams.

@@ -14,7 +14,7 @@ use super::{
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "clamp",
-    summary: "Holds all six relative freedoms.",
+    summary: "Locks all six relative degrees of freedom.",
     sample: "",
     parameters: &[],
     build: Build::Relative(Frames::Point, |_, _| Ok(Box::new(Clamp))),

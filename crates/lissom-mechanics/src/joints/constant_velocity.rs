@@ -33,7 +33,7 @@ pub const KIND: JointKind = JointKind {
         let shaft = geometry.axes.apply(&Vector3::z());
         let tip = parameters.vector_or("tip_axis", shaft)?;
         let tip = geometry.axes.apply_inverse(&tip).normalize();
-        // A shaft has no sense: of its two directions the one that bends less is meant.
+        // A shaft has no sense: the direction that bends less is used.
         let tip = tip * tip.z.signum();
         if tip.z.abs() < 1e-6 {
             return Err(ParameterError::new(

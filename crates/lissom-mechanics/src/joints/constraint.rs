@@ -14,12 +14,12 @@ use super::evaluation_point::Increments;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 
-/// What a constraint acts on.
+/// A port: what a constraint acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Port {
     /// A node: six local unknowns.
     Node(NodeId),
-    /// No node in this arrangement: six local unknowns that have no part in the equations.
+    /// No node in this arrangement: six local unknowns that do not enter the equations.
     NoNode,
     /// An algebraic coordinate: one local unknown.
     Coordinate(CoordinateId),
@@ -44,7 +44,7 @@ impl Port {
     }
 }
 
-/// What a constraint is at both stages of a step whose violations are integrated, see `step_stages`.
+/// A constraint at both stages of a step whose violations are integrated, see `step_stages`.
 #[derive(Debug)]
 pub struct Visit<'a> {
     /// B̃ by stage, all zero at first.

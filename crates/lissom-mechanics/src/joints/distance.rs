@@ -20,7 +20,10 @@ pub const KIND: JointKind = JointKind {
     build: Build::Relative(Frames::Span, |_, geometry| {
         let length = geometry.span.norm();
         if length == 0.0 {
-            return Err(ParameterError::new("tip", "is at the same place as `base`: the rod has no length"));
+            return Err(ParameterError::new(
+                "tip",
+                "is at the same position as `base`: the rod has no length",
+            ));
         }
         Ok(Box::new(Distance { span: geometry.span, length }))
     }),

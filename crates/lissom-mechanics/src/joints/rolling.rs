@@ -34,7 +34,7 @@ pub const KIND: JointKind = JointKind {
             "wheel_axis",
             ParameterType::Direction,
             "",
-            "Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre.",
+            "Axis of the wheel at the start, global axes; it goes through the tip's position, the wheel's centre.",
         ),
         Parameter::optional(
             "radius",
@@ -82,7 +82,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
     let height = geometry.span.z.abs();
     if height <= 0.0 {
         let problem =
-            "lies in the plane: its place must be the centre of the wheel, and `at` a point of the plane";
+            "lies in the plane: its position must be the centre of the wheel, and `at` a point of the plane";
         return Err(ParameterError::new("tip", problem));
     }
     let mut contact = Contact {

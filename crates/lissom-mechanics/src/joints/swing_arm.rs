@@ -1,4 +1,4 @@
-//! Swing arm: a massless rigid arm, hinged to the base, that carries the tip's point. The angle of the
+//! Revolute-spherical link: a massless rigid link, hinged to the base, that carries the tip's point. The angle of the
 //! arm is an algebraic coordinate: x = Q(φ) a, with Q the rotation about the hinge's axis.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 

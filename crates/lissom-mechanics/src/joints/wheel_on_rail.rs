@@ -43,7 +43,7 @@ pub const KIND: JointKind = JointKind {
             "axle",
             ParameterType::Direction,
             "",
-            "Axis of the wheel at the start, global axes; it goes through the tip's place. Default: `axis`.",
+            "Axis of the wheel at the start, global axes; it goes through the tip's position. Default: `axis`.",
         ),
         Parameter::optional(
             "radius",
@@ -55,7 +55,7 @@ pub const KIND: JointKind = JointKind {
             "offset",
             ParameterType::Number,
             "m",
-            "Distance of the nominal circle from the tip's place along the wheel's axis, outwards positive; default: above the \
+            "Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the \
              rail's point `at` at the start.",
         ),
         Parameter::optional(
@@ -68,14 +68,14 @@ pub const KIND: JointKind = JointKind {
             "wheel_profile",
             ParameterType::FunctionOf("y"),
             "m",
-            "Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal \
+            "Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal \
              circle; needs `tread`.",
         ),
         Parameter::optional(
             "tread",
             ParameterType::Range,
             "m",
-            "Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides.",
+            "Positions `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides.",
         ),
         Parameter::optional(
             "head_radius",
@@ -93,7 +93,7 @@ pub const KIND: JointKind = JointKind {
             "rail_profile",
             ParameterType::FunctionOf("y"),
             "m",
-            "Instead of `head_radius`: height of the rail over the lateral place `y`, outwards from the point `at`, where it is 0.",
+            "Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0.",
         ),
         Parameter::optional(
             "friction_coefficient",
@@ -189,10 +189,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     }
     let exclusive = |one: &str, other: &str| {
         if parameters.has(one) && parameters.has(other) {
-            return Err(ParameterError::new(
-                one,
-                format!("stands in place of `{other}`: leave one of them out"),
-            ));
+            return Err(ParameterError::new(one, format!("replaces `{other}`: leave one of them out")));
         }
         Ok(())
     };

@@ -85,7 +85,7 @@ impl Layout {
         self.node_rows.len()
     }
 
-    /// Name of a node: of a body or point mass, or the position on a beam, as `beam.start` or `beam@0.5`.
+    /// Name of a node: of a body or point mass, or the position on a beam, such as `beam.start` or `beam@0.5`.
     ///
     /// # Panics
     /// If there is no such node.
@@ -103,7 +103,7 @@ impl Layout {
         self.coordinate_rows[coordinate] as usize
     }
 
-    /// Name of an algebraic coordinate, as `joint.angle`.
+    /// Name of an algebraic coordinate, such as `joint.angle`.
     pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
         &self.coordinate_names[coordinate]
     }

@@ -133,7 +133,7 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
         optional("end", Shape::Number, "", "load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given"),
         optional("step", Shape::Positive, "", "first step of the load factor or of the number, default a fiftieth of the way to `end`"),
         optional("steps", Shape::Count(1, 1_000_000), "", "most steps, default 1000"),
-        optional("vary", Shape::Text, "", "number of the model file along which the path goes, as `parameters.height`, from the value that it has there; default: the load factor"),
+        optional("vary", Shape::Text, "", "number of the model file along which the path goes, such as `parameters.height`, from the value that it has there; default: the load factor"),
         optional("branch", Shape::Between(-1000.0, 1000.0), "", "bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none"),
     ]);
     let mut buckling = common.clone();
@@ -145,7 +145,7 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
             "about",
             choice(&["static", "undeformed"]),
             "",
-            "about static equilibrium under the loads of the time `start` (default), or about the places of the file \
+            "about static equilibrium under the loads of the time `start` (default), or about the positions of the file \
              without loads and gravity",
         ),
         optional("shift", Shape::NotNegative, "Hz", "frequency near which modes are sought; default: the lowest ones"),

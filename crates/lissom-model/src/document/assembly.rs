@@ -110,7 +110,7 @@ pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located
         needs("at_tip", "at", node.span);
     }
     if context.top("assembly").is_none() {
-        let message = format!("{} lies at one place on its base and at another on its tip", reader.what);
+        let message = format!("{} lies at different positions on its base and its tip", reader.what);
         let problem = Problem::error(node.span, message).label("apart from `at`");
         context
             .report(problem.help("add a table [assembly], which moves the parts until their joints close"));

@@ -258,8 +258,8 @@ fn line(
         Form::Ends { from, through, to } => {
             let (from, to) = (at(from)?, at(to)?);
             if (to - from).norm() <= 1e-12 * from.norm().max(to.norm()) {
-                let message = format!("{what} has no length: it starts and ends at the same place");
-                return context.fail(draft.line_span, message, "give `from` and `to` different places");
+                let message = format!("{what} has no length: it starts and ends at the same position");
+                return context.fail(draft.line_span, message, "give `from` and `to` different positions");
             }
             match through {
                 None => Line::Straight { from, to },

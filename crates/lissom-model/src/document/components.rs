@@ -147,10 +147,10 @@ fn attachment(
         ActsOn::Places => {
             let (context, node) = (reader.context, reader.node("along")?);
             let Value::List(list) = &node.value else {
-                return context.wrong_type(node, &reader.words("along"), "a list of places");
+                return context.wrong_type(node, &reader.words("along"), "a list of positions");
             };
             let read = |(index, entry): (usize, &Node)| {
-                let what = format!("place {} of {}", index + 1, reader.words("along"));
+                let what = format!("position {} of {}", index + 1, reader.words("along"));
                 let own = Reader::open(context, entry, (what, entry.span), Shape::place_keys())?;
                 let on = context.node(own.node("on")?, &own.words("on"))?;
                 let place = match own.node("at") {
@@ -299,7 +299,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                 let across = second.value
                     - first.value * (first.value.dot(&second.value) / first.value.norm_squared());
                 let message = format!(
-                    "the two axes of {} stand at {:.3} degrees to each other, not at 90",
+                    "the two axes of {} are at {:.3} degrees to each other, not at 90",
                     reader.what,
                     cosine.acos().to_degrees()
                 );

@@ -81,7 +81,7 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
             _ => 7,
         };
         let message = format!(
-            "section forces of `{name}` do not know where within an element slider `{}` stands: up to one element from it \
+            "section forces of `{name}` do not know where within an element slider `{}` is: up to one element from it \
              the shear force errs by up to half of its force, the moment by up to {share} % of its force times the length \
              of an element",
             slider.name.value

@@ -69,7 +69,7 @@ pub(crate) fn from_tree(tree: Tree, registry: &Registry) -> Result<Document, Rep
 }
 
 fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
-    // A file of another version may have other words: nothing else is worth telling.
+    // A file of another version may have other words: nothing else is worth reporting.
     version(context)?;
     check_words(context);
     check_names(context);

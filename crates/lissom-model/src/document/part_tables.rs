@@ -9,7 +9,7 @@ pub(super) fn placed_in() -> Key {
         "in",
         Shape::Text,
         "",
-        "body, point mass or part in whose frame at the start places and directions are given; default the one around",
+        "body, point mass or part in whose frame at the start positions and directions are given; default the one around",
     )
 }
 
@@ -25,7 +25,7 @@ pub(crate) fn part() -> Vec<Key> {
             "an array `name1`, `name2` …; `index` and `count` are parameters in it",
         ),
         placed_in(),
-        optional("position", Shape::Place, "m", "place of its origin"),
+        optional("position", Shape::Place, "m", "position of its origin"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
         optional("parameters", Shape::Table, "", "its parameters, in place of the defaults of its file"),
         optional(
@@ -95,7 +95,7 @@ pub(super) fn superelement() -> Vec<Key> {
             "",
             "the interface that carries the floating frame, default the first",
         ),
-        optional("position", Shape::Place, "m", "place of the origin of the part"),
+        optional("position", Shape::Place, "m", "position of the origin of the part"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
         optional("axes", Shape::Axes, "", "instead of rotation: first and second axis"),
     ]
@@ -129,7 +129,7 @@ pub(crate) fn initial() -> Vec<Key> {
             "steady_rotation",
             Shape::Flag,
             "",
-            "start from the places at which the model keeps turning with its velocities, default false",
+            "start from the positions at which the model keeps turning with its velocities, default false",
         ),
     ]
 }

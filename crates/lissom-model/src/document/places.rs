@@ -130,7 +130,7 @@ impl Context<'_> {
                 Some(NodeReference::Beam { beam: beam.to_owned(), fraction })
             }
             None if self.has("beams", beam) => {
-                let message = format!("{what} names `{text}`, which is no place on the beam `{beam}`");
+                let message = format!("{what} names `{text}`, which is no position on the beam `{beam}`");
                 self.fail(span, message, "the fraction after `@` goes from 0 (start) to 1 (end)")
             }
             _ => {

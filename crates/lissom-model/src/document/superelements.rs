@@ -62,7 +62,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
                 if matches!(read, Some(None)) {
                     let span = reader.node("geometric").map_or(reader.name, |node| node.span);
                     let message = format!(
-                        "the `geometric` matrices of {} are left out: an earlier form of their file counts loads twice",
+                        "the `geometric` matrices of {} are omitted: an earlier form of their file counts loads twice",
                         reader.what
                     );
                     context.report(Problem::warning(span, message).help("reduce the part again by `lissom reduce`"));

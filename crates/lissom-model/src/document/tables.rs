@@ -48,12 +48,12 @@ pub(crate) static TOP: [Top; 22] = [
         "gravity",
         Holds::Value(Shape::GlobalVector),
         false,
-        "Acceleration of gravity [m/s²]; none when left out.",
+        "Acceleration of gravity [m/s²]; none when omitted.",
     ),
     top("parameters", Holds::Values(Shape::Number), false, "Numbers that expressions may name."),
     top("materials", Holds::Entries, false, "Isotropic elastic materials."),
     top("sections", Holds::Entries, false, "Cross sections; axis 1 along the beam, 2 and 3 across."),
-    top("points", Holds::Values(Shape::Point), false, "Named places [m]."),
+    top("points", Holds::Values(Shape::Point), false, "Named positions [m]."),
     top(
         "parts",
         Holds::Entries,
@@ -248,7 +248,7 @@ fn body() -> Vec<Key> {
             "kg m²",
             "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] }",
         ),
-        optional("position", Shape::Place, "m", "place of the reference frame"),
+        optional("position", Shape::Place, "m", "position of the reference frame"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of the reference frame"),
         optional("axes", Shape::Axes, "", "instead of rotation: first and second body axis"),
         optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
@@ -273,7 +273,7 @@ fn point_mass() -> Vec<Key> {
     vec![
         placed_in(),
         required("mass", Shape::Positive, "kg", "mass"),
-        optional("position", Shape::Place, "m", "place at the start"),
+        optional("position", Shape::Place, "m", "position at the start"),
         optional("plane", choice(&["xy", "yz", "zx"]), "", "move in this plane only"),
         optional("velocity", Shape::GlobalVector, "m/s", "at the start, global axes"),
     ]
@@ -327,7 +327,7 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
     match acts_on {
         ActsOn::TwoNodes(rule) => {
             let mut keys = nodes();
-            keys.push(optional("at", Shape::Place, "m", "location; default: the tip node's place"));
+            keys.push(optional("at", Shape::Place, "m", "location; default: the tip node's position"));
             if rule == FrameRule::GivenOrGlobal {
                 let axis = |name, axis, words| optional(name, Shape::DirectionOr(axis), "", words);
                 let words = "direction of x at the start, global axes; default: global x";
@@ -349,30 +349,30 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
                 "at_base",
                 Shape::Place,
                 "m",
-                "location on the base; default: the node's place",
+                "location on the base; default: the node's position",
             ));
             keys.push(optional(
                 "at_tip",
                 Shape::Place,
                 "m",
-                "location on the tip; default: the node's place",
+                "location on the tip; default: the node's position",
             ));
             keys
         }
         ActsOn::Places => {
             vec![
-                required("along", Shape::Places, "m", "the places it leads over, from one end to the other"),
+                required("along", Shape::Places, "m", "the points it passes over, from one end to the other"),
                 optional(
                     "drums",
                     Shape::Coordinates,
                     "",
-                    "coordinates of joints that pay it out, as \"drum.angle\"; a joint's name alone means all of its",
+                    "coordinates of joints that pay it out, such as \"drum.angle\"; a joint's name alone means all of its",
                 ),
             ]
         }
         ActsOn::OneNode => vec![
             required("on", Shape::Node, "", "the node it acts on"),
-            optional("at", Shape::Place, "m", "location; default: the node's place"),
+            optional("at", Shape::Place, "m", "location; default: the node's position"),
         ],
         ActsOn::JointCoordinate(quantity) => {
             let words = match quantity {
@@ -394,14 +394,14 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
                 "at",
                 Shape::Place,
                 "m",
-                "location on the beam at the start; default: the tip node's place",
+                "location on the beam at the start; default: the tip node's position",
             ),
         ],
         ActsOn::Coordinates => vec![required(
             "coordinates",
             Shape::Coordinates,
             "",
-            "coordinates that it acts on, as \"arm.angle\", in the order of its matrices; a joint's name alone means all of its",
+            "coordinates that it acts on, such as \"arm.angle\", in the order of its matrices; a joint's name alone means all of its",
         )],
         ActsOn::TwoJointCoordinates => {
             vec![

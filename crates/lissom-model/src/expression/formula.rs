@@ -13,7 +13,7 @@ use super::{Expression, ExpressionError, Jet, Step, breakpoints, run, run_contin
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name {
-    /// The name, as `tip.u1`.
+    /// The name, such as `tip.u1`.
     pub text: String,
     /// Where it is first in the expression.
     pub range: Range<usize>,

@@ -26,7 +26,7 @@ pub struct MovedPart {
 /// A coordinate that an assembly has brought to a value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brought {
-    /// Its name, as `crank.angle`.
+    /// Its name, such as `crank.angle`.
     pub coordinate: String,
     /// Its value [rad, m].
     pub value: f64,
@@ -34,7 +34,7 @@ pub struct Brought {
     pub unit: &'static str,
 }
 
-/// What an assembly has come to.
+/// Result of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembly {
     /// The gaps as drawn, the widest first.
@@ -161,7 +161,7 @@ fn problem(document: &Document, asked: &AssemblyRequest, error: &AssemblyError) 
             "draw the parts nearer to how they fit, or turn the axis on base or tip round"
         }
         _ => {
-            "no places of the parts near the drawn ones close them: look at lengths and places of these joints, at values \
+            "no positions of the parts near the drawn ones close them: look at lengths and positions of these joints, at values \
              they are given at the start, and at `fixed`; or draw the parts nearer to how they fit"
         }
     };

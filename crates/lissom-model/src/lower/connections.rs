@@ -129,7 +129,7 @@ fn joint(
             return Ok(());
         }
         Attachment::Places(..) | Attachment::Coordinates(_) => {
-            let message = format!("joint `{name}` joins two nodes, not places");
+            let message = format!("joint `{name}` joins two nodes, not positions");
             return Err(Problem::error(component.name.span, message));
         }
         Attachment::OneNode { on, .. } => {

@@ -155,7 +155,7 @@ fn named(
     let components = relative_components(coordinates, builder);
     match components.iter().find(|(known, ..)| known == word) {
         Some((_, coordinate, Of::Value)) => Ok(*coordinate),
-        Some(_) => Err(problem(format!("`{}` is a rate, and equations relate places", name.text))
+        Some(_) => Err(problem(format!("`{}` is a rate, and equations relate positions", name.text))
             .help("for forces that depend on rates use a damper, or a load with an expression")),
         None => {
             let known = components.iter().map(|(known, ..)| known.as_str());

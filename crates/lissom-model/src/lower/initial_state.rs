@@ -101,7 +101,7 @@ fn begins_elsewhere(
     let quantity = system.layout().coordinate_quantity(drive.prescribed.coordinate);
     let (unit, key) = (if quantity == Quantity::Angle { "rad" } else { "m" }, part.unwrap_or(key(quantity)));
     let message = format!(
-        "the drive `{}` starts at {wanted} {unit}, but its joint stands at {own} {unit} at t = {} s",
+        "the drive `{}` starts at {wanted} {unit}, but its joint is at {own} {unit} at t = {} s",
         drive.name, state.kinematics.time
     );
     Some(Problem::error(component.span_of(key), message).label("jumps at the start").help(format!(
@@ -131,7 +131,7 @@ fn jumps(component: &Component, drive: &Drive, (start, end): (f64, f64)) -> Opti
     let first = jumps.first()?;
     Some(Warning::Model {
         message: format!(
-            "what the drive `{}` prescribes jumps in place or speed at t = {first} s{}: forces there have no limit and \
+            "what the drive `{}` prescribes jumps in position or speed at t = {first} s{}: forces there have no limit and \
              depend on the step; give a table `interpolation = \"spline\"`, or another function",
             component.name.value,
             if jumps.len() > 1 { format!(" and {} more times", jumps.len() - 1) } else { String::new() }

@@ -31,7 +31,7 @@ pub enum CurveError {
     /// There is no such column.
     #[error("`{source_name}` has no column or output `{name}`; it has {known}")]
     Unknown {
-        /// What was asked for.
+        /// The request.
         name: String,
         /// Which results.
         source_name: String,

@@ -35,13 +35,13 @@ use crate::sweep::Fatigue;
 /// What a column of results holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Name of the output it belongs to, as `midspan`; columns of one output are drawn together.
+    /// Name of the output it belongs to, such as `midspan`; columns of one output are drawn together.
     pub output: String,
-    /// Component, as `x`; empty for the only one.
+    /// Component, such as `x`; empty for the only one.
     pub component: String,
-    /// Quantity in words, as `displacement`.
+    /// Quantity in words, such as `displacement`.
     pub quantity: String,
-    /// Unit, as `m`; empty for none.
+    /// Unit, such as `m`; empty for none.
     pub unit: String,
     /// How its cycles are counted, if they are.
     pub fatigue: Option<Fatigue>,
@@ -75,7 +75,7 @@ impl Column {
         exact.or_else(other)
     }
 
-    /// Name of output and component, as `midspan.x`.
+    /// Name of output and component, such as `midspan.x`.
     pub fn name(&self) -> String {
         let dot = if self.component.is_empty() { "" } else { "." };
         format!("{}{dot}{}", self.output, self.component)

@@ -1,4 +1,4 @@
-//! What a run came to, as a JSON object: counts, times and norms by name, in the order of their insertion.
+//! Result of a run as a JSON object: counts, times and norms by name, in the order of their insertion.
 
 use serde::Serialize;
 use serde_json::{Map, Value};

@@ -265,7 +265,7 @@ impl Expansion<'_> {
                 let problem = Problem::error(entry.key, format!("part `{name}` has an unknown key `{word}`"));
                 let help = suggest::nearest(word, known()).map(|near| format!("did you mean `{near}`?"));
                 let problem =
-                    problem.label("unknown").help("a part has a content, a place, parameters and names");
+                    problem.label("unknown").help("a part has a content, a position, parameters and names");
                 self.problems.push(problem.maybe_help(help));
                 good = None;
             }
@@ -320,7 +320,7 @@ impl Expansion<'_> {
             Ok(text) => text,
             Err(missing) => {
                 let problem = Problem::error(span, missing.message);
-                let help = "paths are relative to the file in which they stand";
+                let help = "paths are relative to the file that contains them";
                 self.problems.push(problem.help(help).maybe_help(missing.help));
                 return None;
             }
@@ -410,7 +410,7 @@ impl Expansion<'_> {
             return self.fail(
                 key,
                 format!("there are two parts called `{full}`"),
-                "parts of an array have names with numbers, as `leg1`: choose another name",
+                "parts of an array have names with numbers, such as `leg1`: choose another name",
             );
         }
         self.merge(&table, &format!("{full}."));
@@ -505,7 +505,7 @@ fn wrong_word(word: &str, node: &Node) -> Option<(String, String)> {
         )),
         word if tables::has_named_entries(word) => None,
         word if tables::tops().any(|top| top.name == word) => Some((
-            format!("`{word}` cannot stand in an included file: it belongs to the model as a whole"),
+            format!("`{word}` is not allowed in an included file: it belongs to the model as a whole"),
             "move it to the model's own file".to_owned(),
         )),
         word => {

@@ -11,7 +11,7 @@ use crate::document::body_axes;
 use crate::report::{Problem, Span};
 use crate::text::{Node, Value};
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Wanted {
     Scope(ScopeId),
@@ -187,16 +187,16 @@ impl Context<'_> {
             Some(Finding::Done(found)) => found,
             Some(Finding::Begun) => {
                 let what = match &wanted {
-                    Wanted::Body(name) => format!("the place of `{name}`"),
+                    Wanted::Body(name) => format!("the position of `{name}`"),
                     Wanted::Point(name) => format!("the point `{name}`"),
                     Wanted::Scope(scope) => {
-                        format!("the place of `{}`", self.scopes[*scope].prefix.trim_end_matches('.'))
+                        format!("the position of `{}`", self.scopes[*scope].prefix.trim_end_matches('.'))
                     }
                 };
                 self.fail(
                     place,
                     format!("{what} is given relative to itself, in a circle"),
-                    "give one of these places without `in`",
+                    "give one of these positions without `in`",
                 )
             }
             None => {

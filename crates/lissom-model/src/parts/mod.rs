@@ -34,7 +34,7 @@ const PLACED_TABLES: [&str; 8] =
 pub(crate) struct Scope {
     /// The scope around it; none for the model's.
     pub(crate) parent: Option<ScopeId>,
-    /// What its names begin with in the whole model, as `leg2.`.
+    /// What its names begin with in the whole model, such as `leg2.`.
     pub(crate) prefix: String,
     /// Names of the scope around it that are known here.
     pub(crate) outside: Outside,

@@ -8,7 +8,7 @@ use crate::expression::{Expression, Formula};
 use crate::report::{Problem, Span};
 use crate::text::{Node, Value};
 
-/// Tables whose entries expressions may name with a component, as `tip.u1`.
+/// Tables whose entries expressions may name with a component, such as `tip.u1`.
 const OWNERS: [&str; 2] = ["outputs", "joints"];
 /// Tables whose entries expressions may name.
 const NUMBERS: [&str; 3] = ["signals", "inputs", "states"];
@@ -45,7 +45,7 @@ impl Context<'_> {
                     return self.fail(
                         span,
                         message,
-                        "names are numbered by whole numbers, as \"link{index - 1}\"",
+                        "names are numbered by whole numbers, such as \"link{index - 1}\"",
                     );
                 }
                 Err(error) => {

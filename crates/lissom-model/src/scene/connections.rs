@@ -20,7 +20,7 @@ const MAX_PLACES: usize = 13;
 pub struct Joint {
     /// Name.
     pub name: String,
-    /// Kind, as `revolute`.
+    /// Kind, such as `revolute`.
     pub kind: String,
     /// Names of the parts it connects, base first.
     pub parts: Vec<String>,
@@ -37,7 +37,7 @@ pub struct Joint {
 pub struct Spring {
     /// Name.
     pub name: String,
-    /// Kind, as `point`.
+    /// Kind, such as `point`.
     pub kind: String,
     /// Names of the parts it connects, base first.
     pub parts: Vec<String>,
@@ -52,7 +52,7 @@ pub struct Spring {
 pub struct Load {
     /// Name.
     pub name: String,
-    /// Kind, as `force`.
+    /// Kind, such as `force`.
     pub kind: String,
     /// Name of the part it acts on.
     pub part: String,

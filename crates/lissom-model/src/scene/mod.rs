@@ -99,7 +99,7 @@ pub struct Anchor {
 pub struct Output {
     /// Name; its columns in the table begin with it.
     pub name: String,
-    /// Kind, as `position`.
+    /// Kind, such as `position`.
     pub kind: String,
     /// The part or joint it belongs to; none for the whole model.
     pub of: Option<String>,

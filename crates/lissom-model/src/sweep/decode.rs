@@ -283,12 +283,16 @@ fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collec
     }
     let of = |(name, span, node): (&str, Span, &Node)| {
         let Value::Text(text) = &node.value else {
-            return context.wrong_type(node, &format!("`{name}` of `collect`"), "a text, as \"max(tip.u2)\"");
+            return context.wrong_type(
+                node,
+                &format!("`{name}` of `collect`"),
+                "a text, such as \"max(tip.u2)\"",
+            );
         };
         let words = || {
             let names = STATISTICS.iter().map(|statistic| statistic.name);
             format!(
-                "write a statistic and a column, as \"max(tip.u2)\"; statistics are {}",
+                "write a statistic and a column, such as \"max(tip.u2)\"; statistics are {}",
                 suggest::list(names)
             )
         };
@@ -329,7 +333,7 @@ fn histories(context: &Context<'_>, reader: &Reader<'_, '_>) -> Vec<String> {
             }
             Value::Text(name) => all.push(name.clone()),
             _ => {
-                context.wrong_type::<()>(entry, "an entry of `histories`", "a text, as \"tip.u2\"");
+                context.wrong_type::<()>(entry, "an entry of `histories`", "a text, such as \"tip.u2\"");
             }
         }
     }

@@ -38,7 +38,7 @@ pub const MAX_MEMBERS: usize = 10_000_000;
 /// A path of the model and the values it takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Varied {
-    /// Path into the model file, as `point_masses.bob.mass`.
+    /// Path into the model file, such as `point_masses.bob.mass`.
     pub path: String,
     /// The values.
     pub variation: Variation,
@@ -51,7 +51,7 @@ pub struct Collected {
     pub name: String,
     /// What is taken of the history.
     pub statistic: &'static str,
-    /// Name of the history's column, as `midspan.u2`, or of an event.
+    /// Name of the history's column, such as `midspan.u2`, or of an event.
     pub column: String,
 }
 

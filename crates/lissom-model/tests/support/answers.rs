@@ -11,7 +11,7 @@ use lissom_model::registry::Registry;
 pub(crate) enum Answer {
     /// It is read.
     Read,
-    /// It is rejected, and the position of every error is told.
+    /// It is rejected, and the position of every error is reported.
     Refused,
     /// Neither; in words.
     Badly(String),
@@ -21,7 +21,7 @@ pub(crate) enum Answer {
 pub(crate) fn of_model(text: &str, registry: &Registry) -> Answer {
     match Document::parse_with(text, "fuzz.toml", registry, &[]) {
         Ok(_) => Answer::Read,
-        Err(report) if !report.has_errors() => Answer::Badly("refused without an error".to_owned()),
+        Err(report) if !report.has_errors() => Answer::Badly("rejected without an error".to_owned()),
         Err(report) => {
             let reported = report.to_value();
             let lines = text.lines().count().max(1) as u64 + 1;
@@ -60,7 +60,7 @@ pub(crate) fn of_expression(text: &str, parameters: &BTreeMap<String, f64>) -> A
         (Err(_), Err(_)) => Answer::Refused,
         (Err(error), Ok(_)) => Answer::Badly(format!("read without names alone: {error}")),
         (Ok(formula), Err(_)) if formula.arguments().is_empty() => {
-            Answer::Badly("without names it is refused, and has none".to_owned())
+            Answer::Badly("without names it is rejected, and has none".to_owned())
         }
         (Ok(formula), Err(_)) => {
             for time in TIMES {

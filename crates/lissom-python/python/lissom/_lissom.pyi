@@ -24,7 +24,7 @@ class LissomError(Exception):
     """What to try."""
 
 class ModelError(LissomError):
-    """A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy.
+    """A model or sweep is wrong. The text underlines every mistake, with a remedy.
 
     `problems` has them as `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, where it is known,
     `part`, `file`, `line`, `column`. `part` and `remedy` are those of the first.
@@ -73,7 +73,7 @@ class Simulation:
         """Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too. Stands still before it
         at an event that ends the run, which `stopped_by` names.
 
-        Raises `SolutionError` if a step has no solution: the simulation then stands at the end of the last one that has.
+        Raises `SolutionError` if a step has no solution: the simulation is then at the end of the last successful step.
         Raises `ValueError` if `time` is before the present time or not finite.
         """
     @property

@@ -1,4 +1,4 @@
-//! Work on subtrees side by side. What a subtree comes to does not depend on who works at it, nor on when; so results are
+//! Work on subtrees in parallel. The result of a subtree depends neither on the thread nor on the time; so results are
 //! the same with any number of threads.
 
 use super::Largest;

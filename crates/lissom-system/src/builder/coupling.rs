@@ -21,7 +21,7 @@ impl Builder {
         parameters: &Parameters,
     ) -> Result<(), ParameterError> {
         let Build::Coordinate(wanted, build) = kind.build else {
-            return Err(ParameterError::new("kind", "stands between two nodes"));
+            return Err(ParameterError::new("kind", "is between two nodes"));
         };
         self.model.check_quantity(coordinate, wanted)?;
         let prescribed = Prescribed { coordinate, value: build(parameters)? };

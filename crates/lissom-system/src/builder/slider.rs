@@ -35,7 +35,7 @@ impl Builder {
             return Err(ParameterError::new("tip", "is a node of the beam that it slides on"));
         }
         let Some(line) = Centerline::new(knots) else {
-            return Err(unusable("must lead from node to node: some stand at one place"));
+            return Err(unusable("must lead from node to node: some coincide"));
         };
         let at =
             |node: usize| self.model.nodes[nodes[node].node].motion.frame.transform_point(&nodes[node].point);
@@ -46,7 +46,7 @@ impl Builder {
         let is_drawn = self.start_values.is_some();
         if distance.is_nan() || (!is_drawn && distance > BESIDE * line.length()) {
             let problem = format!(
-                "must be on the line through the beam's nodes, but is {distance:.3e} m away from it; its nearest place is \
+                "must be on the line through the beam's nodes, but is {distance:.3e} m away from it; its nearest position is \
                  [{:.6}, {:.6}, {:.6}]",
                 on_line.x, on_line.y, on_line.z
             );

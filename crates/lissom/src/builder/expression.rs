@@ -41,7 +41,7 @@ impl Expression {
         Self::text("t")
     }
 
-    /// An expression as a model file has it, as `"sin(3*t)"`, or the name of a variable, as `"elongation"` in the force of a
+    /// An expression as a model file has it, such as `"sin(3*t)"`, or the name of a variable, such as `"elongation"` in the force of a
     /// spring.
     pub fn text(text: &str) -> Self {
         Self(Form::Pieces(vec![Piece::Text(text.to_owned())]))
@@ -103,7 +103,7 @@ impl Expression {
         self.joined("min(", ", ", Some(other.into()), ")")
     }
 
-    /// A function of a model file of this, as `"smoothstep"`.
+    /// A function of a model file of this, such as `"smoothstep"`.
     #[must_use]
     pub fn function(self, name: &str) -> Self {
         self.joined(&format!("{name}("), "", None, ")")
@@ -247,14 +247,14 @@ impl JointId {
         self.coordinate("velocity")
     }
 
-    /// One of its coordinates or rates by its word in model files, as `"angle2"` where it has two.
+    /// One of its coordinates or rates by its word in model files, such as `"angle2"` where it has two.
     pub fn coordinate(self, word: &str) -> Expression {
         Expression::named(self.0, word)
     }
 }
 
 impl OutputId {
-    /// One of its components by its word in tables of results, as `"x"`.
+    /// One of its components by its word in tables of results, such as `"x"`.
     pub fn component(self, word: &str) -> Expression {
         Expression::named(self.0, word)
     }

@@ -20,13 +20,13 @@ use crate::terminal;
 Example:
   lissom buckling column.toml --count 3
 
-Exit code: 0 all is done; 2 wrong model or command line; 3 no equilibrium, loads that are critical already, or \
+Exit code: 0 success; 2 wrong model or command line; 3 no equilibrium, loads that are critical already, or \
 load factors missed.")]
 pub(super) struct Buckling {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// How many load factors, the lowest first [default: 5].
+    /// Number of load factors, the lowest first [default: 5].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     count: Option<u32>,
 
@@ -34,7 +34,7 @@ pub(super) struct Buckling {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -73,14 +73,14 @@ pub(super) fn report(
     Ok(Exit::Done)
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, found: &BucklingReport, folder: &Path) -> String {
     let modes = &found.buckling.modes;
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  {} load factors (asked for {}), {}, {:.3} s",
+        "  {} load factors ({} requested), {}, {:.3} s",
         modes.len(),
         found.asked,
         match found.buckling.completeness.name() {

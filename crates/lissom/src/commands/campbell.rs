@@ -11,10 +11,10 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Find natural frequencies and damping over a parameter, as the speed of a rotor.
+/// Find natural frequencies and damping over a parameter, such as the speed of a rotor.
 ///
-/// At each value modes are found about the steady rotation that the velocities of the file begin, or about static equilibrium
-/// where nothing turns, and followed by their shapes. The results go to a folder: `campbell.csv`, `campbell.svg` and
+/// At each value modes are found about the steady rotation given by the velocities of the file, or about static equilibrium
+/// if nothing rotates, and tracked by their shapes. The results go to a folder: `campbell.csv`, `campbell.svg` and
 /// `campbell.png` (diagram with the multiples of the rotation) and `summary.json` (critical speeds).
 #[derive(Args)]
 #[command(after_help = "\
@@ -22,16 +22,16 @@ Examples:
   lissom campbell rotor.toml --vary parameters.speed=0:200:41
   lissom campbell blade.toml --vary parameters.speed=0:2:21 --count 6 --rays 1,3,6
 
-Exit code: 0 all is done; 2 wrong model or command line; 3 no steady rotation, no modes, or coefficients that are not constant.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no steady rotation, no modes, or coefficients that are not constant.")]
 pub(super) struct Campbell {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Number of the model file, its first and last value, and how many values.
+    /// Path of a number in the model file, its first and last value, and the number of values.
     #[arg(long, value_name = "PATH=FROM:TO:VALUES", value_parser = parse_variation)]
     vary: (String, f64, f64, usize),
 
-    /// How many modes, the lowest first.
+    /// Number of modes, the lowest first.
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     count: u32,
 
@@ -43,13 +43,13 @@ pub(super) struct Campbell {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
 
 fn parse_variation(text: &str) -> Result<(String, f64, f64, usize), String> {
-    let wrong = || "it must be PATH=FROM:TO:VALUES, as `parameters.speed=0:20:41`".to_owned();
+    let wrong = || "it must be PATH=FROM:TO:VALUES, such as `parameters.speed=0:20:41`".to_owned();
     let (path, range) = text.split_once('=').ok_or_else(wrong)?;
     let parts: Vec<&str> = range.split(':').collect();
     let [from, to, values] = parts[..] else { return Err(wrong()) };
@@ -57,7 +57,7 @@ fn parse_variation(text: &str) -> Result<(String, f64, f64, usize), String> {
         |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(wrong);
     let values = values.trim().parse::<usize>().map_err(|_| wrong())?;
     if !(2..=100_000).contains(&values) {
-        return Err("there must be 2 values at least, and 100000 at most".to_owned());
+        return Err("the number of values must be from 2 to 100000".to_owned());
     }
     Ok((path.trim().to_owned(), number(from)?, number(to)?, values))
 }
@@ -94,7 +94,7 @@ impl Campbell {
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, found: &CampbellReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.

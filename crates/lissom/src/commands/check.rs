@@ -27,7 +27,7 @@ pub(super) struct Check {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Print one JSON object instead of words; problems of the model are in it, too.
+    /// Print one JSON object instead of text, problems of the model included.
     #[arg(long)]
     json: bool,
 }
@@ -63,7 +63,7 @@ impl Check {
         Ok(exit)
     }
 
-    /// What is known of the model, and whether it can be run.
+    /// Facts about the model, and whether it can be run.
     fn facts(&self) -> Result<(Value, Exit), Failure> {
         let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let model = model.without(self.model.unset.clone());
@@ -199,7 +199,7 @@ fn analysis(document: &Document, lowered: &Lowered) -> String {
         return format!("{count} natural modes about {state}");
     }
     if let AnalysisKind::Buckling { count } = document.analysis.kind {
-        return format!("{count} load factors of buckling");
+        return format!("{count} buckling load factors");
     }
     if let AnalysisKind::Path { end, .. } = document.analysis.kind {
         if let Some(vary) = &document.analysis.vary {
@@ -211,7 +211,7 @@ fn analysis(document: &Document, lowered: &Lowered) -> String {
     let kind = if plan.is_static { "load steps" } else { "steps" };
     if let (Some(control), true) = (&settings.control, plan.is_static) {
         return format!(
-            "{} … {} s in load steps that leave at most {} of their work unexplained, solver {}",
+            "{} … {} s in load steps with a work error of at most {}, solver {}",
             plan.start, plan.end, control.relative_tolerance, settings.solver.name
         );
     }

@@ -33,7 +33,7 @@ Examples:
   lissom man | man -l -
   lissom man run > lissom-run.1")]
 pub(super) struct Man {
-    /// A command, as `run`.
+    /// A command, such as `run`.
     command: Option<String>,
 }
 

@@ -17,7 +17,7 @@ Examples:
   lissom explain                      all codes of warnings and failures
   lissom explain energy-surplus
   lissom explain did not converge     words of a message
-  lissom explain out/tip-crank        what this run has told
+  lissom explain out/tip-crank        the warnings of this run
 
 Exit code: 0 there is an explanation; 2 there is none.")]
 pub(super) struct Explain {

@@ -11,16 +11,16 @@ use crate::terminal;
 
 /// Pack a model as a functional mock-up unit (FMI 3.0, co-simulation), for Simulink, Modelica tools and others.
 ///
-/// Inputs of the model are inputs of the unit, its numbers under [parameters] are parameters, all columns that it records are
+/// The inputs of the model are inputs of the unit, its numbers under [parameters] are parameters, and all recorded columns are
 /// outputs. The unit holds the model, the files it includes and a shared library, and needs nothing else.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
   lissom fmu examples/controlled-arm.toml --out controlled-arm.fmu
 
-The shared library is taken from beside the program, or from where --library says. It is built from the sources by
+The shared library is expected beside the program, or at the path of --library. Build it from the sources by
   cargo build --release --manifest-path crates/lissom-fmi/Cargo.toml
-Exit code: 0 all is done; 2 wrong model or command line, or no library; 3 the file cannot be written.")]
+Exit code: 0 success; 2 wrong model or command line, or no library; 3 the file cannot be written.")]
 pub(super) struct Fmu {
     #[command(flatten)]
     model: ModelArguments,
@@ -33,7 +33,7 @@ pub(super) struct Fmu {
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -60,7 +60,7 @@ impl Fmu {
         Ok(Exit::Done)
     }
 
-    /// The shared library: the one that is named, or the one beside the program, or where cargo leaves it.
+    /// The shared library: the one that is named, the one beside the program, or that of a cargo build.
     fn library(&self) -> Result<PathBuf, Failure> {
         if let Some(library) = &self.library {
             return Ok(library.clone());
@@ -71,7 +71,7 @@ impl Fmu {
         let places = [folder.join(&name), folder.join("../lib/lissom").join(&name)];
         places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
             let message = format!(
-                "the shared library `{name}` of units is not beside the program, in `{}`\n  help: build it by `cargo build --release \
+                "the shared library `{name}` is not beside the program, in `{}`\n  help: build it by `cargo build --release \
                  --manifest-path crates/lissom-fmi/Cargo.toml`, and name it by `--library`",
                 folder.display()
             );

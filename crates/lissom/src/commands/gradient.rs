@@ -11,7 +11,7 @@ use serde_json::json;
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Differentiate an output by numbers of the model file, along the steps of a run.
+/// Differentiate an output with respect to numbers of the model file, along the steps of a run.
 ///
 /// The results go to a folder: `gradient.csv` (path, number, derivative) and `summary.json`.
 #[derive(Args)]
@@ -20,16 +20,16 @@ Examples:
   lissom gradient examples/pendulum.toml --of bob.x@0.5 --by point_masses.bob.mass,springs.spring.stiffness
   lissom gradient examples/tip-crank.toml --of midspan.u3@max --by materials.steel.E
 
-Exit code: 0 all is done; 2 wrong model or command line; 3 no solution.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no solution.")]
 pub(super) struct Gradient {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Output column, and what of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
+    /// Output column, and the scalar of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
     #[arg(long, value_name = "OUTPUT[@TIME|max|rms]")]
     of: String,
 
-    /// Paths of numbers in the model file, as `bodies.top.mass,springs.s.stiffness`.
+    /// Paths of numbers in the model file, such as `bodies.top.mass,springs.s.stiffness`.
     #[arg(long, value_name = "PATH,…", value_delimiter = ',', required = true)]
     by: Vec<String>,
 
@@ -37,11 +37,11 @@ pub(super) struct Gradient {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Leave out the run of a neighbouring model that confirms the derivatives.
+    /// Skip the run of a neighbouring model that verifies the derivatives.
     #[arg(long)]
     unconfirmed: bool,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -84,7 +84,7 @@ impl Gradient {
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let time = found.time.map_or_else(String::new, |time| format!(" at t = {time} s"));
@@ -102,7 +102,7 @@ fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> Str
             writeln!(text, "  by {} = {:.6e}: {:.9e}", derivative.path, derivative.number, derivative.value);
     }
     if let Some(Confirmation::Confirmed { missed, runs }) = &found.confirmation {
-        let _ = writeln!(text, "  confirmed to {missed:.1e} by {runs} run(s) with all numbers changed");
+        let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers changed");
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

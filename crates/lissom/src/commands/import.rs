@@ -19,19 +19,19 @@ Examples:
   lissom import solo12.urdf --floating --without limits,friction
   lissom import hopper.xml                         MJCF, the description of MuJoCo")]
 pub(super) struct Import {
-    /// The description: URDF or MJCF, whatever its name ends with.
+    /// The description: URDF or MJCF, regardless of the file extension.
     #[arg(value_name = "ROBOT")]
     file: PathBuf,
-    /// The model file to write; default: the name of the description with the ending toml, in the folder of work.
+    /// The model file to write; default: the name of the description with the extension toml, in the current folder.
     #[arg(long, value_name = "MODEL.toml")]
     out: Option<PathBuf>,
     /// Value of a joint at the start [rad, m]; may be given for several.
     #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]
     positions: Vec<(String, f64)>,
-    /// Let the root move freely instead of holding it to the ground.
+    /// Leave the root free instead of fixing it to the ground.
     #[arg(long)]
     floating: bool,
-    /// Leave out: stops at limits, damping and friction, joints that follow others, or what no model can hold; may be given for
+    /// Omit stops at limits, damping and friction, mimic joints, or what a model cannot express; may be given for
     /// several.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     without: Vec<Part>,
@@ -64,10 +64,8 @@ impl Import {
         let stem = self.file.file_stem().unwrap_or_default();
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension("toml"));
         if out.exists() {
-            let message = format!(
-                "`{}` is there already, and is left as it is: name another with --out",
-                out.display()
-            );
+            let message =
+                format!("`{}` already exists and is not overwritten: name another with --out", out.display());
             return Err(Failure::new(Exit::BadModel, message));
         }
         let text =
@@ -96,10 +94,10 @@ impl Import {
         let moving =
             robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();
         let left_out = robot.left_out.iter().chain(&robot.unsupported);
-        let left_out: String = left_out.flat_map(|what| ["  left out: ", what, "\n"]).collect();
+        let left_out: String = left_out.flat_map(|what| ["  omitted: ", what, "\n"]).collect();
         terminal::print(&format!(
-            "{} is written: {} links, {moving} joints that move.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch it \
-             move\n",
+            "{} is written: {} links, {moving} joints that move.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch the \
+             motion\n",
             out.display(),
             robot.links.len(),
             out.display()

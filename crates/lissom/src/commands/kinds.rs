@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// List what a model can be made of: kinds with parameters and samples, and the keys of every table.
+/// List the elements of a model file: kinds with parameters and samples, and the keys of every table.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -195,20 +195,21 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
     const TWO: &str = "base = \"ground\"\ntip = \"my_body\"\nat = [0.0, 0.0, 0.0]";
     const PLACES: &str = "base = \"ground\"\ntip = \"my_body\"\nat_base = [0.0, 0.0, 0.0]";
     match acts_on {
-        ActsOn::TwoNodes(FrameRule::None) => ("base, tip, at (default: the tip's place)", TWO),
-        ActsOn::TwoNodes(FrameRule::Axis) => ("base, tip, at (default: the tip's place), axis", TWO),
+        ActsOn::TwoNodes(FrameRule::None) => ("base, tip, at (default: the tip's position)", TWO),
+        ActsOn::TwoNodes(FrameRule::Axis) => ("base, tip, at (default: the tip's position), axis", TWO),
         ActsOn::TwoNodes(FrameRule::TwoAxes) => {
-            ("base, tip, at (default: the tip's place), axis, second_axis", TWO)
+            ("base, tip, at (default: the tip's position), axis, second_axis", TWO)
         }
-        ActsOn::TwoNodes(FrameRule::GivenOrGlobal) => {
-            ("base, tip, at (default: the tip's place), axis and second_axis (default: global x and y)", TWO)
-        }
-        ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
+        ActsOn::TwoNodes(FrameRule::GivenOrGlobal) => (
+            "base, tip, at (default: the tip's position), axis and second_axis (default: global x and y)",
+            TWO,
+        ),
+        ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' positions)", PLACES),
         ActsOn::Places => (
-            "along: the places it leads over, each with `on` and `at`; drums: coordinates that pay it out",
+            "along: the points it passes over, each with `on` and `at`; drums: coordinates that pay it out",
             "along = [{ on = \"ground\", at = [0.0, 0.0, 3.0] }, { on = \"my_body\" }]",
         ),
-        ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),
+        ActsOn::OneNode => ("on, at (default: the node's position)", "on = \"my_body\""),
         ActsOn::TwoJointCoordinates => {
             ("joint, other: those whose coordinates it relates", "joint = \"my_hinge\"\nother = \"my_slide\"")
         }
@@ -218,7 +219,7 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
             "coordinates = [\"my_hinge.angle\", \"my_slide.displacement\"]",
         ),
         ActsOn::AlongBeams => {
-            ("beams, tip, at (default: the tip's place)", "beams = [\"my_beam\"]\ntip = \"my_body\"")
+            ("beams, tip, at (default: the tip's position)", "beams = [\"my_beam\"]\ntip = \"my_body\"")
         }
         ActsOn::Nothing => ("nothing: it has coordinates of its own", ""),
         ActsOn::JointCoordinate(Quantity::Angle) => {

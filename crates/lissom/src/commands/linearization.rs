@@ -6,7 +6,7 @@ use lissom::response::FrequencyError;
 
 use super::{Exit, Failure};
 
-/// About which state.
+/// State about which the model is linearised.
 #[derive(Args)]
 pub(super) struct StateArgument {
     /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
@@ -20,7 +20,7 @@ pub(super) struct StateArgument {
     pub(super) about: OperatingPoint,
 }
 
-/// An answer, or why there is none; an error of the model or of the question ends the command at once.
+/// A result, or why there is none; an error of the model or of the request ends the command at once.
 pub(super) fn answered<T>(found: Result<T, FrequencyError>) -> Result<Result<T, FrequencyError>, Failure> {
     match found {
         Err(FrequencyError::Model(report)) => Err(report.into()),

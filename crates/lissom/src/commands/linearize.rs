@@ -23,9 +23,9 @@ Examples:
   lissom linearize examples/tip-crank.toml
   lissom linearize examples/tip-crank.toml --input drive --output midspan
 
-An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), as `motor`, or
+An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), such as `motor`, or
 `loads.motor` where several things have a name.
-Exit code: 0 all is done; 2 wrong model or command line; 3 no state to linearise about.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about.")]
 pub(super) struct Linearize {
     #[command(flatten)]
     model: ModelArguments,
@@ -45,7 +45,7 @@ pub(super) struct Linearize {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -75,7 +75,7 @@ impl Linearize {
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, found: &LinearizeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;

@@ -38,10 +38,10 @@ use lissom::{Document, FileError, FolderError, Model, Override, Report};
 
 use crate::terminal;
 
-/// How the program ends.
+/// Exit code of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
-    /// All that was asked for is there.
+    /// Success.
     Done,
     /// The model or the command line is wrong.
     BadModel,
@@ -52,7 +52,7 @@ pub(crate) enum Exit {
 }
 
 impl Exit {
-    /// The number other programs see.
+    /// The exit code.
     pub(crate) fn code(self) -> u8 {
         match self {
             Self::Done => 0,
@@ -105,14 +105,14 @@ impl From<Report> for Failure {
     after_help = "\
 Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
-  lissom view examples/four-bar.toml --open    simulate, and watch it move in the browser
+  lissom view examples/four-bar.toml --open    simulate, and watch the motion in the browser
   lissom snapshot out/pendulum --strip 6       a picture at six instants, as SVG or PNG
-  lissom check examples/four-bar.toml          look for mistakes and redundant constraints
+  lissom check examples/four-bar.toml          find mistakes and redundant constraints
   lissom modes examples/four-bar.toml          natural frequencies and shapes
-  lissom kinds                                 what a model can be made of
-  lissom schema > lissom.schema.json           for editors that complete and check
+  lissom kinds                                 kinds and keys of a model file
+  lissom schema > lissom.schema.json           schema for editors
 
-Exit code: 0 all is done; 2 wrong model or command line; 3 no solution; 130 interrupted by Ctrl-C."
+Exit code: 0 success; 2 wrong model or command line; 3 no solution; 130 interrupted by Ctrl-C."
 )]
 pub(crate) struct Line {
     #[command(subcommand)]
@@ -148,7 +148,7 @@ enum Command {
 }
 
 impl Line {
-    /// Does what the command line asks for.
+    /// Runs the command line.
     pub(crate) fn run(self) -> ExitCode {
         let outcome = match self.command {
             Command::Run(command) => command.run(),
@@ -184,18 +184,18 @@ impl Line {
     }
 }
 
-/// A model file and what is changed in it, as every command that reads a model takes them.
+/// A model file and its overrides, for every command that reads a model.
 #[derive(Args)]
 struct ModelArguments {
     /// The model file.
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
 
-    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
     set: Vec<Override>,
 
-    /// Leave a value or an entry out of the model, as `analysis.step` or `springs.damper`; may be repeated.
+    /// Remove a value or an entry from the model, such as `analysis.step` or `springs.damper`; may be repeated.
     #[arg(long, value_name = "PATH")]
     unset: Vec<String>,
 }
@@ -221,7 +221,7 @@ fn parse_override(text: &str) -> Result<Override, String> {
         Some((path, value)) if !path.trim().is_empty() => {
             Ok((path.trim().to_owned(), value.trim().to_owned()))
         }
-        _ => Err("it must be PATH=VALUE, as `analysis.step=1e-4`".to_owned()),
+        _ => Err("it must be PATH=VALUE, such as `analysis.step=1e-4`".to_owned()),
     }
 }
 

@@ -17,7 +17,7 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Models of more nodes are not drawn: it would take longer than their modes.
+/// Models of more nodes are not drawn: drawing would take longer than their modes.
 const MAX_DRAWN: usize = 2000;
 /// Modes listed on the terminal; the tables have all.
 const LISTED: usize = 20;
@@ -34,13 +34,13 @@ Examples:
   lissom modes examples/tip-crank.toml --count 40 --shift 100   those nearest to 100 Hz
   lissom modes examples/top.toml --about 0.5      frozen at t = 0.5 s of its motion
 
-Kinds: rigid (frequency 0), oscillation, decay (overdamped), divergence and flutter (they grow).
-Exit code: 0 all is done; 2 wrong model or command line; 3 no state to linearise about, or modes were missed.")]
+Kinds: rigid (frequency 0), oscillation, decay (overdamped), divergence and flutter (growing).
+Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or modes were missed.")]
 pub(super) struct Modes {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// How many modes, the lowest first [default: 20].
+    /// Number of modes, the lowest first [default: 20].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     count: Option<u32>,
 
@@ -48,7 +48,7 @@ pub(super) struct Modes {
     #[arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)]
     about: Option<OperatingPoint>,
 
-    /// Seek the modes nearest to this frequency [default: the lowest ones].
+    /// Find the modes nearest to this frequency [default: the lowest ones].
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     shift: Option<f64>,
 
@@ -60,7 +60,7 @@ pub(super) struct Modes {
     #[arg(long)]
     no_plots: bool,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -147,7 +147,7 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     folder.write_table("shapes.svg", &text).map_err(unwritable)
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;

@@ -17,7 +17,7 @@ const TEMPLATE: &str = include_str!("new_model.toml");
 Examples:
   lissom new press                             writes press.toml
   lissom view press.toml --open                simulates it and shows it
-  lissom live press.toml --open                the same again whenever the file is saved")]
+  lissom live press.toml --open                simulates again whenever the file is saved")]
 pub(super) struct New {
     /// Name of the model; the file is NAME.toml.
     #[arg(value_name = "NAME")]
@@ -39,7 +39,7 @@ impl New {
         }
         if path.exists() {
             let message =
-                format!("`{}` is there already, and is left as it is: choose another name", path.display());
+                format!("`{}` already exists and is not overwritten: choose another name", path.display());
             return Err(Failure::new(Exit::BadModel, message));
         }
         // As a TOML text, whatever letters it has.
@@ -54,8 +54,8 @@ impl New {
 fn render(path: &Path) -> String {
     let path = path.display();
     format!(
-        "{path} is written. Next:\n  lissom view {path} --open    simulate it and watch it move\n  \
-         lissom live {path} --open    the same again whenever you save the file\n  \
-         lissom kinds                 what a model can be made of\n"
+        "{path} is written. Next:\n  lissom view {path} --open    simulate it and watch the motion\n  \
+         lissom live {path} --open    simulate again whenever you save the file\n  \
+         lissom kinds                 kinds and keys of a model file\n"
     )
 }

@@ -12,7 +12,7 @@ use serde_json::json;
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Interrupt};
 
-/// What is done with the results.
+/// Handling of the results.
 pub(super) struct Wanted<'a> {
     pub(super) folder: &'a Path,
     pub(super) plots: bool,
@@ -86,13 +86,13 @@ pub(super) fn run(
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  path to {} {:.6e}, {:.3} long, in {} steps ({} tried again), {} iterations, {:.3} s",
+        "  path to {} {:.6e}, length {:.3}, in {} steps ({} repeated), {} iterations, {:.3} s",
         report.name,
         report.load_factor,
         report.arc,
@@ -109,7 +109,7 @@ fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
             point.kind.name(),
             report.name,
             point.load_factor,
-            if point.is_located { "" } else { ", not located well" }
+            if point.is_located { "" } else { ", not located accurately" }
         );
     }
     let _ = writeln!(text, "  results in {}", folder.display());

@@ -22,13 +22,13 @@ Examples:
   lissom plot out/tip-crank --of midspan --spectrum         amplitudes over frequency
   lissom plot out/coarse out/fine --out out/compared        outputs of both, in one plot each
 
-Exit code: 0 all is done; 2 a folder, output or column that is not there.")]
+Exit code: 0 success; 2 a folder, output or column that is not there.")]
 pub(super) struct Plot {
     /// Folders of results.
     #[arg(value_name = "RESULT", required = true)]
     folders: Vec<PathBuf>,
 
-    /// Outputs or columns, as `tip` or `tip.u3`; all that the results share by default.
+    /// Outputs or columns, such as `tip` or `tip.u3`; all that the results share by default.
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     of: Vec<String>,
 

@@ -26,7 +26,7 @@ Examples:
   lissom reduce examples/tip-crank.toml --interfaces beam.start,beam.end --modes 6
   lissom reduce turbine.toml --part blade1 --interfaces blade1.beam.start --modes 10 --name blade
 
-Exit code: 0 all is done; 2 wrong model or command line; 3 no state, or no elastic assembly.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no state, or no elastic assembly.")]
 pub(super) struct Reduce {
     #[command(flatten)]
     model: ModelArguments,
@@ -35,7 +35,7 @@ pub(super) struct Reduce {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     part: Vec<String>,
 
-    /// Nodes that joints will hold it by, as beam.start,beam.end; the first one carries the floating frame.
+    /// Interface nodes for joints, such as beam.start,beam.end; the first one carries the floating frame.
     #[arg(long, value_name = "NODE,…", value_delimiter = ',', required = true)]
     interfaces: Vec<String>,
 
@@ -43,7 +43,7 @@ pub(super) struct Reduce {
     #[arg(long, value_name = "NUMBER", default_value_t = 10)]
     modes: usize,
 
-    /// No shapes besides the modes: they make up for what modes miss where loads and rotation change the stiffness.
+    /// Omit correction shapes, which compensate for truncated modes where loads and rotation change the stiffness.
     #[arg(long)]
     modes_alone: bool,
 
@@ -59,7 +59,7 @@ pub(super) struct Reduce {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -111,7 +111,7 @@ impl Reduce {
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [before, after] = found.unknowns;

@@ -21,9 +21,9 @@ use crate::terminal;
 Examples:
   lissom response examples/tip-crank.toml --input drive --output midspan.u3 --from 0.1 --to 100
 
-An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), as `motor`, or
+An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), such as `motor`, or
 `loads.motor` where several things have a name.
-Exit code: 0 all is done; 2 wrong model or command line; 3 no state to linearise about, or no response.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or no response.")]
 pub(super) struct Response {
     #[command(flatten)]
     model: ModelArguments,
@@ -55,7 +55,7 @@ pub(super) struct Response {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Nothing on the terminal.
+    /// Print nothing.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -92,7 +92,7 @@ impl Response {
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(heading: &str, found: &ResponseReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;

@@ -23,7 +23,7 @@ use super::results::unwritable;
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Bar, Interrupt};
 
-/// Simulate a model as its table `[analysis]` asks.
+/// Simulate a model as its table `[analysis]` specifies.
 ///
 /// The results go to a folder: `history.csv` (time and all outputs), `summary.json` (steps, iterations, times,
 /// violations, energy), `motion.bin` and `scene.json` (what `lissom view` shows), and a plot of every output as SVG and
@@ -34,23 +34,23 @@ use crate::terminal::{self, Bar, Interrupt};
 Examples:
   lissom run examples/tip-crank.toml
   lissom run examples/tip-crank.toml --out results/fine --set analysis.step=1e-4
-  lissom run examples/four-bar.toml --unset analysis.step      chooses its steps by their error
+  lissom run examples/four-bar.toml --unset analysis.step      adaptive steps
   lissom run examples/top.toml --set analysis.scheme=hht --set bodies.top.mass=20 --no-plots --quiet
   lissom run examples/tip-crank.toml --checkpoint-every 10s
-  lissom run --resume out/tip-crank             goes on where a run with checkpoints was cut off
+  lissom run --resume out/tip-crank             resumes an interrupted run with checkpoints
 
 Ctrl-C ends the run after the current step and keeps the results; a second Ctrl-C ends it at once.
-Exit code: 0 all is done; 2 wrong model or command line; 3 no solution; 130 interrupted by Ctrl-C.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Run {
     /// The model file.
     #[arg(value_name = "MODEL.toml", required_unless_present = "resume")]
     model: Option<PathBuf>,
 
-    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
-    /// Leave a value or an entry out of the model, as `analysis.step` or `springs.damper`; may be repeated.
+    /// Remove a value or an entry from the model, such as `analysis.step` or `springs.damper`; may be repeated.
     #[arg(long, value_name = "PATH")]
     unset: Vec<String>,
 
@@ -58,7 +58,7 @@ pub(super) struct Run {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// No progress, no summary on the terminal.
+    /// Print neither progress nor a summary.
     #[arg(long, short)]
     quiet: bool,
 
@@ -66,11 +66,11 @@ pub(super) struct Run {
     #[arg(long)]
     no_plots: bool,
 
-    /// Leave a checkpoint in the folder after so much time or so many steps, as `10s` or `1000steps`.
+    /// Write a checkpoint after this time or number of steps, such as `10s` or `1000steps`.
     #[arg(long, value_name = "TIME|STEPS", value_parser = |text: &str| text.parse::<CheckpointEvery>().map(|_| text.to_owned()))]
     checkpoint_every: Option<String>,
 
-    /// Go on with the run in this folder from its last checkpoint, as if it had not been cut off.
+    /// Resume the run in this folder from its last checkpoint, as if it had not been interrupted.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["model", "set", "unset", "out", "checkpoint_every"])]
     resume: Option<PathBuf>,
 
@@ -306,14 +306,14 @@ impl Task {
         Ok(recorder.writing_to(folder.motion().map_err(unwritable)?))
     }
 
-    /// What is known before the first step.
+    /// Facts known before the first step.
     fn summary(&self, document: &Document, lowered: &Lowered) -> Summary {
         let mut summary = summary::of_model(self.model.name(), &self.overrides, document, lowered);
         summary::of_left_out(&mut summary, &self.model);
         summary
     }
 
-    /// Where checkpoints go, if any are wanted.
+    /// Destination of checkpoints, if requested.
     fn checkpoints(&self, folder: &ResultFolder) -> Option<CheckpointFile> {
         let every = self.every.clone()?;
         let parsed = every.parse().ok()?;
@@ -338,7 +338,7 @@ impl Task {
     }
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(
     (heading, assembly): (&str, Option<String>),
     session: &Session,
@@ -376,7 +376,7 @@ fn render(
     );
     let mut effort = format!("{per_step:.2} per step, {} tangents", totals.factorizations);
     if totals.rejected_steps > 0 {
-        let _ = write!(effort, ", {} steps tried again", totals.rejected_steps);
+        let _ = write!(effort, ", {} steps repeated", totals.rejected_steps);
     }
     if totals.stagnated_steps > 0 {
         let _ = write!(effort, ", {} steps ended at round-off", totals.stagnated_steps);
@@ -391,11 +391,11 @@ fn render(
     }
     if let Some(row) = totals.fell_back_at {
         let unknown = simulation.system().layout().name_of(row);
-        line("solver", format!("a pivot vanished for the {unknown}: went on with the pivoting solver"));
+        line("solver", format!("a pivot vanished for the {unknown}: continued with the pivoting solver"));
     }
     if let Some(row) = totals.regularized_at {
         let unknown = simulation.system().layout().name_of(row);
-        let words = format!("repeat each other, seen at the {unknown}: least forces are given");
+        let words = format!("are redundant, detected at the {unknown}: least forces are given");
         line("redundant", format!("constraints {words}"));
     }
     let speed = if solving > 0.0 { totals.steps as f64 / solving } else { 0.0 };

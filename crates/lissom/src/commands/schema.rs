@@ -6,7 +6,7 @@ use lissom_model::lower::registry::registry;
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Print the JSON schema of model files, for editors that complete and check while one types.
+/// Print the JSON schema of model files, for completion and validation in editors.
 #[derive(Args)]
 #[command(after_help = "\
 Example:

@@ -28,14 +28,14 @@ Examples:
   lissom snapshot examples/four-bar.toml --animate 4
   lissom snapshot out/four-bar-modes --mode 2 --animate 2
 
-Exit code: 0 all is done; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
+Exit code: 0 success; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
 shows how far it came.")]
 pub(super) struct Snapshot {
     /// A folder of results, or a model file.
     #[arg(value_name = "RESULT|MODEL.toml")]
     what: PathBuf,
 
-    /// Instants to be drawn beside each other [s]; of equilibrium paths lengths, of a mode shares of its period.
+    /// Instants to be drawn beside each other [s]; for equilibrium paths lengths, for a mode fractions of its period.
     #[arg(
         long,
         value_name = "TIME",
@@ -45,28 +45,28 @@ pub(super) struct Snapshot {
     )]
     at: Vec<f64>,
 
-    /// So many instants at equal distances from the first to the last.
+    /// Number of instants, at equal intervals from the first to the last.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100))]
     strip: Option<u64>,
 
-    /// Of the results of `lissom modes`: the mode of this number, over one period.
+    /// For results of `lissom modes`: the mode of this number, over one period.
     #[arg(long, value_name = "N", conflicts_with = "initial", value_parser = clap::value_parser!(u32).range(1..))]
     mode: Option<u32>,
 
-    /// A moving picture (APNG, which browsers show) of the whole motion that lasts so many seconds.
+    /// An animation (APNG, which browsers show) of the whole motion with this duration in seconds.
     #[arg(long, value_name = "SECONDS", conflicts_with_all = ["at", "strip", "initial"])]
     animate: Option<f64>,
 
-    /// Where the picture goes: a name that ends in .svg or .png [default: snapshot.svg in the folder of results,
+    /// File of the picture, with the extension .svg or .png [default: snapshot.svg in the folder of results,
     /// snapshot.png if it moves].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
-    /// Where it is seen from.
+    /// Direction of view.
     #[arg(long, value_enum, default_value_t = From::Chosen)]
     view: From,
 
-    /// Draw the paths of the points that are observed.
+    /// Draw the paths of the observed points.
     #[arg(long)]
     paths: bool,
 
@@ -74,11 +74,11 @@ pub(super) struct Snapshot {
     #[arg(long, conflicts_with_all = ["at", "strip"])]
     initial: bool,
 
-    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
-    /// No progress, no summary on the terminal.
+    /// Print neither progress nor a summary.
     #[arg(long, short)]
     quiet: bool,
 }

@@ -22,12 +22,12 @@ use crate::terminal::{self, Interrupt};
 /// Most members that are named when they have no solution.
 const NAMED: usize = 5;
 
-/// Solve a model many times with other values, on all processors.
+/// Solve a model many times with different values, on all processors.
 ///
 /// The sweep file names the model, the paths that are varied, how they are sampled, and the scalars that are collected.
 /// The folder gets `sweep.csv` and `sweep.parquet` (one row per member), pictures of this table, whole histories where they are
 /// asked for, `sweep.json` (counts and times), and `members.jsonl`, to which every
-/// member that ends adds a line: a sweep that was cut off goes on from there when it is started again.
+/// finished member adds a line: an interrupted sweep resumes from there when it is run again.
 #[derive(Args)]
 #[command(after_help = "\
 A sweep file:
@@ -43,13 +43,13 @@ A sweep file:
   latched = \"time_of_event(latch)\"
 
 Exit code: 0 every member is solved; 2 wrong model, sweep file or command line; 3 a member has no solution, or results
-cannot be written: the table is there all the same; 130 interrupted by Ctrl-C: start it again to go on.")]
+cannot be written (the table is still written); 130 interrupted by Ctrl-C: run it again to resume.")]
 pub(super) struct SweepCommand {
     /// The sweep file.
     #[arg(value_name = "SWEEP.toml")]
     file: PathBuf,
 
-    /// Put another value into all members, as `analysis.step=1e-4`; may be repeated.
+    /// Override a value of all members, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
@@ -65,11 +65,11 @@ pub(super) struct SweepCommand {
     #[arg(long)]
     restart: bool,
 
-    /// No pictures of the table.
+    /// Draw no plots of the table.
     #[arg(long)]
     no_plots: bool,
 
-    /// No progress, no summary on the terminal.
+    /// Print neither progress nor a summary.
     #[arg(long, short)]
     quiet: bool,
 }
@@ -129,7 +129,7 @@ impl SweepCommand {
             if !self.quiet {
                 let (done, all) = (outcomes.len(), sweep.len());
                 terminal::complain(&format!(
-                    "interrupted: {done} of {all} members are in `{}`; the same command goes on from there\n",
+                    "interrupted: {done} of {all} members are in `{}`; the same command resumes from there\n",
                     path.display()
                 ));
             }
@@ -236,7 +236,7 @@ fn summary(
     summary
 }
 
-/// A few lines for a person.
+/// A summary of a few lines for the terminal.
 fn render(
     sweep: &Sweep,
     outcomes: &[MemberOutcome],

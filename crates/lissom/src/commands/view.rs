@@ -13,25 +13,25 @@ use super::run::Run;
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Show results as a moving picture with plots, in one HTML file for any browser.
+/// Show results as an animation with plots, in one HTML file for any browser.
 ///
-/// Of a folder of results the file shows what is there: a run, or the natural modes that `lissom modes` has found. A model
-/// is simulated first, as by `lissom run`. The file needs no network and nothing beside it.
+/// For a folder of results the file shows its run, or the natural modes that `lissom modes` has found. A model
+/// is simulated first, as by `lissom run`. The file is self-contained.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom view out/four-bar                     writes out/four-bar/view.html
   lissom view examples/four-bar.toml --open    simulates, writes, opens the browser
   lissom view examples/four-bar.toml --initial --html four-bar.html
-                                               the model as it stands at the start, without simulating it
+                                               the model at the start, without simulating it
 
-Exit code: 0 all is done; 2 wrong model or command line; 3 no solution: the file then shows how far it came.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no solution: the file then shows how far it came.")]
 pub(super) struct View {
     /// A folder of results, or a model file.
     #[arg(value_name = "RESULT|MODEL.toml")]
     what: PathBuf,
 
-    /// Where the file goes [default: view.html in the folder of results; initial.html with --initial].
+    /// Destination [default: view.html in the folder of results; initial.html with --initial].
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
 
@@ -43,7 +43,7 @@ pub(super) struct View {
     #[arg(long)]
     initial: bool,
 
-    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
@@ -51,7 +51,7 @@ pub(super) struct View {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// No progress, no summary on the terminal.
+    /// Print neither progress nor a summary.
     #[arg(long, short)]
     quiet: bool,
 }

@@ -63,7 +63,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         tree.placed[0] = Some(0);
         // A description has no position for its root.
         if frame.position.norm() > 0.0 || frame.rotation.logarithm().norm() > 0.0 {
-            robot.left_out.push(format!("the place of body `{}` at the start", body.name.value));
+            robot.left_out.push(format!("the position of body `{}` at the start", body.name.value));
         }
     }
     let mut rest: Vec<&Component> = links;
@@ -140,9 +140,11 @@ fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     let assembled = document
         .assembly
         .as_ref()
-        .map(|_| "its parts are placed by [assembly]: write the places found".to_owned());
+        .map(|_| "its parts are placed by [assembly]: write the positions found".to_owned());
     match beam.or(element).or(mass).or(assembled) {
-        Some(words) => Err(ImportError::new(format!("the model has what a description cannot say: {words}"))),
+        Some(words) => Err(ImportError::new(format!(
+            "the model has features that a description cannot express: {words}"
+        ))),
         None => Ok(()),
     }
 }
@@ -189,7 +191,7 @@ impl Tree {
         };
         if joint.on_tip.is_some() {
             return Err(ImportError::new(format!(
-                "joint `{name}` is closed by [assembly]: write the places found"
+                "joint `{name}` is closed by [assembly]: write the positions found"
             )));
         }
         let value =

@@ -371,7 +371,7 @@ fn header(robot: &Robot, options: Options) -> String {
         );
     }
     for what in robot.left_out.iter().chain(&robot.unsupported) {
-        let _ = write!(text, "\n# Left out: {}.", what.escape_debug());
+        let _ = write!(text, "\n# Omitted: {}.", what.escape_debug());
     }
     text.push('\n');
     if options.limits && robot.joints.iter().any(|joint| joint.range.is_some()) {

@@ -16,7 +16,7 @@ pub fn to_urdf(robot: &Robot) -> String {
     // Writing to a string cannot fail.
     for what in robot.left_out.iter().chain(&robot.unsupported) {
         // Two hyphens would end the comment.
-        let _ = writeln!(text, "<!-- Left out: {}. -->", escaped(what).replace("--", "- -"));
+        let _ = writeln!(text, "<!-- Omitted: {}. -->", escaped(what).replace("--", "- -"));
     }
     let _ = writeln!(text, "<robot name=\"{}\">", escaped(&robot.name));
     for link in &robot.links {

@@ -30,7 +30,7 @@ pub(super) fn finite_numbers(text: &str) -> Option<Vec<f64>> {
     parts.ok().filter(|values| values.iter().all(|value| value.is_finite()))
 }
 
-/// Names of elements with how often each occurs, as `3 <camera>`.
+/// Names of elements with how often each occurs, such as `3 <camera>`.
 pub(super) fn counted(tags: impl Iterator<Item = String>) -> Vec<String> {
     let mut counts = BTreeMap::<String, usize>::new();
     tags.for_each(|tag| *counts.entry(tag).or_default() += 1);

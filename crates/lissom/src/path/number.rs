@@ -79,12 +79,12 @@ pub fn varied_number(
     if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
         return wrong(
             format!("`{path}` is of the analysis, not of the model"),
-            "vary a number of the model, as `parameters.height`; without `vary` the load factor is varied",
+            "vary a number of the model, such as `parameters.height`; without `vary` the load factor is varied",
         );
     }
     let from = match number_at(model.text(), overrides, &document.parameters, path) {
         Ok(from) => from,
-        Err(words) => return wrong(words, "name a number of the model file, as `parameters.height`"),
+        Err(words) => return wrong(words, "name a number of the model file, such as `parameters.height`"),
     };
     if let lissom_model::document::AnalysisKind::Path { end, .. } = document.analysis.kind
         && end == from

@@ -63,7 +63,7 @@ pub enum PictureError {
 pub struct Picture {
     /// Instants, one for each panel [s].
     pub times: Vec<f64>,
-    /// Where it is seen from.
+    /// Direction of view.
     pub view: View,
     /// Whether the paths of observed points are drawn.
     pub paths: bool,

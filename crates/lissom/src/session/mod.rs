@@ -179,7 +179,7 @@ impl Session {
         &mut self.simulation
     }
 
-    /// Reasons to doubt the results up to now.
+    /// Warnings up to now.
     pub fn warnings(&self) -> impl Iterator<Item = &Warning> {
         self.warnings.iter().chain(self.simulation.warnings())
     }
@@ -242,7 +242,7 @@ impl Session {
         self.observed.values_of(channel, self.simulation.state(), self.simulation.last_step())
     }
 
-    /// The value of a signal, an input or a state, or of a column, as `tip.u1`, now; none where nothing is called so.
+    /// The value of a signal, an input or a state, or of a column, such as `tip.u1`, now; none where nothing is called so.
     pub fn value(&self, name: &str) -> Option<f64> {
         let (system, state) = (self.simulation.system(), self.simulation.state());
         if let Some(&argument) = self.signals.get(name) {

@@ -32,7 +32,7 @@ pub const SCALINGS: [Compared; 4] = [
     Compared { name: "equilibrated", label: "equilibrated", by: ScaleBy::Physical, equilibrated: true },
 ];
 
-/// What is asked for. Numbers are as written, so that they reach the model unchanged.
+/// The request. Numbers are as written, so that they reach the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Step sizes [s].
@@ -52,11 +52,11 @@ pub struct Row {
     pub step_size: f64,
     /// The varied value, as written.
     pub varied: Option<String>,
-    /// What it came to.
+    /// Its result.
     pub outcome: Result<Measured, StudyError>,
 }
 
-/// What a run came to.
+/// Result of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// Condition numbers of the last step's tangent, by [`SCALINGS`].

@@ -21,10 +21,10 @@ const ROUNDED: f64 = 1e-6;
 /// A run with such an error has nothing in common with the reference [-].
 const FAR: f64 = 0.5;
 
-/// What is asked for. Numbers are as written, so that they reach the model unchanged.
+/// The request. Numbers are as written, so that they reach the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
-    /// Schemes, as `radau-iia` or `hht(-0.3)`.
+    /// Schemes, such as `radau-iia` or `hht(-0.3)`.
     pub schemes: Vec<String>,
     /// Step sizes [s].
     pub steps: Vec<String>,

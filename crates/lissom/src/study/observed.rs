@@ -36,7 +36,7 @@ pub(super) fn prepared(
     Ok(lowered)
 }
 
-/// An output's name, and one of its components where that is asked for, as `tip` or `tip.u2`.
+/// An output's name, and one of its components where that is asked for, such as `tip` or `tip.u2`.
 fn parts<'a>(lowered: &Lowered, output: &'a str) -> Option<(&'a str, Option<usize>)> {
     let find = |name: &str| lowered.channels.iter().find(|channel| channel.name == name);
     if find(output).is_some() {

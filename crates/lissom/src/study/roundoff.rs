@@ -18,7 +18,7 @@ pub const NOISY_STEPS: usize = 20;
 /// How much finer the steps of the reference are, and of the run that shows how good the reference is.
 pub const FINER: [usize; 2] = [8, 4];
 
-/// What is asked for. Numbers are as written, so that they reach the model unchanged.
+/// The request. Numbers are as written, so that they reach the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Step sizes [s].
@@ -36,11 +36,11 @@ pub struct Row {
     pub step: String,
     /// Step size [s].
     pub step_size: f64,
-    /// What it came to.
+    /// Its result.
     pub outcome: Result<Measured, StudyError>,
 }
 
-/// What a step size came to.
+/// Result of a step size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// Distance after [`STEPS`] steps from the same time reached in eight times as many, relative to the size of

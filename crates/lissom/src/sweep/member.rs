@@ -33,7 +33,7 @@ impl MemberState {
     }
 }
 
-/// What a member came to. Serialises with serde.
+/// Result of a member. Serialises with serde.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MemberOutcome {
     /// Number of the member.
@@ -134,7 +134,7 @@ pub(super) fn run(
     })
 }
 
-/// Reasons to doubt a member that was solved, in words; none where there are none.
+/// Warnings about a member that was solved.
 fn doubts(session: &Session) -> Option<String> {
     let doubts: Vec<String> = session.warnings().map(|warning| format!("warning: {warning}")).collect();
     (!doubts.is_empty()).then(|| doubts.join("; "))

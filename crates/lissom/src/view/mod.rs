@@ -14,7 +14,7 @@ use crate::motion::{Motion, MotionError};
 
 pub(crate) use packed::base64;
 
-/// The page without results, as `viewer/build.js` has made it.
+/// The page without results, such as `viewer/build.js` has made it.
 const PAGE: &str = include_str!("viewer.html");
 /// Most numbers of the table that go into a page; of longer ones rows are omitted.
 const MAX_NUMBERS: usize = 1_500_000;

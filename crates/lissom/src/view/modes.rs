@@ -9,7 +9,7 @@ pub(crate) struct Mode {
     pub(crate) frequency: f64,
     /// Damping ratio [-].
     damping: f64,
-    /// Kind, as `oscillation`.
+    /// Kind, such as `oscillation`.
     kind: String,
     /// Displacement [m] and rotation [rad] of every node but the ground, one after the other.
     pub(crate) real: Vec<f32>,

@@ -173,7 +173,7 @@ fn angles_go_on_beyond_half_a_turn() {
         assert!((turned[row] - exact).abs() < 1e-9, "t = {time}: {} {exact}", turned[row]);
         assert!((behind[row] - exact).abs() < 1e-9, "t = {time}: {} {exact}", behind[row]);
     }
-    // About an axis that is turned over there is no angle, which is told.
+    // About an axis that is turned over there is no angle, which is reported.
     let tumbling = MODEL.replace("axis = [0, 0, 1]\n[outputs.behind]", "axis = [1, 0, 0]\n[outputs.behind]");
     assert_ne!(tumbling, MODEL);
     let mut session = model(&tumbling).session(&[("analysis.step".into(), "0.003".into())]).unwrap();

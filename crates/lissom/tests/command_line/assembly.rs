@@ -1,4 +1,4 @@
-//! What the program tells of an assembly: at the check, at the end of a run, in the summary.
+//! What the program reports about an assembly: at the check, at the end of a run, in the summary.
 
 use super::support::{Folder, lissom, summary};
 

@@ -34,7 +34,7 @@ fn what_is_unset_counts_as_never_written() {
         "{}",
         facts["scheme"]
     );
-    // Whole entries can be omitted; what named them is told.
+    // Whole entries can be omitted; references to them are reported.
     assert_eq!(run(&["--unset", "outputs.force"]).code, 0);
     let ended = run(&["--unset", "joints.leg"]);
     assert!(ended.code == 2 && ended.errors.contains("no `leg` here"), "{}", ended.errors);
@@ -55,7 +55,7 @@ fn another_scheme_takes_no_parameters_of_the_former_one() {
     let ended = run(&["analysis.scheme=radau-iia"]);
     assert_eq!((ended.code, ended.errors.as_str()), (0, ""));
     assert_eq!(run(&["analysis.scheme=generalized-alpha", "analysis.spectral_radius=0.5"]).code, 0);
-    // What is asked for on the command line is not forgotten in silence.
+    // A request on the command line is not ignored silently.
     let ended = run(&["analysis.scheme=radau-iia", "analysis.alpha=-0.2"]);
     assert!(ended.code == 2 && ended.errors.contains("no parameter `alpha`"), "{}", ended.errors);
     assert_eq!(run(&["analysis.spectral_radius=0.5"]).code, 2);

@@ -85,7 +85,7 @@ const WITHOUT_MODEL: [(&str, &str); 10] = [
     ("StepError::TooInaccurate", "no model found since steps end at jumps"),
     ("StepError::LoopIsSingular", "no model found: contradictions are told before"),
     ("StepError::NegativeKineticEnergy", "its matrices are too large for a file here: tests/superelements"),
-    ("InitialError::ZeroPivot", "the reader refuses parts without mass"),
+    ("InitialError::ZeroPivot", "the reader rejects parts without mass"),
     ("InitialError::NormalForces", "no model found, with friction coefficients up to 100 and 0.3 rad of yaw"),
     ("InitialError::NotFinite", "the reader refuses functions that are not finite at the start"),
     ("AssemblyError::UpsideDown", "tests/assembly.rs"),

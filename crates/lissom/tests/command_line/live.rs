@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::support::{CANTILEVER, Folder, Live, held};
 
 impl Live {
-    /// What is told after `version`.
+    /// What is sent after `version`.
     fn after(&self, version: u64) -> Value {
         let began = Instant::now();
         loop {
@@ -19,7 +19,7 @@ impl Live {
                 return serde_json::from_str(&body).unwrap();
             }
             assert_eq!(status, 204);
-            assert!(began.elapsed() < Duration::from_secs(60), "nothing is told after {version}");
+            assert!(began.elapsed() < Duration::from_secs(60), "nothing is sent after {version}");
         }
     }
 

@@ -52,7 +52,7 @@ fn an_imported_robot_runs_as_it_is() {
     assert!(!folder.path().join("b.toml").exists());
 }
 
-/// The description of MuJoCo, by the same command: what is omitted is told, what acts and is unknown rejected.
+/// The description of MuJoCo, by the same command: what is omitted is reported, what acts and is unknown is rejected.
 #[test]
 fn an_imported_robot_of_mujoco_runs_as_it_is() {
     let folder = Folder::new("import-mjcf");
@@ -63,7 +63,7 @@ fn an_imported_robot_of_mujoco_runs_as_it_is() {
     folder.write("cart.xml", &robot.replace("TENDON", ""));
     let made = lissom(&["import", "cart.xml", "--position", "hinge=0.1"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
-    for words in ["3 links, 2 joints that move", "left out: actuators", "1 <motor>", "1 <light>"] {
+    for words in ["3 links, 2 joints that move", "omitted: actuators", "1 <motor>", "1 <light>"] {
         assert!(made.output.contains(words), "{}", made.output);
     }
     let run =
@@ -84,7 +84,7 @@ fn an_imported_robot_of_mujoco_runs_as_it_is() {
     );
     let reported = lissom(&["import", "held.xml", "--without", "unsupported"], folder.path());
     assert_eq!(reported.code, 0, "{}", reported.errors);
-    assert!(reported.output.contains("left out: the tendon `rope`"), "{}", reported.output);
+    assert!(reported.output.contains("omitted: the tendon `rope`"), "{}", reported.output);
 }
 
 /// A model as URDF, and the model that comes back of it.
@@ -97,8 +97,8 @@ fn a_model_goes_to_urdf_and_back() {
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
     for words in [
         "again.urdf",
-        "left out: 3 outputs",
-        "left out: stiffness and losses of the stops",
+        "omitted: 3 outputs",
+        "omitted: stiffness and losses of the stops",
         "--position elbow=0.5",
     ] {
         assert!(made.output.contains(words), "{}", made.output);
@@ -132,11 +132,7 @@ fn a_model_goes_to_urdf_and_back() {
     );
     let reported =
         lissom(&["export", "spring.toml", "--format", "urdf", "--without", "unsupported"], folder.path());
-    assert!(
-        reported.code == 0 && reported.output.contains("left out: the spring `s`"),
-        "{}",
-        reported.output
-    );
+    assert!(reported.code == 0 && reported.output.contains("omitted: the spring `s`"), "{}", reported.output);
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn a_path_that_ends_early_has_an_exit_code() {
     folder.write("truss.toml", &shallow_truss());
     let run = lissom(&["run", "truss.toml", "--set", "analysis.steps=4", "--quiet"], folder.path());
     assert_eq!((run.code, run.output.as_str()), (3, ""));
-    assert!(run.errors.contains("has not come to 60"), "{}", run.errors);
+    assert!(run.errors.contains("has not reached 60"), "{}", run.errors);
     let out = folder.path().join("out/truss");
     assert_eq!(summary(&out)["stopped"], "failed");
     assert_eq!(std::fs::read_to_string(out.join("history.csv")).unwrap().lines().count(), 6);

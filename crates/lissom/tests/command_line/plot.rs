@@ -69,7 +69,7 @@ fn paths_spectra_and_several_results_are_drawn() {
         "{}",
         plot.errors
     );
-    // What was asked for of a former run would lie beside a new one.
+    // Plots requested for a former run would lie beside new ones.
     let run = lissom(&["run", &model, "--out", "coarse", "-q"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(!folder.path().join("coarse/plot-bob.y-over-bob.x.svg").exists());

@@ -1,4 +1,4 @@
-//! What the program tells of constraints that repeat each other: everywhere, or at one position.
+//! What the program reports about redundant constraints: redundant everywhere, or at one position.
 
 use super::support::{Ended, Folder, example, lissom, summary};
 
@@ -155,7 +155,7 @@ fn a_dead_position_is_reported_with_its_time_and_joints() {
         let time: f64 = time.parse().unwrap();
         assert!((time - dead).abs() < 2e-3, "{scheme}: {time} instead of {dead}");
     }
-    // Up to shortly before it nothing is told.
+    // Up to shortly before it nothing is reported.
     let (_, facts) = run(&folder, &["analysis.end=0.35", "analysis.step=2e-3"]);
     assert_eq!(warning(&facts, "singular-position"), None);
 }

@@ -1,4 +1,4 @@
-//! Models that once ended with a wrong answer and exit code 0, or cost far too much: each is rejected, told, or right.
+//! Models that once ended with a wrong answer and exit code 0, or cost far too much: each is rejected, warned about, or right.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ fn model(name: &str) -> String {
     path.to_str().expect("a path is a text").to_owned()
 }
 
-/// Runs a model, without plots and with nothing but warnings and errors told.
+/// Runs a model without plots, reporting only warnings and errors.
 fn run(name: &str, folder: &Folder) -> Ended {
     lissom(&["run", &model(name), "--out", "out", "--no-plots", "--quiet"], folder.path())
 }
@@ -25,7 +25,7 @@ fn refused(name: &str, code: i32, words: &[&str]) {
         assert!(run.errors.contains(word), "{name} lacks `{word}`: {}", run.errors);
     }
     let check = lissom(&["check", &model(name)], folder.path());
-    assert_eq!(check.code, 2, "{name}: what a run refuses at its start, the check refuses: {}", check.errors);
+    assert_eq!(check.code, 2, "{name}: what a run rejects at its start, the check rejects: {}", check.errors);
 }
 
 /// The run fails on the way with these words.
@@ -108,7 +108,7 @@ fn drives_start_where_their_joints_are() {
     refused(
         "drive-jumps-at-start",
         2,
-        &["`d1` starts at 0.5 rad", "its joint stands at 0 rad", "let it start at 0"],
+        &["`d1` starts at 0.5 rad", "its joint is at 0 rad", "let it start at 0"],
     );
     refused("prescribed-offset", 2, &["`d` starts at 0.5 rad"]);
 }
@@ -365,7 +365,7 @@ fn steps_too_long_for_the_motion_are_reported_and_short_ones_are_not() {
     }
 }
 
-/// Positions that a drive prescribes are right with any step: what tells that steps are too long are the rates of the joints.
+/// Positions that a drive prescribes are right with any step; the rates of the joints show that steps are too long.
 #[test]
 fn steps_too_long_for_velocities_are_reported_and_short_ones_are_not() {
     let folder = Folder::new("rates");

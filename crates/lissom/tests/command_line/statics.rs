@@ -1,4 +1,4 @@
-//! What the program tells of load steps: limit points, and the stability of every equilibrium.
+//! What the program reports about load steps: limit points, and the stability of every equilibrium.
 
 use super::support::{Folder, lissom, summary};
 use super::truss::truss;

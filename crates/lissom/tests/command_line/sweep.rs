@@ -109,7 +109,7 @@ fn tables_do_not_depend_on_the_number_of_workers() {
     assert_ne!(table(&folder, "1"), table(&folder, "other"));
 }
 
-/// Members whose values are wrong, and members without a solution, have their rows; the exit code tells.
+/// Members whose values are wrong, and members without a solution, have their rows; the exit code reports them.
 #[test]
 fn members_that_fail_are_reported_and_the_others_are_there() {
     let folder = Folder::new("sweep-fail");
@@ -230,7 +230,7 @@ fn pictures_histories_and_times_of_events_are_there() {
     for name in ["sweep.parquet", "histories/member-00000002.parquet"] {
         assert!(read(name).starts_with(b"PAR1") && read(name).ends_with(b"PAR1"), "{name}");
     }
-    // What an event does not come to is a failure, never a number; histories are there up to the end.
+    // An event that is not reached is a failure, never a number; histories are there up to the end.
     file("[0.5, 3]");
     let ended = sweep(&folder, "never", &["--no-plots"]);
     assert_eq!(ended.code, 3);

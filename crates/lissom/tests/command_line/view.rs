@@ -177,7 +177,7 @@ fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     folder.write("bar.toml", CANTILEVER);
     let notices =
         |page: &str| results(&fs::read_to_string(folder.path().join(page)).unwrap())["notices"].clone();
-    // No step of a load that is far too large has a solution: what there is is shown, and the exit code tells.
+    // No step of a load that is far too large has a solution: what exists is shown, and the exit code reports the failure.
     let args =
         ["view", "bar.toml", "--set", "loads.tip.scale=1e9*t", "--set", "analysis.max_iterations=3", "-q"];
     let view = lissom(&args, folder.path());

@@ -102,7 +102,7 @@ fn check(text: &str, parts: &[&str], observers: [&str; 2], springs: &[&str], tol
         ("plain", String::new()),
         ("relative", format!("relative_to = \"{frame}\"\n")),
         ("turned", format!("relative_to = \"{frame}\"\nin = \"{axes}\"\n")),
-        ("told", format!("in = \"{axes}\"\n")),
+        ("reported", format!("in = \"{axes}\"\n")),
     ];
     for part in parts.iter().chain(&[frame, axes]) {
         writeln!(text, "[outputs.{}]\nkind = \"quaternion\"\nof = \"{part}\"", axes_of(part)).unwrap();
@@ -220,7 +220,7 @@ fn turned_views(record: &Record, part: &str, [frame, axes]: [&str; 2]) {
         ("angular_velocity", ["w1", "w2", "w3"]),
     ] {
         let of = |view: &str| columns(record, &format!("{kind}_{view}_{part}"), names);
-        let [plain, relative, turned, reported] = ["plain", "relative", "turned", "told"].map(of);
+        let [plain, relative, turned, reported] = ["plain", "relative", "turned", "reported"].map(of);
         for row in 0..record.times.len() {
             let [frame, axes] = [frame, axes].map(|name| rotation(record, name, row));
             let near = |found: Vector3, wanted: Vector3| {

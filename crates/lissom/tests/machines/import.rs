@@ -172,7 +172,7 @@ fn error_of_fall(name: &str, text: &str, scheme: &str, step: &str) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-/// Radau IIA comes to what Pinocchio and an integrator of high order find with order 3. The fingers of the panda are so light that
+/// Radau IIA converges with order 3 to what Pinocchio and an integrator of high order find. The fingers of the panda are so light that
 /// its fall would take long.
 #[test]
 fn a_passive_fall_ends_where_it_should() {
@@ -225,7 +225,7 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
         "ratio = -0.1",
         "# the motor of a gives at most 3.0 N m",
         "# the motor of a is meant for at most 1.0 rad/s, which nothing enforces here",
-        "# Left out: greatest speeds of 1 joint",
+        "# Omitted: greatest speeds of 1 joint",
     ] {
         assert!(text.contains(line), "{line} is not in\n{text}");
     }

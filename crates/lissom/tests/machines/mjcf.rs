@@ -367,7 +367,7 @@ fn what_cannot_be_said_is_reported() {
     ));
     let options = Options { unsupported: Unsupported::LeftOut, ..Options::default() };
     let text = model_text(&robot, &Pose::default(), options).expect("a model");
-    for words in ["# Left out: <weld> of <equality>.", "1 <motor>", "2 <site>"] {
+    for words in ["# Omitted: <weld> of <equality>.", "1 <motor>", "2 <site>"] {
         assert!(text.contains(words), "{text}");
     }
     let floating = Options { root: Root::Floating, ..options };

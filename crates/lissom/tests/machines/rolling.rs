@@ -220,7 +220,7 @@ fn a_wheel_that_does_not_touch_is_refused() {
     let statics =
         model.replace("kind = \"dynamics\"", "kind = \"statics\"").replace("step = 1e-3", "steps = 4");
     let Err(error) = lissom::Model::from_text("statics.toml", &statics).session(&[]) else {
-        panic!("not refused")
+        panic!("not rejected")
     };
     assert!(error.to_string().contains("rolling"), "{error}");
 }
@@ -241,7 +241,7 @@ fn a_wheel_that_lies_flat_is_refused() {
     session(&flat.replace("radius = 0.2", &ball)).expect("a ball has no lying side");
 }
 
-/// A disc that needs more friction than there is, and one that the plane would have to hold down, are told.
+/// A disc that needs more friction than there is, and one that the plane would have to hold down, are reported.
 #[test]
 fn a_wheel_that_would_slide_or_lift_is_reported() {
     let warnings = |model: &str| {
@@ -259,7 +259,7 @@ fn a_wheel_that_would_slide_or_lift_is_reported() {
 }
 
 /// A disc that lies nearly flat and precesses steadily turns at 3 rad/s, but its point of contact runs round at 62 rad/s: steps of
-/// 10 ms resolve the one and not the other, and say so; shorter ones and chosen ones have nothing to tell.
+/// Steps of 10 ms resolve the one and not the other, which is reported; shorter and adaptive ones give no warning.
 #[test]
 fn a_point_of_contact_that_runs_round_in_few_steps_is_reported() {
     let disc = Precession::new(0.2, 0.05, 62.0);

@@ -4,7 +4,7 @@ use lissom::Record;
 
 use super::{SCHEMES, column, run};
 
-/// What slides: a name, its part of the model, and what else the slider is told.
+/// What slides: a name, its part of the model, and further keys of the slider.
 type Rider = (&'static str, &'static str, &'static str);
 const BEAD: Rider = ("bead", "[point_masses.bead]", "");
 const TANGENT: Rider = ("car", CAR, "orientation = \"tangent\"");

@@ -43,7 +43,7 @@ pub(crate) fn summary(folder: &Path) -> serde_json::Value {
 pub(crate) fn wait_for(is_so: impl Fn() -> bool) {
     let began = Instant::now();
     while !is_so() {
-        assert!(began.elapsed() < Duration::from_secs(60), "waited in vain");
+        assert!(began.elapsed() < Duration::from_secs(60), "waited without success");
         std::thread::sleep(Duration::from_millis(10));
     }
 }

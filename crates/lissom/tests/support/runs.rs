@@ -38,7 +38,7 @@ pub(crate) fn reported(text: &str) -> String {
     match Model::from_text("wrong.toml", text).session(&[]) {
         Err(SessionError::Model(report)) => report.render(false),
         Err(error) => panic!("{error}"),
-        Ok(_) => panic!("not refused"),
+        Ok(_) => panic!("not rejected"),
     }
 }
 

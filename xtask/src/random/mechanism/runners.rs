@@ -78,7 +78,7 @@ impl Maker {
     }
 }
 
-/// A wheel: its node and the keys that tell where it touches.
+/// A wheel: its node and the keys that define where it touches.
 struct Wheel {
     name: String,
     place: [f64; 3],

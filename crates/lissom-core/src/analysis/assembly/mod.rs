@@ -70,7 +70,7 @@ impl std::fmt::Display for Gap {
     }
 }
 
-/// What an assembly came to.
+/// Result of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembled {
     /// The gaps before, those of round-off left out.

@@ -70,7 +70,7 @@ impl Stages {
         }
     }
 
-    /// Takes note of the last step of `base`, whose tangent has been made at its solution.
+    /// Records the last step of `base`, whose tangent has been made at its solution.
     pub(super) fn enter(&mut self, base: &mut Simulation) {
         self.weights = relative_weights(base);
         let Simulation { system, settings, integrator, previous, .. } = base;

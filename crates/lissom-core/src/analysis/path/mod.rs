@@ -180,12 +180,12 @@ pub enum PathError {
         name: String,
         /// Load factor of the bifurcation.
         load_factor: f64,
-        /// What the attempts came to.
+        /// Result of the attempts.
         reason: String,
     },
     /// The number of steps is used up.
     #[error(
-        "after {steps} steps the {name} is {load_factor:.6e} and has not come to {end}; give more `steps`, or an `end` \
+        "after {steps} steps the {name} is {load_factor:.6e} and has not reached {end}; give more `steps`, or an `end` \
          that the path reaches"
     )]
     TooManySteps {
@@ -226,7 +226,7 @@ struct Tangent {
     signature: f64,
 }
 
-/// What a step came to.
+/// Result of a step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathStep {
     /// Newton iterations, those of attempts given up and of the search for critical points included.

@@ -148,7 +148,7 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
                     format!(
                         "holds a rigid {word}: row {} of its force is {sum:.3e} of terms of {most:.3e}; a free part is not held: give \
                          matrices of the part without supports, six rows for each interface in the order of `interfaces` and then \
-                         those of the modes, places in the units of the matrices",
+                         those of the modes, positions in the units of the matrices",
                         row + 1
                     ),
                 );
@@ -214,7 +214,7 @@ impl ReducedMatrices {
                 "mass",
                 format!(
                     "is not that of a rigid body in rigid motions (by {error:.1e} of it): the mass must be the same along all axes; \
-                     look at the order and the places of the interfaces"
+                     look at the order and the positions of the interfaces"
                 ),
             );
         }

@@ -168,7 +168,7 @@ class ModelTables(ModelTree):
 
     @property
     def gravity(self) -> Any:
-        """Acceleration of gravity [m/s²]; none when left out."""
+        """Acceleration of gravity [m/s²]; none when omitted."""
         of: Any = self._value("gravity")
         return of
 
@@ -208,7 +208,7 @@ class ModelTables(ModelTree):
 
     @property
     def points(self) -> dict[str, Any]:
-        """Named places [m]."""
+        """Named positions [m]."""
         of: dict[str, Any] = self._table("points")
         return of
 

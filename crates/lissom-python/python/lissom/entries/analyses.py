@@ -126,7 +126,7 @@ class Path(Analysis):
         end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given; a number, or nothing.
         step: first step of the load factor or of the number, default a fiftieth of the way to `end`; a number > 0, or nothing.
         steps: most steps, default 1000; a whole number from 1 to 1000000, or nothing.
-        vary: number of the model file along which the path goes, as `parameters.height`, from the value that it has there; default: the load factor; a text, or nothing.
+        vary: number of the model file along which the path goes, such as `parameters.height`, from the value that it has there; default: the load factor; a text, or nothing.
         branch: bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none; a number from -1000.0000 to 1000, or nothing.
     """
 
@@ -194,7 +194,7 @@ class Modes(Analysis):
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of modes, default 20; a whole number from 1 to 100000, or nothing.
-        about: about static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity; `"static"`, `"undeformed"`, or nothing.
+        about: about static equilibrium under the loads of the time `start` (default), or about the positions of the file without loads and gravity; `"static"`, `"undeformed"`, or nothing.
         shift: frequency near which modes are sought; default: the lowest ones [Hz]; a number ≥ 0, or nothing.
     """
 

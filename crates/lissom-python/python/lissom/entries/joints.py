@@ -22,12 +22,12 @@ class Cam(Joint):
     """A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose coordinate leads; the name of an entry of `[joints]`.
         other: the joint whose coordinate follows; the name of an entry of `[joints]`.
         profile: The other coordinate as a function of the first, `x` [m or rad]; an expression of `x`, or a table of it written as a function of time.
-        coordinate: Which coordinate of `joint`, counted from 1; may be left out where it has one; a number > 0, or nothing.
-        other_coordinate: Which coordinate of `other`, counted from 1; may be left out where it has one; a number > 0, or nothing.
+        coordinate: Which coordinate of `joint`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
+        other_coordinate: Which coordinate of `other`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
@@ -48,17 +48,17 @@ class Cam(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Clamp(Joint):
-    """Holds all six relative freedoms.
+    """Locks all six relative degrees of freedom.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "clamp"
@@ -78,16 +78,16 @@ class ConstantVelocity(Joint):
     """Two shafts share a point, may bend against each other, and turn by the same angle.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         tip_axis: Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft; three numbers, not all zero, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -111,17 +111,17 @@ class Cylindrical(Joint):
     """The tip slides along an axis and turns about it; rotation and displacement are coordinates.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -146,11 +146,11 @@ class Distance(Joint):
     """Keeps the distance of two points: a massless rod with a ball at each end.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at_base: location on the base; default: the node's place [m]; a place, or nothing.
-        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
@@ -173,8 +173,8 @@ class Equation(Joint):
     """An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
-        equation: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`; an expression of coordinates of joints, as `arm.angle`, and of `t`.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        equation: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`; an expression of coordinates of joints, such as `arm.angle`, and of `t`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
@@ -194,12 +194,12 @@ class Gear(Joint):
     """A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose coordinate leads; the name of an entry of `[joints]`.
         other: the joint whose coordinate follows; the name of an entry of `[joints]`.
         ratio: Change of the other coordinate per change of the first; negative for gears that mesh outside [1, m/rad or rad/m]; a number.
-        coordinate: Which coordinate of `joint`, counted from 1; may be left out where it has one; a number > 0, or nothing.
-        other_coordinate: Which coordinate of `other`, counted from 1; may be left out where it has one; a number > 0, or nothing.
+        coordinate: Which coordinate of `joint`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
+        other_coordinate: Which coordinate of `other`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
@@ -223,7 +223,7 @@ class GeneralizedCoordinates(Joint):
     """Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         start: Values at the start: as many as there are coordinates [m or rad]; a list of numbers.
         rate: Rates at the start, as many as in `start`; default zeros [m/s or rad/s]; a list of numbers, or nothing.
         rotations: Whether they are rotations [rad]; default false: displacements [m]; `true` or `false`, or nothing.
@@ -242,17 +242,17 @@ class Generic(Joint):
     """Locks chosen translations and rotations of the tip in the axes of the base.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
         second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
         locked: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
@@ -276,18 +276,18 @@ class Generic(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Inline(Joint):
-    """The tip's point moves along a line of the base; as `point_on_line`, without a coordinate.
+    """The tip's point moves along a line of the base; like `point_on_line`, but without a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -310,16 +310,16 @@ class ParallelAxes(Joint):
     """The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -343,16 +343,16 @@ class PerpendicularAxes(Joint):
     """Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
@@ -375,19 +375,19 @@ class PerpendicularAxes(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Planar(Joint):
-    """The tip moves in the base's plane across `axis` and turns about it; the rotation is a coordinate.
+    """The tip moves in the base's plane perpendicular to `axis` and turns about it; the rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -408,18 +408,18 @@ class Planar(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class PointInPlane(Joint):
-    """The tip's point moves in the base's plane across `axis`; the tip turns freely.
+    """The tip's point moves in the base's plane perpendicular to `axis`; the tip turns freely.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -442,16 +442,16 @@ class PointOnLine(Joint):
     """The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -475,7 +475,7 @@ class PrescribedDisplacement(Joint):
     """Prescribes a joint's relative displacement as a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         displacement: The relative displacement as a function of time [m]; a function of time.
         coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
@@ -494,10 +494,10 @@ class PrescribedMotion(Joint):
     """Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
         second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
         x: Displacement along `axis` from the start [m]; a function of time, or nothing.
@@ -509,7 +509,7 @@ class PrescribedMotion(Joint):
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
@@ -541,7 +541,7 @@ class PrescribedRotation(Joint):
     """Prescribes a joint's relative rotation as a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         rotation: The relative rotation as a function of time [rad]; a function of time.
         coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
@@ -560,16 +560,16 @@ class Prismatic(Joint):
     """The tip slides along an axis without turning; the displacement is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -593,16 +593,16 @@ class Revolute(Joint):
     """Two nodes share a point and an axis; the relative rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -623,17 +623,17 @@ class Revolute(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class RigidLink(Joint):
-    """Joins two nodes at different places by a massless rigid link.
+    """Joins two nodes at different positions by a massless rigid link.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "rigid_link"
@@ -653,12 +653,12 @@ class Rolling(Joint):
     """A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
-        wheel_axis: Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre; three numbers, not all zero.
+        wheel_axis: Axis of the wheel at the start, global axes; it goes through the tip's position, the wheel's centre; three numbers, not all zero.
         radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
         rim: Radius of the rounding of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of friction: a warning reports when rolling takes more; default: there is no limit; a number > 0, or nothing.
@@ -666,7 +666,7 @@ class Rolling(Joint):
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -694,17 +694,17 @@ class Screw(Joint):
     """The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         lead: Displacement along `axis` per turn; negative for a left-handed thread [m]; a number.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -729,10 +729,10 @@ class Slider(Joint):
     """A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         beams: beams along which it slides, each from the end of the one before; a list of names of parts.
         tip: the node that slides; a node.
-        at: location on the beam at the start; default: the tip node's place [m]; a place, or nothing.
+        at: location on the beam at the start; default: the tip node's position [m]; a position, or nothing.
         orientation: What the tip turns with: nothing, "free" (default); the line's "tangent", about which it turns freely; or the beam's "section", as a spline; `"free"`, `"tangent"`, `"section"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
@@ -756,14 +756,14 @@ class Spherical(Joint):
     """Two nodes share a point and turn freely about it.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "spherical"
@@ -783,16 +783,16 @@ class SwingArm(Joint):
     """A massless arm, hinged to the base about an axis, carries the tip's point.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the arm's angle at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
@@ -816,16 +816,16 @@ class Universal(Joint):
     """Two nodes share a point and a cross of two axes; both rotations are coordinates.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
@@ -851,21 +851,21 @@ class WheelOnRail(Joint):
     """A wheel runs on a rail of the base, which is straight, without leaving it; it creeps where it is said how.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at: location; default: the tip node's place [m]; a place, or nothing.
+        at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
-        axle: Axis of the wheel at the start, global axes; it goes through the tip's place. Default: `axis`; three numbers, not all zero, or nothing.
+        axle: Axis of the wheel at the start, global axes; it goes through the tip's position. Default: `axis`; three numbers, not all zero, or nothing.
         radius: Radius of the wheel at its nominal circle; default: so that it touches the rail at the start [m]; a number > 0, or nothing.
-        offset: Distance of the nominal circle from the tip's place along the wheel's axis, outwards positive; default: above the rail's point `at` at the start [m]; a number, or nothing.
+        offset: Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the rail's point `at` at the start [m]; a number, or nothing.
         cone_angle: Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 [rad]; a number, or nothing.
-        wheel_profile: Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal circle; needs `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
+        wheel_profile: Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal circle; needs `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
         tread: Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         head_radius: Radius of the rail's head, a circle through the point `at` [m]; a number > 0, or nothing.
         cant: Angle by which the head rises outwards at the point `at`; default `cone_angle` [rad]; a number, or nothing.
-        rail_profile: Instead of `head_radius`: height of the rail over the lateral place `y`, outwards from the point `at`, where it is 0 [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
+        rail_profile: Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0 [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
         friction_coefficient: Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across; a number > 0, or nothing.
         shear_modulus: Shear modulus of wheel and rail, of creep forces [N/m^2]; a number > 0, or nothing.
         poisson_number: Poisson's number; default 0.28; a number ≥ 0, or nothing.
@@ -877,7 +877,7 @@ class WheelOnRail(Joint):
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """

@@ -22,9 +22,9 @@ class Force(Load):
     """Force on a point, dead or following the node's rotation, with a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         on: the node it acts on; a node.
-        at: location; default: the node's place [m]; a place, or nothing.
+        at: location; default: the node's position [m]; a position, or nothing.
         vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
         scale: Factor; default 1; a size, or nothing.
         follower: Whether it turns with the node; default false: it keeps its direction; `true` or `false`, or nothing.
@@ -45,9 +45,9 @@ class Moment(Load):
     """Moment on a node, dead or following the node's rotation, with a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         on: the node it acts on; a node.
-        at: location; default: the node's place [m]; a place, or nothing.
+        at: location; default: the node's position [m]; a position, or nothing.
         vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
         scale: Factor; default 1; a size, or nothing.
         follower: Whether it turns with the node; default false: it keeps its direction; `true` or `false`, or nothing.
@@ -68,7 +68,7 @@ class JointTorque(Load):
     """Torque of an actuator on a joint's relative rotation, from the base on the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         torque: Torque about the joint's axis, positive where it increases the rotation [N m]; a size.
         coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
@@ -87,7 +87,7 @@ class JointForce(Load):
     """Force of an actuator on a joint's relative displacement, from the base on the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         force: Force along the joint's axis, positive where it increases the displacement [N]; a size.
         coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
@@ -106,9 +106,9 @@ class Gyrostat(Load):
     """Rotor in a body, with a constant rate of spin relative to it.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         on: the node it acts on; a node.
-        at: location; default: the node's place [m]; a place, or nothing.
+        at: location; default: the node's position [m]; a position, or nothing.
         axis: Axis of the rotor at the start, global axes; it turns with the node; three numbers, not all zero.
         inertia: Inertia of the rotor about its axis [kg m²]; a number > 0.
         spin: Rate of spin relative to the body [rad/s]; a number.

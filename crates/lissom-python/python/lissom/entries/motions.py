@@ -16,9 +16,9 @@ class Initial(Entry):
     Args:
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
-        about: a point of the rigid motion; default the origin [m]; a place, or nothing.
+        about: a point of the rigid motion; default the origin [m]; a position, or nothing.
         equilibrium: start from static equilibrium under the loads of the first instant, default false; `true` or `false`, or nothing.
-        steady_rotation: start from the places at which the model keeps turning with its velocities, default false; `true` or `false`, or nothing.
+        steady_rotation: start from the positions at which the model keeps turning with its velocities, default false; `true` or `false`, or nothing.
         motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
     """
 
@@ -40,7 +40,7 @@ class PartMotion(Entry):
         parts: bodies, point masses, beams, superelements and entries of [parts] that move in this way; a list of names of parts.
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
-        about: a point of the rigid motion; default the origin [m]; a place, or nothing.
+        about: a point of the rigid motion; default the origin [m]; a position, or nothing.
     """
 
     _table: ClassVar[str] = ""

@@ -14,12 +14,12 @@ class Beam(Entry):
     """Flexible beams.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         section: name of a section; give it or `stations`; the name of an entry of `[sections]`, or nothing.
         stations: [{ at = 0, section = "a" }, …, { at = 1, … }], linear between; a list of tables, or nothing.
-        from_: start: a point, or a node of another part, which is shared [m]; a place or a node, or nothing.
-        to: end: a point, or a node of another part, which is shared [m]; a place or a node, or nothing.
-        through: a point between: the beam is a circular arc [m]; a place, or nothing.
+        from_: start: a point, or a node of another part, which is shared [m]; a position or a node, or nothing.
+        to: end: a point, or a node of another part, which is shared [m]; a position or a node, or nothing.
+        through: a point between: the beam is a circular arc [m]; a position, or nothing.
         curve: instead of from and to: three expressions of s in 0..1 [m]; three expressions of `s`, or nothing.
         elements: number of elements; a whole number from 1 to 100000.
         order: 1, 2 or 3 (default): elements of 2, 3 or 4 nodes; a whole number from 1 to 3, or nothing.
@@ -51,10 +51,10 @@ class Body(Entry):
     """Rigid bodies.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         mass: mass, or { density } of the solid in `inertia` [kg]; a number > 0, or `{ density }`.
         inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box, cylinder, tube or sphere }`.
-        position: place of the reference frame [m]; a place, or nothing.
+        position: position of the reference frame [m]; a position, or nothing.
         rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
         axes: instead of rotation: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
@@ -84,9 +84,9 @@ class PointMass(Entry):
     """Masses without extension.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         mass: mass [kg]; a number > 0.
-        position: place at the start [m]; a place, or nothing.
+        position: position at the start [m]; a position, or nothing.
         plane: move in this plane only; `"xy"`, `"yz"`, `"zx"`, or nothing.
         velocity: at the start, global axes [m/s]; three numbers, or nothing.
     """
@@ -105,7 +105,7 @@ class Superelement(Entry):
     """Linear elastic parts that are given by reduced matrices.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         interfaces: [{ name = "root" }, { name = "tip", at = [1, 0, 0] }]: what joints hold it by, in the order of the matrices; a list of `{ name, at }`.
         matrices: NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, where these are not given; a text, or nothing.
         mass: Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode; a text, or nothing.
@@ -117,7 +117,7 @@ class Superelement(Entry):
         preload: Matrix Market file of one column: forces of the undeformed part, which turn with it; a text, or nothing.
         geometric: Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take; a text, or nothing.
         floating: the interface that carries the floating frame, default the first; a text, or nothing.
-        position: place of the origin of the part [m]; a place, or nothing.
+        position: position of the origin of the part [m]; a position, or nothing.
         rotation: rotation vector of its axes [rad]; three numbers, or nothing.
         axes: instead of rotation: first and second axis; two vectors, or nothing.
     """
@@ -149,14 +149,14 @@ class Part(Entry):
         include: path of the file that it is made of, relative to this file; a text, or nothing.
         like: part of the same table of which it is a copy, turned and shifted; a text, or nothing.
         count: an array `name1`, `name2` …; `index` and `count` are parameters in it; a whole number from 1 to 20000, or nothing.
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
-        position: place of its origin [m]; a place, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        position: position of its origin [m]; a position, or nothing.
         rotation: rotation vector of its axes [rad]; three numbers, or nothing.
         parameters: its parameters, in place of the defaults of its file; a table, or nothing.
         names: names in the included file that mean something outside, as { hub = "hub" }; a table, or nothing.
         materials: Isotropic elastic materials; entries as in `[materials]`, or nothing.
         sections: Cross sections; axis 1 along the beam, 2 and 3 across; entries as in `[sections]`, or nothing.
-        points: Named places [m]; entries as in `[points]`, or nothing.
+        points: Named positions [m]; entries as in `[points]`, or nothing.
         parts: Sub-assemblies that are named, placed and repeated; names inside are `part.name`; entries as in `[parts]`, or nothing.
         beams: Flexible beams; entries as in `[beams]`, or nothing.
         bodies: Rigid bodies; entries as in `[bodies]`, or nothing.

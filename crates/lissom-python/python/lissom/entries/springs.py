@@ -22,7 +22,7 @@ class Axial(Spring):
     """Spring and damper on a joint's relative displacement.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         stiffness: Stiffness; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
@@ -55,11 +55,11 @@ class Point(Spring):
     """Spring and damper between two points, along the line that joins them.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at_base: location on the base; default: the node's place [m]; a place, or nothing.
-        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         stiffness: Stiffness; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
@@ -92,11 +92,11 @@ class RollingContact(Spring):
     """A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at_base: location on the base; default: the node's place [m]; a place, or nothing.
-        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         normal: Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane; three numbers, not all zero.
         wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre; three numbers, not all zero.
         radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
@@ -128,12 +128,12 @@ class RollingContact(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class Rope(Spring):
-    """Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.
+    """Rope that slides over several points without friction: reeving over pulleys, and hoists by its length.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
-        along: the places it leads over, from one end to the other [m]; a list of `{ on, at }`, `at` may be left out.
-        drums: coordinates of joints that pay it out, as "drum.angle"; a joint's name alone means all of its; a list of coordinates of joints, as `"arm.angle"`, or of joints: all of theirs, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        along: the points it passes over, from one end to the other [m]; a list of `{ on, at }`, `at` may be omitted.
+        drums: coordinates of joints that pay it out, such as "drum.angle"; a joint's name alone means all of its; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs, or nothing.
         stiffness: Stiffness of the whole rope; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping of the whole rope; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Tension over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
@@ -162,7 +162,7 @@ class Torsional(Spring):
     """Spring and damper on a joint's relative rotation.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         stiffness: Stiffness; default 0 [N m/rad]; a number ≥ 0, or nothing.
         damping: Damping; default 0 [N m s/rad]; a number ≥ 0, or nothing.
@@ -195,7 +195,7 @@ class AxialFriction(Spring):
     """Dry and viscous friction on a joint's relative displacement; it sticks without creeping.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         coulomb: Force of sliding friction [N]; a number > 0.
         breakaway: Additional force of friction at rest; default none [N]; a number > 0, or nothing.
@@ -224,7 +224,7 @@ class TorsionalFriction(Spring):
     """Dry and viscous friction on a joint's relative rotation; it sticks without creeping.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         coulomb: Moment of sliding friction [N m]; a number > 0.
         breakaway: Additional moment of friction at rest; default none [N m]; a number > 0, or nothing.
@@ -253,11 +253,11 @@ class Bushing(Spring):
     """Springs and dampers along and about three axes, with full matrices; its length may be zero.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         base: the node it starts from: "ground", "body", "beam.end" …; a node.
         tip: the node it leads to; a node.
-        at_base: location on the base; default: the node's place [m]; a place, or nothing.
-        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         stiffness: 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 [N/m, N, N m/rad]; six numbers or a 6 x 6 matrix, or nothing.
         damping: 6 x 6 or its diagonal, likewise; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
         axis: First axis at the start, global axes; default global x. The axes turn with the base; three numbers, not all zero, or nothing.
@@ -282,8 +282,8 @@ class CoordinateDynamics(Spring):
     """Mass, damping and stiffness matrices on coordinates: `M q'' + D q' + K (q - rest)` in their equations.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
-        coordinates: coordinates that it acts on, as "arm.angle", in the order of its matrices; a joint's name alone means all of its; a list of coordinates of joints, as `"arm.angle"`, or of joints: all of theirs.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        coordinates: coordinates that it acts on, such as "arm.angle", in the order of its matrices; a joint's name alone means all of its; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs.
         mass: Mass matrix, symmetric, without negative eigenvalues; default 0 [kg, kg m or kg m²]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
         damping: Damping matrix; it may be unsymmetric (gyroscopic forces) or negative; default 0 [N s/m, N s or N m s/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
         stiffness: Stiffness matrix; it may be unsymmetric (circulatory forces); default 0 [N/m, N/rad or N m/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
@@ -305,7 +305,7 @@ class AxialStop(Spring):
     """Stops at the ends of the range of a joint's relative displacement.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         range: Displacements between the stops; an end that is infinite has none [m]; two ascending numbers, which may be `-inf` and `inf`.
         stiffness: Force at a penetration of 1 m [N/m^n]; a number > 0.
@@ -334,7 +334,7 @@ class TorsionalStop(Spring):
     """Stops at the ends of the range of a joint's relative rotation.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         range: Rotations between the stops; an end that is infinite has none [rad]; two ascending numbers, which may be `-inf` and `inf`.
         stiffness: Moment at a penetration of 1 rad [N m/rad^n]; a number > 0.
@@ -363,7 +363,7 @@ class AxialLatch(Spring):
     """Holds a joint's relative displacement where it is while an input is set: latches and releases.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
         engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
@@ -382,7 +382,7 @@ class TorsionalLatch(Spring):
     """Holds a joint's relative rotation where it is while an input is set: latches and releases.
 
     Args:
-        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
         engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.

@@ -58,7 +58,7 @@ entry! {
     step: f64 = "step";
     /// Most steps, default 1000.
     steps: usize = "steps";
-    /// Number of the model file along which the path goes, as `parameters.height`, from the value that it has there; default: the load factor.
+    /// Number of the model file along which the path goes, such as `parameters.height`, from the value that it has there; default: the load factor.
     vary: String = "vary";
     /// Bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none.
     branch: f64 = "branch";
@@ -82,7 +82,7 @@ entry! {
     new()
     /// Number of modes, default 20.
     count: usize = "count";
-    /// About static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity.
+    /// About static equilibrium under the loads of the time `start` (default), or about the positions of the file without loads and gravity.
     about: words::About = "about";
     /// Frequency near which modes are sought; default: the lowest ones \[Hz\].
     shift: f64 = "shift";

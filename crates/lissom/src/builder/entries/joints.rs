@@ -20,7 +20,7 @@ entry! {
 }
 
 entry! {
-    /// Holds all six relative freedoms.
+    /// Locks all six relative degrees of freedom.
     Clamp => JointId, "clamp";
     ["kind" = "clamp"]
     /// With what must be given.
@@ -65,9 +65,9 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location on the base; default: the node's place \[m\].
+    /// Location on the base; default: the node's position \[m\].
     at_base: [f64; 3] = "at_base";
-    /// Location on the tip; default: the node's place \[m\].
+    /// Location on the tip; default: the node's position \[m\].
     at_tip: [f64; 3] = "at_tip";
 }
 
@@ -120,7 +120,7 @@ entry! {
 }
 
 entry! {
-    /// The tip's point moves along a line of the base; as `point_on_line`, without a coordinate.
+    /// The tip's point moves along a line of the base; like `point_on_line`, but without a coordinate.
     Inline => JointId, "inline";
     ["kind" = "inline"]
     /// With what must be given.
@@ -157,7 +157,7 @@ entry! {
 }
 
 entry! {
-    /// The tip moves in the base's plane across `axis` and turns about it; the rotation is a coordinate.
+    /// The tip moves in the base's plane perpendicular to `axis` and turns about it; the rotation is a coordinate.
     Planar => JointId, "planar";
     ["kind" = "planar"]
     /// With what must be given.
@@ -169,7 +169,7 @@ entry! {
 }
 
 entry! {
-    /// The tip's point moves in the base's plane across `axis`; the tip turns freely.
+    /// The tip's point moves in the base's plane perpendicular to `axis`; the tip turns freely.
     PointInPlane => JointId, "point_in_plane";
     ["kind" = "point_in_plane"]
     /// With what must be given.
@@ -262,7 +262,7 @@ entry! {
 }
 
 entry! {
-    /// Joins two nodes at different places by a massless rigid link.
+    /// Joins two nodes at different positions by a massless rigid link.
     RigidLink => JointId, "rigid_link";
     ["kind" = "rigid_link"]
     /// With what must be given.
@@ -281,7 +281,7 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
-    /// - `wheel_axis`: Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre
+    /// - `wheel_axis`: Axis of the wheel at the start, global axes; it goes through the tip's position, the wheel's centre
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", wheel_axis: [f64; 3] = "wheel_axis")
     /// Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` \[m\].
     radius: f64 = "radius";
@@ -315,7 +315,7 @@ entry! {
     /// - `beams`: beams along which it slides, each from the end of the one before
     /// - `tip`: the node that slides
     new(beams: Vec<Part> = "beams", tip: Node = "tip")
-    /// Location on the beam at the start; default: the tip node's place \[m\].
+    /// Location on the beam at the start; default: the tip node's position \[m\].
     at: [f64; 3] = "at";
     /// What the tip turns with: nothing, "free" (default); the line's "tangent", about which it turns freely; or the beam's "section", as a spline.
     orientation: words::Orientation = "orientation";
@@ -370,15 +370,15 @@ entry! {
     /// - `axis`: direction at the start, global axes
     /// - `second_axis`: second direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
-    /// Axis of the wheel at the start, global axes; it goes through the tip's place. Default: `axis`.
+    /// Axis of the wheel at the start, global axes; it goes through the tip's position. Default: `axis`.
     axle: [f64; 3] = "axle";
     /// Radius of the wheel at its nominal circle; default: so that it touches the rail at the start \[m\].
     radius: f64 = "radius";
-    /// Distance of the nominal circle from the tip's place along the wheel's axis, outwards positive; default: above the rail's point `at` at the start \[m\].
+    /// Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the rail's point `at` at the start \[m\].
     offset: f64 = "offset";
     /// Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 \[rad\].
     cone_angle: f64 = "cone_angle";
-    /// Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal circle; needs `tread` \[m\].
+    /// Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal circle; needs `tread` \[m\].
     wheel_profile: Function = "wheel_profile";
     /// Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides \[m\].
     tread: [f64; 2] = "tread";
@@ -386,7 +386,7 @@ entry! {
     head_radius: f64 = "head_radius";
     /// Angle by which the head rises outwards at the point `at`; default `cone_angle` \[rad\].
     cant: f64 = "cant";
-    /// Instead of `head_radius`: height of the rail over the lateral place `y`, outwards from the point `at`, where it is 0 \[m\].
+    /// Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0 \[m\].
     rail_profile: Function = "rail_profile";
     /// Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across.
     friction_coefficient: f64 = "friction_coefficient";
@@ -436,9 +436,9 @@ nested! {
 
 keys! {
     [Cam, Gear]
-    /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
+    /// Which coordinate of `joint`, counted from 1; may be omitted where it has one.
     coordinate: f64 = "coordinate";
-    /// Which coordinate of `other`, counted from 1; may be left out where it has one.
+    /// Which coordinate of `other`, counted from 1; may be omitted where it has one.
     other_coordinate: f64 = "other_coordinate";
 }
 
@@ -454,7 +454,7 @@ keys! {
 
 keys! {
     [Clamp, ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal, WheelOnRail]
-    /// Location; default: the tip node's place \[m\].
+    /// Location; default: the tip node's position \[m\].
     at: [f64; 3] = "at";
     /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
     at_tip: [f64; 3] = "at_tip";

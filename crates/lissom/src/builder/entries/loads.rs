@@ -65,7 +65,7 @@ entry! {
 
 keys! {
     [Force, Moment, Gyrostat]
-    /// Location; default: the node's place \[m\].
+    /// Location; default: the node's position \[m\].
     at: [f64; 3] = "at";
 }
 

@@ -12,7 +12,7 @@ entry! {
     new()
     /// Start from static equilibrium under the loads of the first instant, default false.
     equilibrium: bool = "equilibrium";
-    /// Start from the places at which the model keeps turning with its velocities, default false.
+    /// Start from the positions at which the model keeps turning with its velocities, default false.
     steady_rotation: bool = "steady_rotation";
 }
 

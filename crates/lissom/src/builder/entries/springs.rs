@@ -59,14 +59,14 @@ entry! {
 }
 
 entry! {
-    /// Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.
+    /// Rope that slides over several points without friction: reeving over pulleys, and hoists by its length.
     Rope => SpringId, "rope";
     ["kind" = "rope"]
     /// With what must be given.
     ///
-    /// - `along`: the places it leads over, from one end to the other \[m\]
+    /// - `along`: the points it passes over, from one end to the other \[m\]
     new(along: Vec<(Node, Place)> = "along")
-    /// Coordinates of joints that pay it out, as "drum.angle"; a joint's name alone means all of its.
+    /// Coordinates of joints that pay it out, such as "drum.angle"; a joint's name alone means all of its.
     drums: Vec<JointId> = "drums";
     /// Stiffness of the whole rope; default 0 \[N/m\].
     stiffness: f64 = "stiffness";
@@ -177,7 +177,7 @@ entry! {
     ["kind" = "coordinate_dynamics"]
     /// With what must be given.
     ///
-    /// - `coordinates`: coordinates that it acts on, as "arm.angle", in the order of its matrices; a joint's name alone means all of its
+    /// - `coordinates`: coordinates that it acts on, such as "arm.angle", in the order of its matrices; a joint's name alone means all of its
     new(coordinates: Vec<JointId> = "coordinates")
     /// Mass matrix, symmetric, without negative eigenvalues; default 0 \[kg, kg m or kg m²\].
     mass: Vec<Vec<f64>> = "mass";
@@ -273,9 +273,9 @@ keys! {
 
 keys! {
     [Point, RollingContact, Bushing]
-    /// Location on the base; default: the node's place \[m\].
+    /// Location on the base; default: the node's position \[m\].
     at_base: [f64; 3] = "at_base";
-    /// Location on the tip; default: the node's place \[m\].
+    /// Location on the tip; default: the node's position \[m\].
     at_tip: [f64; 3] = "at_tip";
 }
 

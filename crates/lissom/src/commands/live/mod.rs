@@ -22,7 +22,7 @@ const PATIENCE: Duration = Duration::from_millis(100);
 /// Show a model in the browser and simulate it again whenever its file is saved.
 ///
 /// The page has a slider for every number in `[parameters]`. While the model is wrong the page says why, and the last
-/// picture stays. Only this machine can reach the page, and only by the address that is printed: it holds a random word.
+/// picture stays. Only this machine can reach the page, and only at the printed address, which contains a random word.
 /// No file is written.
 #[derive(Args)]
 #[command(after_help = "\
@@ -36,7 +36,7 @@ pub(super) struct Live {
     #[arg(value_name = "MODEL.toml")]
     model: PathBuf,
 
-    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 

@@ -107,7 +107,7 @@ impl Site {
     }
 
     /// Whether a request comes from this page or from a person who has typed its address. A foreign page may make a
-    /// browser send requests here, but cannot keep it from telling where they come from.
+    /// browser send requests here, but cannot keep it from reporting where they come from.
     fn is_own(&self, request: &Request) -> bool {
         let hosts = [format!("127.0.0.1:{}", self.port), format!("localhost:{}", self.port)];
         let mut host = request.named("Host");

@@ -11,7 +11,7 @@ use lissom_core::analysis::ConditionMethod;
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal::{self, Interrupt};
 
-/// Show how well conditioned the equations are, over the step size, without scaling and with it.
+/// Show the conditioning of the equations over the step size, with and without scaling.
 ///
 /// For every step size, and for every value of --vary, the model is simulated to its end; the table has the
 /// condition numbers of the last step's tangent at convergence: without scaling (none), with s = 1 (unit) and with
@@ -24,19 +24,19 @@ Examples:
     --vary point_masses.bob.mass=1e-2,1,1e2,1e4
   lissom study conditioning examples/tip-crank.toml --steps 1e-3,1e-4 --set analysis.end=0.01
 
-Small models are measured truly, in the 2-norm and far beyond 1e16; of large ones the 1-norm is estimated. \
+The condition number of small models is exact, in the 2-norm and far beyond 1e16; for large ones the 1-norm is estimated. \
 The table goes to a CSV file (columns step_size, the varied path, none, unit, physical, method, end), the \
 plot beside it. A run of more than two million steps ends earlier, and the table says when.
-Exit code: 0 all is done; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
+Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Conditioning {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Step sizes [s], as `1e-1,1e-2,1e-3`.
+    /// Step sizes [s], such as `1e-1,1e-2,1e-3`.
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     steps: Vec<String>,
 
-    /// A value of the model that is varied, too, as `point_masses.bob.mass=1,10,100`.
+    /// A value of the model that is also varied, such as `point_masses.bob.mass=1,10,100`.
     #[arg(long, value_name = "PATH=LIST", value_parser = parse_variation)]
     vary: Option<Variation>,
 
@@ -49,7 +49,7 @@ pub(super) struct Conditioning {
 type Variation = (String, Vec<String>);
 
 fn parse_variation(text: &str) -> Result<Variation, String> {
-    let wrong = || "it must be PATH=LIST, as `point_masses.bob.mass=1,10,100`".to_owned();
+    let wrong = || "it must be PATH=LIST, such as `point_masses.bob.mass=1,10,100`".to_owned();
     let (path, list) = text.split_once('=').ok_or_else(wrong)?;
     let values: Vec<String> = list.split(',').map(|value| value.trim().to_owned()).collect();
     if path.trim().is_empty() || values.iter().any(String::is_empty) {

@@ -31,24 +31,24 @@ end at the last whole one of it. Newton's tolerance is 1e-10, or the model's if 
 analysis.tolerance=… sets another.
 The table goes to a CSV file (columns scheme, step_size, error, order), the plot of errors over 1/h beside it. \
 The order of a scheme's first step is empty, as are error and order of a run that failed.
-Exit code: 0 all is done; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
+Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Convergence {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Schemes, as `radau-iia,hht(-0.3)`.
+    /// Schemes, such as `radau-iia,hht(-0.3)`.
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     schemes: Vec<String>,
 
-    /// Step sizes [s], from large to small, as `1e-2,5e-3,2.5e-3`.
+    /// Step sizes [s], from large to small, such as `1e-2,5e-3,2.5e-3`.
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     steps: Vec<String>,
 
-    /// Scheme and step size [s] of the run that counts as exact, as `radau-iia:1e-4`.
+    /// Scheme and step size [s] of the run that counts as exact, such as `radau-iia:1e-4`.
     #[arg(long, value_name = "SCHEME:STEP", value_parser = parse_reference)]
     reference: Reference,
 
-    /// The output to compare, or one component of it, as `tip.u2`.
+    /// The output to compare, or one component of it, such as `tip.u2`.
     #[arg(long, value_name = "NAME")]
     output: String,
 
@@ -65,7 +65,7 @@ fn parse_reference(text: &str) -> Result<Reference, String> {
         Some((scheme, step)) if !scheme.trim().is_empty() && !step.trim().is_empty() => {
             Ok((scheme.trim().to_owned(), step.trim().to_owned()))
         }
-        _ => Err("it must be SCHEME:STEP, as `radau-iia:1e-4`".to_owned()),
+        _ => Err("it must be SCHEME:STEP, such as `radau-iia:1e-4`".to_owned()),
     }
 }
 
@@ -89,7 +89,7 @@ impl Convergence {
             }
         }
         if table.is_far_from_reference() {
-            terminal::complain("warning: no run is near the reference: it may have gone astray itself\n");
+            terminal::complain("warning: no run is near the reference, which may be wrong itself\n");
         }
         let drawn = super::draw(&table.figure(&title), &path)?;
         terminal::print(&format!("results in {}{drawn}\n", path.display()));

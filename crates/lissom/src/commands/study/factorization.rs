@@ -23,10 +23,10 @@ Examples:
 
 Columns: smallest over largest pivot (the solver that pivots estimates it); growth of the numbers while \
 factoring; error of the coordinates' and of the multipliers' corrections, relative to their largest, found by \
-refinement with 32 digits (~ where even that does not converge); after 15 iterations the last update relative \
+refinement with 32 digits (~ if that does not converge); after 15 iterations the last update relative \
 to what the step has to find out, the largest residual of an equation of motion [N, N m], and the largest \
 violation |C| of a constraint [m, rad].
-Exit code: 0 all is done; 2 wrong model or command line; 3 no consistent initial values.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no consistent initial values.")]
 pub(super) struct Factorization {
     #[command(flatten)]
     model: ModelArguments,

@@ -19,7 +19,7 @@ use lissom_model::output::LogFigure;
 use super::{Exit, Failure};
 use crate::terminal::{self, Interrupt};
 
-/// Show what scaling, step size and solver do to a model.
+/// Show the effects of scaling, step size and solver.
 #[derive(Args)]
 pub(super) struct Study {
     #[command(subcommand)]

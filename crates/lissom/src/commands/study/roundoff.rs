@@ -10,7 +10,7 @@ use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal::{self, Interrupt};
 
-/// Show what round-off leaves of an output, as a reaction, when steps are tiny.
+/// Show the round-off of an output, such as a reaction, at tiny steps.
 ///
 /// With every step size h, 50 steps are taken from the start, whatever end the model has, with the scheme of the
 /// model. The error is the distance of the output at their end from the same time reached with steps of h/8,
@@ -24,20 +24,20 @@ Example:
 
 An error with ~ is not resolved: runs with steps of h/4 and h/8 differ by more than half of it. All components \
 of an output count together: choose one of one unit, and one that is not near zero at \
-the start: all is relative to its size there. What the start itself excites, as waves in beams, counts as noise \
+the start: all is relative to its size there. What the start itself excites, such as waves in beams, counts as noise \
 until steps resolve it. Newton's tolerance is 1e-12, or the model's if smaller; \
 --set analysis.tolerance=… sets another.
 The table goes to a CSV file (columns step_size, error, noise), the plot beside it.
-Exit code: 0 all is done; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
+Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Roundoff {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Step sizes [s], as `1e-3,1e-5,1e-7`.
+    /// Step sizes [s], such as `1e-3,1e-5,1e-7`.
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     steps: Vec<String>,
 
-    /// The output to observe, or one component of it, as `tip.u2`.
+    /// The output to observe, or one component of it, such as `tip.u2`.
     #[arg(long, value_name = "NAME")]
     output: String,
 

@@ -170,7 +170,7 @@ impl Reader {
                 "plugin" => self.robot.unsupported.push("a <plugin>".to_owned()),
                 tag if SEEN.contains(&tag) => self.seen.push(tag.to_owned()),
                 tag => {
-                    let message = format!("<{tag}> is unknown in this place: write out what it makes");
+                    let message = format!("<{tag}> is unknown in this position: write out what it makes");
                     return Err(Element::bare(child).fault(message));
                 }
             }
