@@ -862,7 +862,7 @@ class WheelOnRail(Joint):
         offset: Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the rail's point `at` at the start [m]; a number, or nothing.
         cone_angle: Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 [rad]; a number, or nothing.
         wheel_profile: Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal circle; needs `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
-        tread: Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        tread: Positions `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         head_radius: Radius of the rail's head, a circle through the point `at` [m]; a number > 0, or nothing.
         cant: Angle by which the head rises outwards at the point `at`; default `cone_angle` [rad]; a number, or nothing.
         rail_profile: Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0 [m]; an expression of `y`, or a table of it written as a function of time, or nothing.

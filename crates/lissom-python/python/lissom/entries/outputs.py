@@ -23,9 +23,9 @@ class Position(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a position at the start, carried by the node [m]; a position, or nothing.
+        point: a place at the start, carried by the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "position"
@@ -42,9 +42,9 @@ class Displacement(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a position at the start, carried by the node [m]; a position, or nothing.
+        point: a place at the start, carried by the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "displacement"
@@ -61,7 +61,7 @@ class Rotation(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
@@ -105,7 +105,7 @@ class Angle(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         axis: the axis at the start, global axes; `relative_to` carries it; three numbers, not all zero.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
     """
 
     _form: ClassVar[str] = "angle"
@@ -121,9 +121,9 @@ class Velocity(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a position at the start, carried by the node [m]; a position, or nothing.
+        point: a place at the start, carried by the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "velocity"
@@ -140,7 +140,7 @@ class AngularVelocity(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
@@ -157,9 +157,9 @@ class Acceleration(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or position on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a position at the start, carried by the node [m]; a position, or nothing.
+        point: a place at the start, carried by the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "acceleration"

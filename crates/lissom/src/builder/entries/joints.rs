@@ -380,7 +380,7 @@ entry! {
     cone_angle: f64 = "cone_angle";
     /// Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal circle; needs `tread` \[m\].
     wheel_profile: Function = "wheel_profile";
-    /// Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides \[m\].
+    /// Positions `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides \[m\].
     tread: [f64; 2] = "tread";
     /// Radius of the rail's head, a circle through the point `at` \[m\].
     head_radius: f64 = "head_radius";

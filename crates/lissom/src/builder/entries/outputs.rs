@@ -268,7 +268,7 @@ entry! {
 
 keys! {
     [Position, Displacement, Rotation, Angle, Velocity, AngularVelocity, Acceleration]
-    /// Body, or position on a beam, from which the motion is seen, in its axes; default the ground.
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
     relative_to: Node = "relative_to";
 }
 
@@ -280,7 +280,7 @@ keys! {
 
 keys! {
     [Position, Displacement, Velocity, Acceleration]
-    /// A position at the start, carried by the node \[m\].
+    /// A place at the start, carried by the node \[m\].
     point: [f64; 3] = "point";
 }
 

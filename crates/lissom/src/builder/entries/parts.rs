@@ -48,7 +48,7 @@ entry! {
     /// - `mass`: mass, or { density } of the solid in `inertia` \[kg\]
     /// - `inertia`: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = \[a, b, c\] } \[kg m²\]
     new(mass: Mass = "mass", inertia: Inertia = "inertia")
-    /// Place of the reference frame \[m\].
+    /// Position of the reference frame \[m\].
     position: [f64; 3] = "position";
     /// Rotation vector of the reference frame \[rad\].
     rotation: [f64; 3] = "rotation";
@@ -74,7 +74,7 @@ entry! {
     ///
     /// - `mass`: mass \[kg\]
     new(mass: f64 = "mass")
-    /// Place at the start \[m\].
+    /// Position at the start \[m\].
     position: [f64; 3] = "position";
     /// Move in this plane only.
     plane: words::Plane = "plane";
@@ -110,7 +110,7 @@ entry! {
     geometric: String = "geometric";
     /// The interface that carries the floating frame, default the first.
     floating: String = "floating";
-    /// Place of the origin of the part \[m\].
+    /// Position of the origin of the part \[m\].
     position: [f64; 3] = "position";
     /// Rotation vector of its axes \[rad\].
     rotation: [f64; 3] = "rotation";
