@@ -1,6 +1,6 @@
 //! `cargo xtask ablate`: switches off one feature of the nonlinear solver at a time, over all scenes, examples,
 //! verification models and random mechanisms, and prints what that costs. A feature without which nothing fails and nothing becomes
-//! dearer is to go. With `--numbers` it halves and doubles instead each tuning parameter of these and of step-size control. Knows no
+//! more expensive is removed. With `--numbers` it halves and doubles instead each tuning parameter of these and of step-size control. Knows no
 //! mechanics.
 
 use std::collections::BTreeSet;

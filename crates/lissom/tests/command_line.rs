@@ -245,7 +245,7 @@ fn a_vanishing_pivot_is_reported_and_a_pivoting_solver_goes_on() {
         folder.path(),
     );
     assert_eq!(run.code, 0, "{}", run.errors);
-    assert!(run.output.contains("went on with the pivoting solver"), "{}", run.output);
+    assert!(run.output.contains("continued with the pivoting solver"), "{}", run.output);
     let facts = summary(&folder.path().join("out/tip-crank"));
     assert_eq!(facts["fell_back_at"], "multiplier of joint `G` (rotation 3)");
 }

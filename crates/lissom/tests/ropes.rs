@@ -404,7 +404,7 @@ fn ropes_that_cannot_be_are_refused() {
         (
             "{ on = \"hook\" },\n    { on = \"ground\"",
             "{ on = \"ground\", at = [0, 0, 5] },\n    { on = \"ground\"",
-            "at one point",
+            "at one position",
         ),
         ("{ on = \"hook\" }", "{ on = \"hock\" }", "hock"),
         ("{ on = \"hook\" }", "{ at = [0, 0, 1] }", "lacks `on`"),

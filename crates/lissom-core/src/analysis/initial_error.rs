@@ -36,7 +36,7 @@ diagnostics! {
         }
         /// Something is free to rest anywhere.
         Free {
-            /// Coordinates of joints, or freedoms of nodes, that are free.
+            /// Coordinates of joints, or degrees of freedom of nodes, that are free.
             free: Subject,
         } => "free-at-rest" {
             subject: free,

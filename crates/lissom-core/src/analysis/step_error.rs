@@ -54,7 +54,7 @@ diagnostics! {
             advice: "Look at the reported equation for a force that grows without bound, for masses or stiffnesses that differ by too many \
                 orders of magnitude, and for inconsistent units.",
         }
-        /// A joint has come to a place where one of its equations vanishes.
+        /// A joint is in a position in which one of its equations vanishes.
         JointLosesHold {
             /// End of the step [s].
             time: f64,
@@ -76,7 +76,7 @@ diagnostics! {
                 turn.",
             advice: "Use a stop, other lengths, another start, or a joint of another kind.",
         }
-        /// A closed loop has come to a singular position.
+        /// A closed loop is close to a singular position.
         LoopIsSingular {
             /// End of the step [s].
             time: f64,
@@ -146,7 +146,7 @@ diagnostics! {
         }
         /// A time to be stepped to is not finite.
         NoTime {
-            /// What was asked for [s].
+            /// Requested time [s].
             target: f64,
         } => "time-not-finite" {
             cause: ("a session cannot be stepped to the time {target} s"),
@@ -160,7 +160,7 @@ diagnostics! {
             time: f64,
             /// The function, in words.
             what: Subject,
-            /// What it, or its derivative, comes to.
+            /// Its value, or that of its derivative.
             value: f64,
             /// Where [s].
             at: f64,

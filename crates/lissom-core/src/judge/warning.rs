@@ -1,4 +1,4 @@
-//! Reasons to doubt a result, reported on the terminal and in the summary.
+//! Warnings about a result, reported on the terminal and in the summary.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,13 +9,13 @@ use crate::kinematics::Subject;
 const PERCENT_AT_LIMIT: f64 = 1.4;
 
 diagnostics! {
-    /// A reason to doubt a result. Each kind is reported once, with where it first showed.
+    /// A warning about a result. Each kind is reported once, with its first occurrence.
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     Warning Warning {
         /// Energy has grown by more than loads and drives have put in.
         EnergySurplus {
-            /// When the surplus was first worth telling [s].
+            /// When the surplus was first significant [s].
             time: f64,
             /// The largest surplus [J].
             surplus: f64,
@@ -146,7 +146,7 @@ diagnostics! {
         }
         /// Steps of planned size do not resolve the velocities of joints and drives.
         UnresolvedRates {
-            /// When it was first worth telling [s].
+            /// When it was first significant [s].
             time: f64,
             /// What rates of constraints miss, as a part of the largest speed.
             missed: f64,
@@ -161,7 +161,7 @@ diagnostics! {
         }
         /// Steps of planned size do not resolve the motion.
         Unresolved {
-            /// When it was first worth telling [s].
+            /// When it was first significant [s].
             time: f64,
             /// Estimated error over how far the model has moved.
             error: f64,

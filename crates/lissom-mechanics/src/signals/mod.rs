@@ -102,7 +102,7 @@ impl Signal {
 pub struct SignalError {
     /// The signal with its expression.
     pub signal: Subject,
-    /// What it comes to.
+    /// Its value.
     pub value: f64,
     /// Time [s].
     pub time: f64,

@@ -83,11 +83,11 @@ const WITHOUT_MODEL: [(&str, &str); 10] = [
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
     ("StepError::TooInaccurate", "no model found since steps end at jumps"),
-    ("StepError::LoopIsSingular", "no model found: contradictions are told before"),
+    ("StepError::LoopIsSingular", "no model found: contradictions are reported before"),
     ("StepError::NegativeKineticEnergy", "its matrices are too large for a file here: tests/superelements"),
     ("InitialError::ZeroPivot", "the reader rejects parts without mass"),
     ("InitialError::NormalForces", "no model found, with friction coefficients up to 100 and 0.3 rad of yaw"),
-    ("InitialError::NotFinite", "the reader refuses functions that are not finite at the start"),
+    ("InitialError::NotFinite", "the reader rejects functions that are not finite at the start"),
     ("AssemblyError::UpsideDown", "tests/assembly.rs"),
 ];
 

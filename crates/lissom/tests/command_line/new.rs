@@ -45,7 +45,7 @@ fn an_imported_robot_runs_as_it_is() {
     assert!((record.column("elbow", "angle").unwrap()[0] - 0.5).abs() < 1e-12);
     let again = lissom(&["import", "arm.urdf"], folder.path());
     assert_eq!(again.code, 2);
-    assert!(again.errors.contains("there already"), "{}", again.errors);
+    assert!(again.errors.contains("already exists"), "{}", again.errors);
     let wrong = lissom(&["import", "arm.urdf", "--out", "b.toml", "--position", "knee=1"], folder.path());
     assert_eq!(wrong.code, 2);
     assert!(wrong.errors.contains("no joint `knee`"), "{}", wrong.errors);
@@ -141,7 +141,7 @@ fn what_is_there_is_not_overwritten() {
     folder.write("press.toml", "mine");
     let made = lissom(&["new", "press.toml"], folder.path());
     assert_eq!(made.code, 2);
-    assert!(made.errors.contains("there already"), "{}", made.errors);
+    assert!(made.errors.contains("already exists"), "{}", made.errors);
     assert_eq!(fs::read_to_string(folder.path().join("press.toml")).unwrap(), "mine");
     assert_eq!(lissom(&["new", "a\"b"], folder.path()).code, 0);
     assert_eq!(lissom(&["check", "a\"b.toml"], folder.path()).code, 0);
