@@ -3,11 +3,11 @@
 //! Small tangents are measured truly, in the 2-norm and far beyond 1e16; of large ones the 1-norm is
 //! estimated. Knows no scheme but through its tangent.
 
-use lissom_solver::{LinearSolver, Pattern, Scalar, Structure, condition_estimate, condition_number, kind};
+use lissom_solver::{Pattern, Structure, condition_estimate, condition_number, kind};
 
 use super::simulation::Simulation;
-use super::tangent_values::TangentValues;
-use crate::equilibration::Equilibration;
+use crate::saddle_point::equilibration::Equilibration;
+use crate::saddle_point::{Matrix, SaddlePoint, SolverOf, TangentValues};
 use crate::scaling::{Scaled, ScalingChoice};
 use crate::schemes::StageSystem;
 use crate::system::{Sum, TangentAssembler};
@@ -91,34 +91,25 @@ impl TangentValues {
     /// Its condition number in the 1-norm, estimated from a few solves.
     pub fn condition_estimate(&self, structure: &Structure) -> Condition {
         let value = match self {
-            Self::Real(values) => estimate(structure, values, |kind, structure| (kind.real)(structure)),
-            Self::Complex(values) => estimate(structure, values, |kind, structure| (kind.complex)(structure)),
+            Self::Real(values) => estimate(structure, values),
+            Self::Complex(values) => estimate(structure, values),
         };
         Condition { value, method: ConditionMethod::OneNormEstimate }
     }
 }
 
-/// Pivoting is the second choice: it judges pivots by their size, which means nothing without scaling.
-fn estimate<S: Scalar>(
-    structure: &Structure,
-    values: &[S],
-    make: impl Fn(&lissom_solver::SolverKind, &Structure) -> Box<dyn LinearSolver<S>>,
-) -> f64 {
-    for name in ["sparse", "pivoting", "dense"] {
-        let Some(kind) = kind(name) else { continue };
-        let mut solver = make(kind, structure);
-        if solver.factor(values).is_ok() {
-            let value = factored_estimate(&mut *solver, &structure.pattern, values);
-            return if value.is_nan() { f64::INFINITY } else { value };
-        }
+/// Of the matrix as it is: neither equilibrated nor with a compliance, for which it has no multipliers.
+fn estimate<S: SolverOf>(structure: &Structure, values: &[S]) -> f64 {
+    let Some(kind) = kind("sparse") else { return f64::INFINITY };
+    let mut matrix = Matrix::new(S::solver(kind, structure), structure);
+    matrix.values.copy_from_slice(values);
+    let mut saddle = SaddlePoint::new(matrix, values.len()).falling_back(kind.name);
+    if saddle.factor(structure, 1.0).is_err() {
+        return f64::INFINITY;
     }
-    f64::INFINITY
-}
-
-/// Rounded results of an ill-conditioned solve may be too small by a little: κ is never below 1.
-fn factored_estimate<S: Scalar>(solver: &mut dyn LinearSolver<S>, pattern: &Pattern, values: &[S]) -> f64 {
-    let value = condition_estimate(solver, pattern, values);
-    if value < 1.0 { 1.0 } else { value }
+    let value = condition_estimate(&mut *saddle.matrices.solver, &structure.pattern, values);
+    // Rounded results of an ill-conditioned solve may be too small by a little: κ is never below 1.
+    if value.is_nan() { f64::INFINITY } else { value.max(1.0) }
 }
 
 impl Simulation {

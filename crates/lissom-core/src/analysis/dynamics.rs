@@ -14,7 +14,6 @@ use super::settings::Settings;
 use super::simulation::{Origin, Simulation};
 use super::singular_positions::SingularPositions;
 use super::step_error::{StepError, describe};
-use super::tangent_values::TangentValues;
 use super::totals::{StepReport, Totals};
 use crate::analysis::Problem;
 use crate::control;
@@ -22,6 +21,7 @@ use crate::integrator::{Attempt, Integrator, Start, pivoting_unless_augmented};
 use crate::judge::{self, EnergyBalance, Judge, Warning};
 use crate::monitors::{Accepted, Beginning, Monitors};
 use crate::newton::Failure;
+use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::StageSystem;
 use crate::stepping::{EventDetector, Stops};
@@ -114,7 +114,7 @@ impl Simulation {
     pub(super) fn factored_condition(&mut self) -> Option<f64> {
         let pattern = &self.system.structure().pattern;
         let Integrator { jacobian_state, work, .. } = &mut self.integrator;
-        let value = jacobian_state.has_tangent.then(|| work.factorization.condition_estimate(pattern));
+        let value = jacobian_state.has_tangent.then(|| work.tangent.matrices.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
     }
 
@@ -180,9 +180,9 @@ impl Simulation {
         let (totals, work) = (&mut self.totals, &self.integrator.work);
         totals.steps += report.parts;
         totals.stagnated_steps += usize::from(report.stagnated);
-        totals.fell_back_at = work.fell_back.map(|(unknown, _)| unknown);
-        totals.regularized_at = work.regularization.as_ref().map(|(_, unknown)| *unknown);
-        if let Some(factor) = work.report.as_ref() {
+        totals.fell_back_at = work.tangent.fell_back().map(|(unknown, _)| unknown);
+        totals.regularized_at = work.tangent.redundant();
+        if let Some(factor) = work.tangent.report() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }
         for violation in &self.state.violations {

@@ -5,7 +5,6 @@ use lissom_solver::FactorError;
 
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
-use super::regularization::Regularization;
 use super::workspace::Workspace;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
@@ -178,9 +177,9 @@ impl StepEquations<'_> {
     pub(crate) fn linearize(&mut self) {
         let mut stiffness = std::mem::take(&mut self.work.stiffness);
         for (index, system) in self.scheme.coupling.systems.iter().enumerate() {
-            let mut values = self.work.factorization.take_values(index);
+            let mut values = self.work.tangent.matrices.take_values(index);
             self.assemble_tangent(&mut values.receiver(&self.scaled, system, &mut stiffness));
-            self.work.factorization.set_values(index, values);
+            self.work.tangent.matrices.set_values(index, values);
         }
         self.work.stiffness = stiffness;
     }
@@ -369,7 +368,7 @@ impl StepEquations<'_> {
 
     /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
     pub(crate) fn unforgiven(&self, failure: Failure) -> Failure {
-        match self.work.fell_back {
+        match self.work.tangent.fell_back() {
             Some((unknown, pivot)) if failure != Failure::Interrupted => {
                 Failure::Factor(FactorError::ZeroPivot { unknown, pivot, largest: f64::NAN })
             }
@@ -430,20 +429,19 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Rest);
         let layout = self.system.layout();
         let work = &mut *self.work;
-        if let Some((regularization, _)) = &work.regularization {
+        if let Some(compliance) = work.tangent.compliance() {
             let factor = self.scaled.multiplier_factor() * self.scaled.scale();
             for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
-                regularization.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
+                compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
             }
         }
         for values in &mut work.residuals {
             work.processor.dispatch(Multiply { values, factors: &work.row_factors });
         }
         self.watch.begin(Phase::Solve);
-        work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
+        work.tangent.matrices.solve(&self.scheme.coupling, &mut work.residuals);
         self.watch.begin(Phase::Rest);
-        if let Some(equilibration) = &work.equilibration {
-            let factors = equilibration.factors();
+        if let Some(factors) = work.tangent.row_factors() {
             for values in &mut work.residuals {
                 work.processor.dispatch(Multiply { values, factors });
             }
@@ -466,33 +464,7 @@ impl Equations for StepEquations<'_> {
         self.linearize();
         self.work.force_round_off = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
-        let (system, scale) = (self.system, self.scaled.scale());
-        let (layout, pattern) = (system.layout(), &system.structure().pattern);
-        let work = &mut *self.work;
-        if let Some(equilibration) = &mut work.equilibration {
-            work.factorization.equilibrate(pattern, equilibration);
-        }
-        if let Some((regularization, _)) = &mut work.regularization {
-            work.factorization.relax(regularization, scale, work.equilibration.as_ref());
-        }
-        let mut result = work.factorization.factor();
-        if let Err(FactorError::ZeroPivot { unknown, .. }) = result
-            && unknown >= layout.coordinate_count()
-            && work.regularization.is_none()
-        {
-            let mut regularization = Regularization::new(pattern, layout.coordinate_count());
-            work.factorization.relax(&mut regularization, scale, work.equilibration.as_ref());
-            work.regularization = Some((regularization, unknown));
-            result = work.factorization.factor();
-        }
-        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
-            && let Some(kind) = work.fall_back.take()
-        {
-            work.fell_back = Some((unknown, pivot));
-            work.factorization.replace_solver(kind, system.structure());
-            result = work.factorization.factor();
-        }
-        self.work.report = Some(result?);
+        self.work.tangent.factor(self.system.structure(), self.scaled.scale())?;
         self.note_scales();
         self.watch.begin(Phase::Rest);
         Ok(())

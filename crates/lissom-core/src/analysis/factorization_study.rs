@@ -4,12 +4,12 @@
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, refined_solution};
 
 use super::equations::StepEquations;
-use super::factorization::{FactoredSystem, Factorization};
 use super::phase::Unwatched;
 use super::simulation::Simulation;
 use super::workspace::Workspace;
 use crate::kinematics::Layout;
 use crate::newton::Equations;
+use crate::saddle_point::stage_tangents::{FactoredSystem, StageTangents};
 use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
 
 /// Newton iterations made, far more than convergence takes.
@@ -120,17 +120,17 @@ fn examine(
     };
     equations.predict();
     equations.renew_tangent().map_err(|error| stopped(layout, error))?;
-    let report = equations.work.report.expect("a factorisation that went through has a report");
+    let report = *equations.work.tangent.report().expect("a factorisation that went through has a report");
     let physical = ScalingChoice { by: ScaleBy::Physical, ..*choice };
     let physical = Scaled::new(&physical, representative, settings.step_size);
     let multiplier_size = physical.multiplier_factor() / scaled.multiplier_factor();
     let mut sizes = vec![1.0; layout.size()];
     sizes[layout.coordinate_count()..].fill(multiplier_size);
-    if let Some(equilibration) = &equations.work.equilibration {
-        sizes.iter_mut().zip(equilibration.factors()).for_each(|(size, factor)| *size /= factor);
+    if let Some(factors) = equations.work.tangent.row_factors() {
+        sizes.iter_mut().zip(factors).for_each(|(size, factor)| *size /= factor);
     }
     let [coordinate_error, multiplier_error, known] =
-        forward_errors(&mut equations.work.factorization, &system.pattern(), layout, &sizes);
+        forward_errors(&mut equations.work.tangent.matrices, &system.pattern(), layout, &sizes);
     Ok(Factored {
         smallest_pivot: layout.name_of(report.smallest_pivot_unknown),
         report,
@@ -189,7 +189,7 @@ fn largest(start: f64, values: impl Iterator<Item = f64>) -> f64 {
 /// Errors of coordinates and multipliers when a known problem is solved, and 1 if they are certain. The problem
 /// is the same in SI whatever the scaling: each unknown is of its size in `sizes` times a number of order one.
 fn forward_errors(
-    factorization: &mut Factorization,
+    tangents: &mut StageTangents,
     pattern: &Pattern,
     layout: &Layout,
     sizes: &[f64],
@@ -203,7 +203,7 @@ fn forward_errors(
     let worst = |[a, b, certain]: [f64; 3], own: [f64; 3]| {
         [largest(a, [own[0]].into_iter()), largest(b, [own[1]].into_iter()), certain.min(own[2])]
     };
-    factorization.systems.iter_mut().map(of).fold([0.0, 0.0, 1.0], worst)
+    tangents.systems.iter_mut().map(of).fold([0.0, 0.0, 1.0], worst)
 }
 
 fn forward_errors_of<S: Scalar>(

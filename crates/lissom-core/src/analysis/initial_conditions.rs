@@ -8,14 +8,14 @@
 //! solved in scaled and augmented form, like a step.
 
 use lissom_motion::{Motion, Vector6};
-use lissom_solver::{FactorError, LinearSolver, SolverKind};
+use lissom_solver::{FactorError, SolverKind};
 
 pub use super::initial_error::InitialError;
-use super::regularization::Regularization;
 use super::singular_positions::SingularPositions;
 use super::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
+use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
@@ -38,14 +38,11 @@ enum Inertias {
 
 /// Solves for initial values.
 pub struct ConsistentInitialConditions {
-    solver: Box<dyn LinearSolver<f64>>,
+    saddle: SaddlePoint<Matrix<f64>>,
     linearization: Linearization,
-    values: Vec<f64>,
     scale: f64,
     /// Length that stands for a radian [m].
     radian: f64,
-    /// Whether constraints yield because some repeat others, see `regularization`.
-    is_regularized: bool,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
     /// The mass, while that in use has damping.
@@ -63,16 +60,20 @@ struct Relevant {
 impl ConsistentInitialConditions {
     /// Room for initial values of `system`.
     pub fn new(system: &System, state: &State, representative: &Representative, kind: &SolverKind) -> Self {
+        let (layout, structure) = (system.layout(), system.structure());
+        let matrix = Matrix::new((kind.real)(structure), structure);
+        let count = layout.coordinate_count();
+        // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
+        let repeating =
+            SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
         Self {
-            solver: (kind.real)(system.structure()),
+            saddle: SaddlePoint::new(matrix, count)
+                .equilibrated(layout.size())
+                .falling_back(kind.name)
+                .with_redundancy(structure, repeating.map(|multiplier| count + multiplier)),
             linearization: system.empty_linearization(),
-            values: vec![0.0; system.structure().pattern.entries()],
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             radian: representative.length,
-            // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
-            is_regularized: SingularPositions::new(system, &state.kinematics, representative.length)
-                .first_repeating()
-                .is_some(),
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             undamped: Vec::new(),
@@ -175,14 +176,11 @@ impl ConsistentInitialConditions {
 
     fn factor_inertias(&mut self, system: &System) -> Result<(), InitialError> {
         let layout = system.layout();
-        let mut result = self.factor_values(system);
-        if let Err(FactorError::ZeroPivot { unknown, .. }) = result
-            && unknown >= layout.coordinate_count()
-            && !self.is_regularized
-        {
-            self.is_regularized = true;
-            result = self.factor_values(system);
+        let Linearization { mass, gram, constraint, .. } = &self.linearization;
+        for (i, value) in self.saddle.matrices.values.iter_mut().enumerate() {
+            *value = mass[i] + self.scale * (gram[i] + constraint[i]);
         }
+        let result = self.saddle.factor(system.structure(), self.scale).map(|_| ());
         result.map_err(|error| match error {
             FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
                 pivot,
@@ -193,20 +191,6 @@ impl ConsistentInitialConditions {
                 InitialError::NotFinite { unknown: layout.subject_of(unknown) }
             }
         })
-    }
-
-    fn factor_values(&mut self, system: &System) -> Result<(), FactorError> {
-        let Linearization { mass, gram, constraint, .. } = &self.linearization;
-        for (i, value) in self.values.iter_mut().enumerate() {
-            *value = mass[i] + self.scale * (gram[i] + constraint[i]);
-        }
-        if self.is_regularized {
-            let structure = system.structure();
-            let mut regularization =
-                Regularization::new(&structure.pattern, system.layout().coordinate_count());
-            regularization.enter(self.scale, None, &mut self.values);
-        }
-        self.solver.factor(&self.values).map(|_| ())
     }
 
     fn augmentation(&self) -> Augmentation {
@@ -237,13 +221,13 @@ impl ConsistentInitialConditions {
         let mut solution = vec![0.0; right.len()];
         // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also
         // takes back what constraints have yielded, while multipliers stay the least ones.
-        for _ in 0..if self.is_regularized { 4 } else { 2 } {
+        for _ in 0..if self.saddle.redundant().is_some() { 4 } else { 2 } {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
             let constraints: Vec<f64> = rest[count..].to_vec();
             self.add_transposed(system, &constraints, &mut rest);
             rest[count..].iter_mut().for_each(|value| *value *= self.scale);
-            self.solver.solve(&mut rest);
+            self.saddle.solve_with_factors(&mut rest);
             for (row, value) in rest.iter().enumerate() {
                 solution[row] += if row < count { *value } else { self.scale * value };
             }

@@ -66,10 +66,8 @@ impl Simulation {
         integrator.scaled.to_unit_step(self.system.layout(), &self.settings.scheme, start, &mut work.unit);
         work.increments.clone_from(&leading.increments);
         work.multipliers.clone_from(&leading.multipliers);
-        work.regularization.clone_from(&leading.regularization);
         work.anderson.forget();
-        std::mem::swap(&mut work.factorization, &mut leading.factorization);
-        std::mem::swap(&mut work.equilibration, &mut leading.equilibration);
+        work.tangent.borrow_factors(&mut leading.tangent);
         work.note_scales(self.system.layout(), &integrator.scaled);
         let scaled = integrator.scaled;
         let watch = &mut Unwatched;
@@ -102,8 +100,7 @@ impl Simulation {
         }
         let worst = equations.worst_unknown();
         let correction = equations.work.correction;
-        std::mem::swap(&mut work.factorization, &mut leading.factorization);
-        std::mem::swap(&mut work.equilibration, &mut leading.equilibration);
+        work.tangent.exchange_factors(&mut leading.tangent);
         if !(last <= FOUND || size_of_last <= round_off::CORRECTION) {
             let time = self.state.kinematics.time + size;
             let hint = "the neighbouring model has no solution near this one";

@@ -146,7 +146,7 @@ impl Simulation {
 
     /// Stored numbers of the tangent's factors.
     pub fn factor_entries(&self) -> usize {
-        self.integrator.work.factorization.entries()
+        self.integrator.work.tangent.matrices.entries()
     }
 
     /// Largest change made to the given initial twists to satisfy the constraints [m/s, rad/s].
@@ -156,6 +156,6 @@ impl Simulation {
 
     /// Smallest pivot over largest diagonal entry of the tangent factored last.
     pub fn relative_pivot(&self) -> Option<f64> {
-        self.integrator.work.report.as_ref().map(FactorReport::relative_pivot)
+        self.integrator.work.tangent.report().map(FactorReport::relative_pivot)
     }
 }

@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::anderson::Anderson;
 use super::predictor::Predictor;
-use super::regularization::Regularization;
-use super::tangent_numbers::TangentNumbers;
 use super::workspace::{Effort, Workspace};
+use crate::saddle_point;
 use crate::system::System;
 
 /// All that outlives a step besides the state.
@@ -18,12 +17,8 @@ pub(crate) struct Learned {
     anderson: Anderson,
     effort: Effort,
     backed_off: bool,
-    /// The tangent factored last, if any was, and what belongs to it.
-    tangent: Option<Vec<TangentNumbers>>,
-    equilibration: Option<Vec<f64>>,
+    tangent: saddle_point::Learned,
     force_round_off: f64,
-    regularization: Option<(Regularization, usize)>,
-    fell_back: Option<(usize, f64)>,
 }
 
 impl Workspace {
@@ -34,11 +29,8 @@ impl Workspace {
             anderson: self.anderson.clone(),
             effort: self.effort,
             backed_off: self.backed_off,
-            tangent: self.report.as_ref().map(|_| self.factorization.numbers()),
-            equilibration: self.equilibration.as_ref().map(|found| found.factors().to_vec()),
+            tangent: self.tangent.learned(),
             force_round_off: self.force_round_off,
-            regularization: self.regularization.clone(),
-            fell_back: self.fell_back,
         }
     }
 
@@ -54,21 +46,7 @@ impl Workspace {
         self.anderson.restore(&from.anderson);
         self.effort = from.effort;
         self.backed_off = from.backed_off;
-        if let (Some(equilibration), Some(factors)) = (&mut self.equilibration, &from.equilibration) {
-            equilibration.set_factors(factors);
-        }
         self.force_round_off = from.force_round_off;
-        self.regularization.clone_from(&from.regularization);
-        if from.fell_back.is_some() && self.fell_back.is_none() {
-            let pivoting = lissom_solver::kind("pivoting").unwrap_or(self.solver);
-            self.factorization.replace_solver(self.fall_back.take().unwrap_or(pivoting), system.structure());
-        }
-        self.fell_back = from.fell_back;
-        self.report = None;
-        if let Some(tangent) = &from.tangent {
-            self.factorization.set_numbers(tangent);
-            self.report = Some(self.factorization.factor()?);
-        }
-        Ok(())
+        self.tangent.restore(system.structure(), &from.tangent)
     }
 }

@@ -1,17 +1,15 @@
 //! What a step works with, allocated once.
 
-use lissom_solver::FactorReport;
 use serde::{Deserialize, Serialize};
 
 use super::anderson::Anderson;
 use super::corrections::processor;
-use super::factorization::Factorization;
 use super::predictor::Predictor;
-use super::regularization::Regularization;
-use crate::equilibration::Equilibration;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Layout, Quantity};
+use crate::saddle_point::SaddlePoint;
+use crate::saddle_point::stage_tangents::StageTangents;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStepState};
 use crate::schemes::{Increments, Scheme};
 use crate::solver_features::DisabledFeatures;
@@ -59,30 +57,21 @@ pub(crate) struct Workspace {
     /// Room for the error estimate: by coordinate row, and by row.
     pub(crate) error: Vec<f64>,
     pub(crate) filtered: Vec<f64>,
-    /// The solver to go on with where a pivot vanishes, until it is needed.
-    pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
-    /// The unknown whose pivot vanished, and the pivot, once it was needed.
-    pub(crate) fell_back: Option<(usize, f64)>,
     /// Round-off of displacements from how far parts go straight on in the present step, scaled; none until it is needed.
     pub(crate) travel_round_off: Option<f64>,
     /// Forces below this are round-off of the stiffest elements' strains [N].
     pub(crate) force_round_off: f64,
-    /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
-    pub(crate) regularization: Option<(Regularization, usize)>,
-    /// The solver that factors.
-    pub(super) solver: &'static lissom_solver::SolverKind,
     /// What joints see at the start of the step.
     pub(crate) joint_starts: JointStarts,
     pub(super) scratch: Option<Box<Scratch>>,
     /// Diagonal of the derivatives by place, by row.
     pub(super) stiffness: Vec<f64>,
-    pub(crate) factorization: Factorization,
+    /// The tangents of the scheme's decoupled systems.
+    pub(crate) tangent: SaddlePoint<StageTangents>,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
     pub(crate) sizes: Vec<f64>,
     /// Scaled size of one unit of each multiplier: moments as forces at the length that stands for a radian.
     pub(super) multiplier_sizes: Vec<f64>,
-    /// Of the tangent, if it is wanted.
-    pub(crate) equilibration: Option<Equilibration>,
     /// From residuals in SI to right-hand sides of the tangent in use.
     pub(super) row_factors: Vec<f64>,
     pub(super) processor: pulp::Arch,
@@ -90,7 +79,6 @@ pub(crate) struct Workspace {
     pub(super) length: f64,
     /// For evaluation on several threads, where that pays.
     pub(crate) threads: Option<Threads>,
-    pub(crate) report: Option<FactorReport>,
     pub(crate) anderson: Anderson,
     /// Features that are switched off.
     pub(crate) disabled: DisabledFeatures,
@@ -104,13 +92,18 @@ impl Workspace {
         state: &State,
         scheme: &Scheme,
         representative: &Representative,
-        solver: &'static lissom_solver::SolverKind,
+        solver: &lissom_solver::SolverKind,
         equilibrated: bool,
     ) -> Self {
         let layout = system.layout();
         let stages = scheme.stages.len();
         let count = layout.coordinate_count();
         let sizes = sizes(layout, representative);
+        let tangents = StageTangents::new(solver, system.structure(), &scheme.coupling);
+        let mut tangent = SaddlePoint::new(tangents, count);
+        if equilibrated {
+            tangent = tangent.equilibrated(layout.size());
+        }
         Self {
             unit: UnitStepState::new(layout, scheme),
             predicted: vec![vec![0.0; count]; stages],
@@ -137,25 +130,19 @@ impl Workspace {
             effort: Effort::default(),
             error: vec![0.0; count],
             filtered: vec![0.0; layout.size()],
-            fall_back: None,
-            fell_back: None,
             travel_round_off: None,
             force_round_off: 0.0,
-            regularization: None,
-            solver,
             joint_starts: JointStarts::default(),
             scratch: Some(Box::default()),
             stiffness: vec![0.0; layout.size()],
-            factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
+            tangent,
             anderson: Anderson::new(stages, layout.size(), &sizes),
             sizes,
             multiplier_sizes: vec![1.0; layout.multiplier_count],
             row_factors: vec![1.0; layout.size()],
             processor: processor(layout.size()),
-            equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
             length: representative.length,
             threads: None,
-            report: None,
             disabled: DisabledFeatures::default(),
             tuning: Tuning::default(),
         }
@@ -176,9 +163,7 @@ impl Workspace {
     pub(crate) fn note_scales(&mut self, layout: &Layout, scaled: &Scaled) {
         self.row_factors.fill(1.0);
         scaled.scale_residual(layout, &mut self.row_factors);
-        if let Some(equilibration) = &self.equilibration {
-            equilibration.scale(&mut self.row_factors);
-        }
+        self.tangent.scale(&mut self.row_factors);
         let quantities = &layout.quantities()[layout.coordinate_count()..];
         for (size, &quantity) in self.multiplier_sizes.iter_mut().zip(quantities) {
             *size = 1.0 / scaled.unit(quantity);

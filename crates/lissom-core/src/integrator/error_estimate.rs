@@ -139,13 +139,9 @@ impl Integrator {
         }
         inertial_part(problem.system, end, &work.error, motion);
         constraints.fill(0.0);
-        if let Some(equilibration) = &work.equilibration {
-            equilibration.scale(&mut work.filtered);
-        }
-        work.factorization.solve_inertial(&problem.settings.scheme.coupling, &mut work.filtered);
-        if let Some(equilibration) = &work.equilibration {
-            equilibration.scale(&mut work.filtered);
-        }
+        work.tangent.scale(&mut work.filtered);
+        work.tangent.matrices.solve_inertial(&problem.settings.scheme.coupling, &mut work.filtered);
+        work.tangent.scale(&mut work.filtered);
     }
 
     /// The miss from which the error of the last attempt is estimated, by row: that of the position or of the velocity,

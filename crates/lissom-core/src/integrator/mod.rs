@@ -12,7 +12,6 @@ use lissom_solver::{FactorError, SolverKind};
 
 use crate::analysis::equations::StepEquations;
 use crate::analysis::projection::Projection;
-use crate::analysis::regularization::Regularization;
 use crate::analysis::step_error::describe;
 use crate::analysis::workspace::Workspace;
 use crate::analysis::{Problem, Settings, StepError, Stopwatch, TangentValues, Unwatched};
@@ -60,11 +59,11 @@ impl Integrator {
         let mut work = Workspace::new(system, state, scheme, &representative, settings.solver, equilibrated);
         (work.disabled, work.tuning) = (settings.limits.disabled, settings.limits.tuning);
         work.threads = Threads::new(system.starts_of_batches(), settings.threads);
-        work.factorization.set_threads(settings.threads);
+        work.tangent.matrices.set_threads(settings.threads);
         let count = system.layout().coordinate_count();
-        work.regularization = repeating
-            .map(|multiplier| (Regularization::new(&system.structure().pattern, count), count + multiplier));
-        work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
+        let unknown = repeating.map(|multiplier| count + multiplier);
+        work.tangent =
+            work.tangent.with_redundancy(system.structure(), unknown).falling_back(settings.solver.name);
         let has_constraints = !system.layout().multiplier_rows().is_empty();
         let projection = scheme
             .tableau

@@ -4,15 +4,11 @@
 //! increment: the same scaling, augmented term and equilibration serve.
 
 use std::ops::Mul;
-use std::sync::Arc;
 
-use lissom_solver::{
-    FactorError, FactorReport, LinearSolver, Multifrontal, Pattern, Scalar, Structure, Symmetric,
-};
+use lissom_solver::{FactorError, LinearSolver, Multifrontal, Structure, Symmetric};
 use num_complex::Complex64;
 
-use crate::analysis::regularization::{Refinement, Regularization};
-use crate::equilibration::Equilibration;
+use crate::saddle_point::{Matrix, SaddlePoint, SolverOf};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Linearization, System};
@@ -20,31 +16,24 @@ use crate::system::{Linearization, System};
 /// The square of the rate from which the search for modes starts, relative to that of the stiffest parts.
 pub(super) const SMALL: f64 = 1e-6;
 
-/// The pivot of a redundant constraint's multiplier is this fraction of the terms it is made of, or less.
-const REDUNDANT: f64 = 1e-12;
-
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
 pub(super) struct RealShift<'a> {
     system: &'a System,
     representative: Representative,
     scaled: Scaled,
-    solver: Symmetric<f64>,
-    equilibration: Equilibration,
-    values: Vec<f64>,
-    refinement: Refinement<f64>,
+    saddle: SaddlePoint<Matrix<f64>>,
 }
 
 impl<'a> RealShift<'a> {
     pub(super) fn new(system: &'a System, representative: &Representative) -> Self {
         let layout = system.layout();
+        let matrix = Matrix::new(Box::new(Symmetric::new(system.structure())), system.structure());
         Self {
             system,
             representative: *representative,
             scaled: Scaled::at_rate(representative, 1.0),
-            solver: Symmetric::new(system.structure()),
-            equilibration: Equilibration::new(layout.size(), layout.coordinate_count()),
-            values: vec![0.0; system.structure().pattern.entries()],
-            refinement: Refinement::new(),
+            // Nothing to fall back on: exchanges of rows would hide the number of negative pivots.
+            saddle: SaddlePoint::new(matrix, layout.coordinate_count()).equilibrated(layout.size()),
         }
     }
 
@@ -58,25 +47,17 @@ impl<'a> RealShift<'a> {
         let magnitude = if shift == 0.0 { self.small_square() } else { shift.abs() };
         self.scaled = Scaled::at_rate(&self.representative, magnitude.sqrt());
         let blend = self.scaled.blend(Weights { rate: 0.0, curvature: -shift / magnitude });
-        for (k, value) in self.values.iter_mut().enumerate() {
+        for (k, value) in self.saddle.matrices.values.iter_mut().enumerate() {
             *value = blend.place * parts.stiffness[k]
                 + blend.acceleration * parts.mass[k]
                 + blend.augmented * parts.gram[k]
                 + blend.constraint * parts.constraint[k];
         }
-        let pattern = &self.system.structure().pattern;
-        let count = self.system.layout().coordinate_count();
-        self.equilibration.apply(pattern, &mut self.values);
-        let mut report = self.solver.factor(&self.values);
-        self.refinement.stop();
-        if repeats(&report, count) {
-            self.refinement.start(&self.values);
-            let mut regularization = Regularization::new(pattern, count);
-            regularization.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
-            report = self.solver.factor(&self.values);
-        }
-        let negative = report?.negative_pivots.unwrap_or(usize::MAX);
-        let forces = pattern.size() - count + self.system.layout().impulses.len();
+        let (structure, layout) = (self.system.structure(), self.system.layout());
+        self.saddle.forget_redundancy();
+        let report = self.saddle.factor(structure, self.scaled.scale())?;
+        let negative = report.negative_pivots.unwrap_or(usize::MAX);
+        let forces = layout.size() - layout.coordinate_count() + layout.impulses.len();
         Ok(negative.saturating_sub(forces))
     }
 
@@ -84,10 +65,7 @@ impl<'a> RealShift<'a> {
     /// [`multiplier_factor`](Self::multiplier_factor).
     pub(super) fn solve(&mut self, right: &mut [f64]) {
         self.scaled.scale_residual(self.system.layout(), right);
-        self.equilibration.scale(right);
-        let pattern = &self.system.structure().pattern;
-        self.refinement.solve(pattern, right, |right| self.solver.solve(right));
-        self.equilibration.scale(right);
+        self.saddle.solve(self.system.structure(), right);
     }
 
     /// From a scaled multiplier to one in SI.
@@ -97,7 +75,7 @@ impl<'a> RealShift<'a> {
 }
 
 /// A rate s at which a model with damping is shifted: real, or complex.
-pub(super) trait Shift: Scalar + Mul<f64, Output = Self> {
+pub(super) trait Shift: SolverOf + Mul<f64, Output = Self> {
     /// |s|.
     fn size(self) -> f64;
 }
@@ -120,13 +98,10 @@ pub(super) type ComplexShift<'a> = GeneralShift<'a, Complex64>;
 /// Solves with s² M + s D + K and the constraints for a real or a complex s.
 pub(super) struct GeneralShift<'a, S> {
     system: &'a System,
-    pattern: Arc<Pattern>,
+    structure: Structure,
     representative: Representative,
     scaled: Scaled,
-    solver: Multifrontal<S>,
-    equilibration: Equilibration,
-    values: Vec<S>,
-    refinement: Refinement<S>,
+    saddle: SaddlePoint<Matrix<S>>,
 }
 
 impl<'a, S: Shift> GeneralShift<'a, S> {
@@ -137,15 +112,17 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
     /// For matrices on another structure than the system's.
     pub(super) fn on(system: &'a System, structure: &Structure, representative: &Representative) -> Self {
         let layout = system.layout();
+        let solver = Multifrontal::new(structure);
+        let own = solver.name();
+        let matrix = Matrix::new(Box::new(solver), structure);
         Self {
             system,
-            pattern: Arc::clone(&structure.pattern),
+            structure: structure.clone(),
             representative: *representative,
             scaled: Scaled::at_rate(representative, 1.0),
-            solver: Multifrontal::new(structure),
-            equilibration: Equilibration::new(layout.size(), layout.coordinate_count()),
-            values: vec![S::zero(); structure.pattern.entries()],
-            refinement: Refinement::new(),
+            saddle: SaddlePoint::new(matrix, layout.coordinate_count())
+                .equilibrated(layout.size())
+                .falling_back(own),
         }
     }
 
@@ -154,7 +131,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         self.scaled = Scaled::at_rate(&self.representative, shift.size());
         let unit = shift * shift.size().recip();
         let blend = self.scaled.blend(Weights { rate: unit, curvature: unit * unit });
-        for (k, value) in self.values.iter_mut().enumerate() {
+        for (k, value) in self.saddle.matrices.values.iter_mut().enumerate() {
             *value = blend.acceleration * parts.mass[k]
                 + blend.rate * parts.damping[k]
                 + S::from_real(
@@ -163,18 +140,8 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
                         + blend.constraint * parts.constraint[k],
                 );
         }
-        let pattern = &self.pattern;
-        let count = self.system.layout().coordinate_count();
-        self.equilibration.apply(pattern, &mut self.values);
-        let mut report = self.solver.factor(&self.values);
-        self.refinement.stop();
-        if repeats(&report, count) {
-            self.refinement.start(&self.values);
-            let mut regularization = Regularization::new(pattern, count);
-            regularization.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
-            report = self.solver.factor(&self.values);
-        }
-        report.map(|_| ())
+        self.saddle.forget_redundancy();
+        self.saddle.factor(&self.structure, self.scaled.scale()).map(|_| ())
     }
 
     /// Solves for forces and violations in SI: displacements in the rows of the coordinates, and multipliers in units of
@@ -183,38 +150,28 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         for (value, factor) in right.iter_mut().zip(self.row_factors()) {
             *value = *value * factor;
         }
-        self.refinement.solve(&self.pattern, right, |right| self.solver.solve(right));
-        for (value, &factor) in right.iter_mut().zip(self.equilibration.factors()) {
+        self.saddle.solve_equilibrated(&self.structure, right);
+        for (value, &factor) in right.iter_mut().zip(self.saddle.row_factors().unwrap_or_default()) {
             *value = *value * factor;
         }
     }
 
     /// Whether constraints repeat each other in the matrix that was factored.
     pub(super) fn has_redundant_constraints(&self) -> bool {
-        self.refinement.is_needed()
+        self.saddle.redundant().is_some()
     }
 
     /// What brings rows in SI to the size of the matrix that is factored.
     pub(super) fn row_factors(&self) -> impl Iterator<Item = f64> + '_ {
         let count = self.system.layout().coordinate_count();
         let of_rows = [self.scaled.dynamic_factor(), self.scaled.scale()];
-        let factors = self.equilibration.factors().iter().enumerate();
+        let factors = self.saddle.row_factors().unwrap_or_default().iter().enumerate();
         factors.map(move |(row, factor)| factor * of_rows[usize::from(row >= count)])
     }
 
     /// From a scaled multiplier to one in SI.
     pub(super) fn multiplier_factor(&self) -> f64 {
         self.scaled.multiplier_factor()
-    }
-}
-
-/// Whether a constraint repeats others: the pivot of its multiplier, after those of the coordinates in the rows before `count`,
-/// is nothing but round-off.
-fn repeats(report: &Result<FactorReport, FactorError>, count: usize) -> bool {
-    match report {
-        Ok(report) => report.worst_cancellation < REDUNDANT && report.worst_cancellation_unknown >= count,
-        Err(FactorError::ZeroPivot { unknown, .. }) => *unknown >= count,
-        Err(FactorError::NotFinite { .. }) => false,
     }
 }
 

@@ -11,88 +11,10 @@
 use lissom_solver::{Pattern, Scalar};
 use serde::{Deserialize, Serialize};
 
-use crate::equilibration::Equilibration;
+use super::equilibration::Equilibration;
 
 /// δ: violations stay below what is solved for; multipliers keep the digits that round-off of violations over δ leaves.
 const COMPLIANCE: f64 = 1e-8;
-
-/// Corrections of a solution whose factors have the compliance of redundant constraints, at most …
-const MAX_REFINEMENTS: usize = 40;
-/// … and the part of the right-hand side, per row, below which the residual is round-off.
-const RESIDUAL: f64 = 1e-15;
-/// The least reduction of the residual by a correction that is worth another one.
-const REDUCTION: f64 = 0.5;
-
-/// Iterative refinement of solutions with the matrix of redundant constraints, whose factors have a compliance in them. The
-/// right-hand sides of the constraints are consistent, so that the solution without the compliance exists.
-pub(crate) struct Refinement<S> {
-    is_needed: bool,
-    values: Vec<S>,
-    right: Vec<S>,
-    residual: Vec<S>,
-    solution: Vec<S>,
-}
-
-impl<S: Scalar> Refinement<S> {
-    /// Without a compliance.
-    pub(crate) fn new() -> Self {
-        let empty = Vec::new;
-        Self { is_needed: false, values: empty(), right: empty(), residual: empty(), solution: empty() }
-    }
-
-    /// Stores the matrix before the compliance enters it.
-    pub(crate) fn start(&mut self, values: &[S]) {
-        self.is_needed = true;
-        self.values.clear();
-        self.values.extend_from_slice(values);
-    }
-
-    /// The factors have no compliance.
-    pub(crate) fn stop(&mut self) {
-        self.is_needed = false;
-    }
-
-    /// Whether the factors have a compliance.
-    pub(crate) fn is_needed(&self) -> bool {
-        self.is_needed
-    }
-
-    /// Solves in place with `solve`, which uses the factors.
-    pub(crate) fn solve(&mut self, pattern: &Pattern, right: &mut [S], mut solve: impl FnMut(&mut [S])) {
-        if !self.is_needed {
-            return solve(right);
-        }
-        self.right.clear();
-        self.right.extend_from_slice(right);
-        self.residual.clear();
-        self.residual.extend_from_slice(right);
-        self.solution.clear();
-        self.solution.resize(right.len(), S::zero());
-        let size = |values: &[S]| values.iter().fold(0.0_f64, |most, value| most.max(value.magnitude()));
-        let mut last = size(right);
-        let enough = RESIDUAL * last;
-        for _ in 0..MAX_REFINEMENTS {
-            solve(&mut self.residual);
-            for (value, &change) in self.solution.iter_mut().zip(&self.residual) {
-                *value += change;
-            }
-            self.residual.copy_from_slice(&self.right);
-            for (column, &factor) in self.solution.iter().enumerate() {
-                let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-                for (&row, &value) in pattern.row_indices()[range.clone()].iter().zip(&self.values[range]) {
-                    self.residual[row] += S::zero() - factor * value;
-                }
-            }
-            let rest = size(&self.residual);
-            // Also left where the residual is not a number.
-            if !(rest > enough && rest <= REDUCTION * last) {
-                break;
-            }
-            last = rest;
-        }
-        right.copy_from_slice(&self.solution);
-    }
-}
 
 /// The compliance of all constraints.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

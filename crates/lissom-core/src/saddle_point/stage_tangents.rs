@@ -8,16 +8,17 @@ use lissom_solver::{
 };
 use num_complex::Complex64;
 
+use super::Matrices;
+use super::equilibration::Equilibration;
 use super::regularization::Regularization;
 use super::tangent_numbers::TangentNumbers;
 use super::tangent_values::TangentValues;
-use crate::equilibration::Equilibration;
 use crate::schemes::{Coupling, StageSystem};
 
 /// A solver with the values it factors.
-pub(super) struct Factored<S> {
-    pub(super) solver: Box<dyn LinearSolver<S>>,
-    pub(super) values: Vec<S>,
+pub(crate) struct Factored<S> {
+    pub(crate) solver: Box<dyn LinearSolver<S>>,
+    pub(crate) values: Vec<S>,
     right_hand_side: Vec<S>,
 }
 
@@ -97,17 +98,17 @@ fn add_several<S: Scalar>(
 }
 
 /// The factored tangent of one decoupled system.
-pub(super) enum FactoredSystem {
+pub(crate) enum FactoredSystem {
     Real(Factored<f64>),
     Complex(Factored<Complex64>),
 }
 
 /// The factored tangents of a scheme, in the order of its decoupled systems.
-pub(crate) struct Factorization {
-    pub(super) systems: Vec<FactoredSystem>,
+pub(crate) struct StageTangents {
+    pub(crate) systems: Vec<FactoredSystem>,
 }
 
-impl Factorization {
+impl StageTangents {
     pub(crate) fn new(kind: &SolverKind, structure: &Structure, coupling: &Coupling) -> Self {
         let systems = coupling.systems.iter().map(|system| match system {
             StageSystem::Real(_) => FactoredSystem::Real(Factored::new((kind.real)(structure), structure)),
@@ -135,16 +136,6 @@ impl Factorization {
             FactoredSystem::Complex(own) => own.solver.factor_entries(),
         };
         self.systems.iter().map(entries).sum()
-    }
-
-    /// Goes on with another solver and the same tangents.
-    pub(crate) fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
-        for system in &mut self.systems {
-            match system {
-                FactoredSystem::Real(own) => own.solver = (kind.real)(structure),
-                FactoredSystem::Complex(own) => own.solver = (kind.complex)(structure),
-            }
-        }
     }
 
     /// The values of a system's tangent, to be given back.
@@ -188,58 +179,6 @@ impl Factorization {
             (FactoredSystem::Complex(own), TangentValues::Complex(tangent)) => own.values = tangent,
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
         }
-    }
-
-    /// Brings rows and columns of new tangents to one size, with the factors of the first for all of them.
-    pub(crate) fn equilibrate(&mut self, pattern: &Pattern, equilibration: &mut Equilibration) {
-        for (index, system) in self.systems.iter_mut().enumerate() {
-            match system {
-                FactoredSystem::Real(own) => {
-                    if index == 0 {
-                        equilibration.find(pattern, &own.values);
-                    }
-                    equilibration.scale_matrix(pattern, &mut own.values);
-                }
-                FactoredSystem::Complex(own) => {
-                    if index == 0 {
-                        equilibration.find(pattern, &own.values);
-                    }
-                    equilibration.scale_matrix(pattern, &mut own.values);
-                }
-            }
-        }
-    }
-
-    /// Adds the compliance of redundant constraints, after equilibration.
-    pub(crate) fn relax(
-        &mut self,
-        regularization: &mut Regularization,
-        scale: f64,
-        equilibration: Option<&Equilibration>,
-    ) {
-        for system in &mut self.systems {
-            match system {
-                FactoredSystem::Real(own) => regularization.enter(scale, equilibration, &mut own.values),
-                FactoredSystem::Complex(own) => regularization.enter(scale, equilibration, &mut own.values),
-            }
-        }
-    }
-
-    /// Factors the tangents; the report is that of the one with the smallest relative pivot.
-    pub(crate) fn factor(&mut self) -> Result<FactorReport, FactorError> {
-        let mut worst: Option<FactorReport> = None;
-        for system in &mut self.systems {
-            let own = match system {
-                FactoredSystem::Real(own) => own.solver.factor(&own.values)?,
-                FactoredSystem::Complex(own) => own.solver.factor(&own.values)?,
-            };
-            worst = match worst {
-                Some(worst) if worst.relative_pivot() <= own.relative_pivot() => Some(worst),
-                _ => Some(own),
-            };
-        }
-        let Some(report) = worst else { unreachable!("every scheme has a stage") };
-        Ok(report)
     }
 
     /// Estimates the condition number of the tangent factored last, in the 1-norm: the largest of all systems.
@@ -326,5 +265,78 @@ impl Factorization {
             }
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
         }
+    }
+}
+
+impl Matrices for StageTangents {
+    /// With the factors of the first for all of them.
+    fn equilibrate(&mut self, structure: &Structure, equilibration: &mut Equilibration) {
+        let pattern = &structure.pattern;
+        for (index, system) in self.systems.iter_mut().enumerate() {
+            match system {
+                FactoredSystem::Real(own) => {
+                    if index == 0 {
+                        equilibration.find(pattern, &own.values);
+                    }
+                    equilibration.scale_matrix(pattern, &mut own.values);
+                }
+                FactoredSystem::Complex(own) => {
+                    if index == 0 {
+                        equilibration.find(pattern, &own.values);
+                    }
+                    equilibration.scale_matrix(pattern, &mut own.values);
+                }
+            }
+        }
+    }
+
+    fn relax(
+        &mut self,
+        regularization: &mut Regularization,
+        scale: f64,
+        equilibration: Option<&Equilibration>,
+    ) {
+        for system in &mut self.systems {
+            match system {
+                FactoredSystem::Real(own) => regularization.enter(scale, equilibration, &mut own.values),
+                FactoredSystem::Complex(own) => regularization.enter(scale, equilibration, &mut own.values),
+            }
+        }
+    }
+
+    /// The report is that of the one with the smallest relative pivot, and of the worst cancellation in any of them.
+    fn factor(&mut self) -> Result<FactorReport, FactorError> {
+        let mut worst: Option<FactorReport> = None;
+        for system in &mut self.systems {
+            let own = match system {
+                FactoredSystem::Real(own) => own.solver.factor(&own.values)?,
+                FactoredSystem::Complex(own) => own.solver.factor(&own.values)?,
+            };
+            worst = Some(match worst {
+                Some(worst) => worse(worst, own),
+                None => own,
+            });
+        }
+        let Some(report) = worst else { unreachable!("every scheme has a stage") };
+        Ok(report)
+    }
+
+    fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
+        for system in &mut self.systems {
+            match system {
+                FactoredSystem::Real(own) => own.solver = (kind.real)(structure),
+                FactoredSystem::Complex(own) => own.solver = (kind.complex)(structure),
+            }
+        }
+    }
+}
+
+/// The report with the smaller relative pivot, and the worst cancellation of both.
+fn worse(a: FactorReport, b: FactorReport) -> FactorReport {
+    let cancellation = if a.worst_cancellation <= b.worst_cancellation { a } else { b };
+    FactorReport {
+        worst_cancellation: cancellation.worst_cancellation,
+        worst_cancellation_unknown: cancellation.worst_cancellation_unknown,
+        ..if a.relative_pivot() <= b.relative_pivot() { a } else { b }
     }
 }

@@ -7,15 +7,14 @@
 //! with the violations c relative to the model's size, d = 0 while joints close, and then d = the change so far: at the
 //! solution W d + Bᵀ λ = 0 and c = 0, so that no smaller change closes the joints.
 
-use std::sync::Arc;
-
 use lissom_motion::{Motion, Rotation, Vector3};
-use lissom_solver::{LinearSolver, Pattern, Structure};
+use lissom_solver::{Pattern, Structure};
 
 use super::columns::Columns;
 use super::groups::Groups;
 use super::{Gap, MIN_REPORTED, gap};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
+use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::system::System;
 
 const MAX_ITERATIONS: usize = 200;
@@ -33,8 +32,6 @@ const BEYOND: f64 = 1e-3;
 const SLOW: (f64, usize) = (1e-8, 5);
 /// Steps below this, relative to the model's size, no longer change the least change.
 const SETTLED: f64 = 1e-9;
-/// Up to so many unknowns a dense matrix is faster.
-const DENSE: usize = 60;
 
 /// Where everything is.
 #[derive(Clone)]
@@ -50,9 +47,9 @@ pub(super) struct Closing<'a> {
     columns: Columns<'a>,
     groups: &'a Groups,
     at: Kinematics,
-    pattern: Arc<Pattern>,
+    structure: Structure,
     /// None where there is nothing to solve for.
-    solver: Option<Box<dyn LinearSolver<f64>>>,
+    saddle: Option<SaddlePoint<Matrix<f64>>>,
 }
 
 impl<'a> Closing<'a> {
@@ -66,13 +63,13 @@ impl<'a> Closing<'a> {
         let mut entries: Vec<(usize, usize)> = Vec::new();
         columns.each_entry(None, |row, column, _| entries.extend([(row, column), (column, row)]));
         let size = columns.count[0] + columns.rows.len();
-        let pattern = Arc::new(Pattern::from_entries(size, entries));
-        let sparse = lissom_solver::kind("pivoting").filter(|_| size > DENSE);
-        let kind = sparse.or_else(|| lissom_solver::kind("dense"));
+        let structure = Structure::ungrouped(Pattern::from_entries(size, entries).into());
         let is_empty = columns.count[0] == 0 || columns.rows.is_empty();
-        let solver =
-            kind.filter(|_| !is_empty).map(|kind| (kind.real)(&Structure::ungrouped(Arc::clone(&pattern))));
-        Self { columns, groups, at: at.clone(), pattern, solver }
+        let saddle = lissom_solver::kind("sparse").filter(|_| !is_empty).map(|kind| {
+            let matrix = Matrix::new((kind.real)(&structure), &structure);
+            SaddlePoint::new(matrix, columns.count[0]).equilibrated(size).falling_back(kind.name)
+        });
+        Self { columns, groups, at: at.clone(), structure, saddle }
     }
 
     /// Size of the model [m].
@@ -154,8 +151,10 @@ impl<'a> Closing<'a> {
     ) -> Option<Vec<f64>> {
         self.place_own(pose);
         let linearization = self.columns.system.linearization_at(&self.at);
-        let mut values = vec![0.0; self.pattern.entries()];
-        let pattern = &self.pattern;
+        let pattern = &self.structure.pattern;
+        let saddle = self.saddle.as_mut()?;
+        let values = &mut saddle.matrices.values;
+        values.fill(0.0);
         let mut add = |row: usize, column: usize, value: f64| {
             if let Some(position) = pattern.position(row, column) {
                 values[position] += value;
@@ -176,9 +175,8 @@ impl<'a> Closing<'a> {
             add(columns + row, columns + row, -damping);
             right.push(-violation);
         }
-        let solver = self.solver.as_mut()?;
-        solver.factor(&values).ok()?;
-        solver.solve(&mut right);
+        saddle.factor(&self.structure, 1.0).ok()?;
+        saddle.solve(&self.structure, &mut right);
         right.iter().all(|value| value.is_finite()).then_some(right)
     }
 

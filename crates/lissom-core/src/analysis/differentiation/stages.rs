@@ -193,7 +193,7 @@ impl Stages {
                 }
             }
         }
-        if let Some((regularization, _)) = &work.regularization {
+        if let Some(compliance) = work.tangent.compliance() {
             let [room, violations] = &mut self.scratch;
             let scale = factor * base.integrator.scaled.scale();
             for (residual, multipliers) in self.residuals.iter_mut().zip(&lanes.multipliers) {
@@ -203,7 +203,7 @@ impl Stages {
                     let own = violations.iter_mut().zip(&residual[count..]);
                     own.for_each(|(value, block)| *value = block[lane]);
                     let rows = layout.multiplier_rows().len();
-                    regularization.relax(scale, &room[..rows], &mut violations[..rows]);
+                    compliance.relax(scale, &room[..rows], &mut violations[..rows]);
                     let back = residual[count..].iter_mut().zip(&*violations);
                     back.for_each(|(block, value)| block[lane] = *value);
                 }
@@ -212,11 +212,11 @@ impl Stages {
         for residual in &mut self.residuals {
             multiply(residual, &work.row_factors);
         }
-        work.factorization.solve_several(&base.settings.scheme.coupling, &mut self.residuals);
+        work.tangent.matrices.solve_several(&base.settings.scheme.coupling, &mut self.residuals);
         let mut sizes = NOTHING;
         for (index, residual) in self.residuals.iter_mut().enumerate() {
-            if let Some(equilibration) = &work.equilibration {
-                multiply(residual, equilibration.factors());
+            if let Some(factors) = work.tangent.row_factors() {
+                multiply(residual, factors);
             }
             for ((value, correction), size) in
                 lanes.increments[index].iter_mut().zip(&*residual).zip(&work.sizes)

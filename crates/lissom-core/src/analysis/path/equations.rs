@@ -4,20 +4,19 @@
 use std::sync::Arc;
 
 use lissom_motion::{Motion, Vector6};
-use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern};
+use lissom_solver::{FactorError, Pattern};
 
 use super::super::StepError;
 use super::super::equations::FAR;
-use super::super::regularization::{Refinement, Regularization};
 use super::super::step_error::{NO_STEP_HELPS, pivot_hint};
 use super::super::workspace::sizes;
 use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
-use crate::equilibration::Equilibration;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
+use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Scratch, State, Sum, System, TangentAssembler};
@@ -51,16 +50,11 @@ struct Change {
 /// What a step works with, allocated once.
 pub(super) struct PathWork {
     scaled: Scaled,
-    solver: Box<dyn LinearSolver<f64>>,
-    equilibration: Equilibration,
-    regularization: Option<Regularization>,
-    refinement: Refinement<f64>,
+    saddle: SaddlePoint<Matrix<f64>>,
     /// Whether the tangent factored last is symmetric: without that its negative pivots count nothing but the sign of its determinant.
     is_symmetric: bool,
-    values: Vec<f64>,
     other_values: Vec<f64>,
     scratch: Scratch,
-    report: Option<FactorReport>,
     at: Kinematics,
     changes: Vec<MotionChange>,
     coordinate_changes: Vec<f64>,
@@ -102,20 +96,16 @@ impl PathWork {
             Quantity::Length => 1.0 / representative.length,
             Quantity::Angle | Quantity::State => 1.0,
         };
+        let matrix = Matrix::new((settings.solver.real)(loaded.structure()), loaded.structure());
         let mut noise = 1.0_f64;
         let zeros = vec![0.0; size];
         let nothing = Change { rows: zeros.clone(), load: 0.0 };
         Self {
             scaled: Scaled::new(&settings.scaling, &representative, 1.0),
-            solver: (settings.solver.real)(loaded.structure()),
-            equilibration: Equilibration::new(size, count),
-            regularization: None,
-            refinement: Refinement::new(),
+            saddle: SaddlePoint::new(matrix, count).equilibrated(size).falling_back(settings.solver.name),
             is_symmetric: true,
-            values: vec![0.0; entries],
             other_values: vec![0.0; entries],
             scratch: Scratch::default(),
-            report: None,
             at: state.kinematics.clone(),
             changes: vec![MotionChange::none(); state.kinematics.nodes.len()],
             coordinate_changes: vec![0.0; state.kinematics.coordinates.len()],
@@ -331,7 +321,7 @@ impl PathEquations<'_> {
         if !(self.evaluate() && self.differentiate()) {
             return Err(FactorError::NotFinite { unknown: 0 });
         }
-        let mut values = std::mem::take(&mut self.work.values);
+        let mut values = std::mem::take(&mut self.work.saddle.matrices.values);
         let mut other = std::mem::take(&mut self.work.other_values);
         let mut scratch = std::mem::take(&mut self.work.scratch);
         let blend = self.work.scaled.blend(Weights { rate: 0.0, curvature: 0.0 });
@@ -359,26 +349,10 @@ impl PathEquations<'_> {
                 *value = unloaded + work.load_factor * (*value - unloaded);
             }
         }
-        (work.values, work.other_values, work.scratch) = (values, other, scratch);
-        let pattern = &system.structure().pattern;
-        work.equilibration.apply(pattern, &mut work.values);
-        work.is_symmetric = is_symmetric(pattern, &work.values, count);
-        if let Some(regularization) = &mut work.regularization {
-            work.refinement.start(&work.values);
-            regularization.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
-        }
-        let mut result = work.solver.factor(&work.values);
-        if let Err(FactorError::ZeroPivot { unknown, .. }) = result
-            && unknown >= count
-            && work.regularization.is_none()
-        {
-            let mut regularization = Regularization::new(pattern, count);
-            work.refinement.start(&work.values);
-            regularization.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
-            work.regularization = Some(regularization);
-            result = work.solver.factor(&work.values);
-        }
-        work.report = Some(result?);
+        (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
+        let structure = system.structure();
+        work.saddle.factor(structure, work.scaled.scale())?;
+        work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
         let mut response = std::mem::take(&mut work.response);
         for (value, load) in response.iter_mut().zip(&work.load) {
             *value = -load;
@@ -392,10 +366,7 @@ impl PathEquations<'_> {
     fn solve(&mut self, right: &mut [f64]) {
         let work = &mut *self.work;
         work.scaled.scale_residual(self.systems.any().layout(), right);
-        work.equilibration.scale(right);
-        let pattern = &self.systems.any().structure().pattern;
-        work.refinement.solve(pattern, right, |right| work.solver.solve(right));
-        work.equilibration.scale(right);
+        work.saddle.solve(self.systems.any().structure(), right);
     }
 
     /// The state reached, and the direction of the path there.
@@ -422,7 +393,8 @@ impl PathEquations<'_> {
             signature: flexibility.recip(),
         };
         tangent.turn = work.largest(&tangent.direction[..count]);
-        let negative = work.report.and_then(|report| report.negative_pivots).unwrap_or(multiplier_count);
+        let negative =
+            work.saddle.report().and_then(|report| report.negative_pivots).unwrap_or(multiplier_count);
         tangent.unstable = negative.saturating_sub(multiplier_count);
         if !work.is_symmetric {
             tangent.unstable = (negative + multiplier_count) % 2;
@@ -515,11 +487,11 @@ impl Equations for PathEquations<'_> {
         rows.copy_from_slice(&self.work.residual);
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
-        if let Some(regularization) = &work.regularization {
+        if let Some(compliance) = work.saddle.compliance() {
             // The compliance is in the factors alone, and violations are corrected whole. What cannot be corrected, because
             // constraints repeat each other, is round-off, and would accumulate in the multipliers.
             let factor = work.scaled.multiplier_factor() * work.scaled.scale();
-            let allowances = regularization.allowances(factor, &work.multipliers);
+            let allowances = compliance.allowances(factor, &work.multipliers);
             for ((value, unit), allowance) in
                 rows[count..].iter_mut().zip(&work.violation_sizes).zip(allowances)
             {

@@ -1,0 +1,357 @@
+//! The linear systems of all analyses: saddle-point matrices of coordinates and multipliers,
+//!
+//! ```text
+//! [ A  Bᵀ ]
+//! [ B  0  ]
+//! ```
+//!
+//! equilibrated, factored without pivoting, and factored again where a pivot vanishes: with a compliance, if it is that of a
+//! multiplier, whose equation then repeats others; with pivoting, if that does not help either. Steps, paths, initial
+//! values, linear models, condition numbers and assembly have this sequence in common. Knows no mechanics.
+
+pub(crate) mod equilibration;
+mod matrix;
+mod refinement;
+mod regularization;
+pub(crate) mod stage_tangents;
+mod tangent_numbers;
+mod tangent_values;
+
+use lissom_solver::{FactorError, FactorReport, SolverKind, Structure};
+use serde::{Deserialize, Serialize};
+
+use equilibration::Equilibration;
+pub(crate) use matrix::{Matrix, SolverOf};
+use regularization::Regularization;
+use stage_tangents::StageTangents;
+use tangent_numbers::TangentNumbers;
+pub use tangent_values::TangentValues;
+
+/// The pivot of a redundant constraint's multiplier is this fraction of the terms it is made of, or less.
+const REDUNDANT: f64 = 1e-12;
+
+/// What is factored: one matrix, or those of the decoupled systems of a scheme's stages.
+pub(crate) trait Matrices {
+    /// Brings rows and columns to one size.
+    fn equilibrate(&mut self, structure: &Structure, equilibration: &mut Equilibration);
+
+    /// Enters the compliance of redundant constraints, after equilibration.
+    fn relax(
+        &mut self,
+        regularization: &mut Regularization,
+        scale: f64,
+        equilibration: Option<&Equilibration>,
+    );
+
+    /// Factors the values as they are.
+    ///
+    /// # Errors
+    /// If a pivot vanishes or a number is not finite.
+    fn factor(&mut self) -> Result<FactorReport, FactorError>;
+
+    /// Continues with another solver and the same values.
+    fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure);
+}
+
+/// A saddle-point matrix with its factors.
+pub(crate) struct SaddlePoint<M> {
+    pub(crate) matrices: M,
+    coordinate_count: usize,
+    equilibration: Option<Equilibration>,
+    /// Where constraints repeat each other: what lets them yield, and the unknown whose pivot vanished.
+    redundancy: Option<(Regularization, usize)>,
+    /// The solver to continue with where a pivot vanishes, until it is needed.
+    fall_back: Option<&'static SolverKind>,
+    /// The unknown whose pivot vanished, and the pivot, once it was needed.
+    fell_back: Option<(usize, f64)>,
+    /// Of the last factorisation, if it has succeeded.
+    report: Option<FactorReport>,
+}
+
+/// What outlives a step of the factors, for snapshots.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Learned {
+    /// The values factored last, if there are any.
+    numbers: Option<Vec<TangentNumbers>>,
+    equilibration: Option<Vec<f64>>,
+    redundancy: Option<(Regularization, usize)>,
+    fell_back: Option<(usize, f64)>,
+}
+
+impl<M: Matrices> SaddlePoint<M> {
+    /// Not equilibrated, and with no other solver to fall back on; the unknowns from `coordinate_count` on are multipliers.
+    pub(crate) fn new(matrices: M, coordinate_count: usize) -> Self {
+        Self {
+            matrices,
+            coordinate_count,
+            equilibration: None,
+            redundancy: None,
+            fall_back: None,
+            fell_back: None,
+            report: None,
+        }
+    }
+
+    /// The same with rows and columns of one size, for `size` unknowns.
+    pub(crate) fn equilibrated(mut self, size: usize) -> Self {
+        self.equilibration = Some(Equilibration::new(size, self.coordinate_count));
+        self
+    }
+
+    /// The same, continued with a solver that exchanges rows where a pivot vanishes without; `own` is the solver in use.
+    pub(crate) fn falling_back(mut self, own: &str) -> Self {
+        self.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != own);
+        self
+    }
+
+    /// The same with constraints of which that of the multiplier `unknown` is known to repeat others.
+    pub(crate) fn with_redundancy(mut self, structure: &Structure, unknown: Option<usize>) -> Self {
+        self.redundancy = unknown.map(|unknown| (self.regularization(structure), unknown));
+        self
+    }
+
+    fn regularization(&self, structure: &Structure) -> Regularization {
+        Regularization::new(&structure.pattern, self.coordinate_count)
+    }
+
+    /// Factors the values of the matrices, which it scales. `scale` is that of the constraints' rows.
+    ///
+    /// # Errors
+    /// If a pivot vanishes with and without exchanges of rows, or a number is not finite.
+    pub(crate) fn factor(&mut self, structure: &Structure, scale: f64) -> Result<FactorReport, FactorError> {
+        self.report = None;
+        if let Some(equilibration) = &mut self.equilibration {
+            self.matrices.equilibrate(structure, equilibration);
+        }
+        let equilibration = self.equilibration.as_ref();
+        if let Some((regularization, _)) = &mut self.redundancy {
+            self.matrices.relax(regularization, scale, equilibration);
+        }
+        let mut result = self.matrices.factor();
+        if self.redundancy.is_none()
+            && let Some(unknown) = repeating(&result, self.coordinate_count)
+        {
+            let mut regularization = self.regularization(structure);
+            self.matrices.relax(&mut regularization, scale, equilibration);
+            self.redundancy = Some((regularization, unknown));
+            result = self.matrices.factor();
+        }
+        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
+            && let Some(kind) = self.fall_back.take()
+        {
+            self.fell_back = Some((unknown, pivot));
+            self.matrices.replace_solver(kind, structure);
+            // What elimination without exchanges stops at says more than where exchanges end.
+            result = self.matrices.factor().or(result);
+        }
+        self.report = result.ok();
+        result
+    }
+
+    /// Looks for redundant constraints anew at the next factorisation.
+    pub(crate) fn forget_redundancy(&mut self) {
+        self.redundancy = None;
+    }
+
+    /// The report of the last factorisation, if it has succeeded.
+    pub(crate) fn report(&self) -> Option<&FactorReport> {
+        self.report.as_ref()
+    }
+
+    /// The factors of rows and columns, if they are equilibrated.
+    pub(crate) fn row_factors(&self) -> Option<&[f64]> {
+        self.equilibration.as_ref().map(Equilibration::factors)
+    }
+
+    /// A right-hand side of the equilibrated matrix, or from its solution to that of the matrix itself.
+    pub(crate) fn scale(&self, vector: &mut [f64]) {
+        if let Some(equilibration) = &self.equilibration {
+            equilibration.scale(vector);
+        }
+    }
+
+    /// The compliance of redundant constraints, if there are any.
+    pub(crate) fn compliance(&self) -> Option<&Regularization> {
+        self.redundancy.as_ref().map(|(regularization, _)| regularization)
+    }
+
+    /// The multiplier whose constraint repeats others, if there is one.
+    pub(crate) fn redundant(&self) -> Option<usize> {
+        self.redundancy.as_ref().map(|(_, unknown)| *unknown)
+    }
+
+    /// The unknown whose pivot vanished, and the pivot, if rows are exchanged since then.
+    pub(crate) fn fell_back(&self) -> Option<(usize, f64)> {
+        self.fell_back
+    }
+}
+
+impl<S: SolverOf> SaddlePoint<Matrix<S>> {
+    /// Solves in place for a right-hand side of the equilibrated matrix; where constraints repeat each other, without the compliance.
+    pub(crate) fn solve_equilibrated(&mut self, structure: &Structure, right: &mut [S]) {
+        self.matrices.solve(&structure.pattern, self.redundancy.is_some(), right);
+    }
+
+    /// Solves in place; where constraints repeat each other, without the compliance.
+    pub(crate) fn solve(&mut self, structure: &Structure, right: &mut [S]) {
+        self.scale_any(right);
+        self.solve_equilibrated(structure, right);
+        self.scale_any(right);
+    }
+
+    /// Solves in place with the factors as they are.
+    pub(crate) fn solve_with_factors(&mut self, right: &mut [S]) {
+        self.scale_any(right);
+        self.matrices.solver.solve(right);
+        self.scale_any(right);
+    }
+
+    fn scale_any(&self, vector: &mut [S]) {
+        if let Some(factors) = self.row_factors() {
+            for (value, &factor) in vector.iter_mut().zip(factors) {
+                *value *= S::from_real(factor);
+            }
+        }
+    }
+}
+
+impl SaddlePoint<StageTangents> {
+    /// What outlives a step.
+    pub(crate) fn learned(&self) -> Learned {
+        Learned {
+            numbers: self.report.as_ref().map(|_| self.matrices.numbers()),
+            equilibration: self.row_factors().map(<[f64]>::to_vec),
+            redundancy: self.redundancy.clone(),
+            fell_back: self.fell_back,
+        }
+    }
+
+    /// Restores what was learned, and factors the values again.
+    ///
+    /// # Errors
+    /// If a matrix cannot be factored: it is not the one that was taken.
+    pub(crate) fn restore(&mut self, structure: &Structure, from: &Learned) -> Result<(), FactorError> {
+        if let (Some(equilibration), Some(factors)) = (&mut self.equilibration, &from.equilibration) {
+            equilibration.set_factors(factors);
+        }
+        self.redundancy.clone_from(&from.redundancy);
+        if from.fell_back.is_some()
+            && self.fell_back.is_none()
+            && let Some(kind) = self.fall_back.take()
+        {
+            self.matrices.replace_solver(kind, structure);
+        }
+        self.fell_back = from.fell_back;
+        self.report = None;
+        if let Some(numbers) = &from.numbers {
+            self.matrices.set_numbers(numbers);
+            self.report = Some(self.matrices.factor()?);
+        }
+        Ok(())
+    }
+
+    /// Exchanges the factors with those of another one, and takes over its compliance.
+    pub(crate) fn borrow_factors(&mut self, other: &mut Self) {
+        self.redundancy.clone_from(&other.redundancy);
+        self.exchange_factors(other);
+    }
+
+    /// Exchanges the factors with those of another one.
+    pub(crate) fn exchange_factors(&mut self, other: &mut Self) {
+        std::mem::swap(&mut self.matrices, &mut other.matrices);
+        std::mem::swap(&mut self.equilibration, &mut other.equilibration);
+    }
+}
+
+/// The multiplier whose constraint repeats others, if there is one: its pivot, after those of the `count` coordinates, is
+/// nothing but round-off.
+fn repeating(result: &Result<FactorReport, FactorError>, count: usize) -> Option<usize> {
+    let unknown = match result {
+        Ok(report) if report.worst_cancellation < REDUNDANT => report.worst_cancellation_unknown,
+        Err(FactorError::ZeroPivot { unknown, .. }) => *unknown,
+        Ok(_) | Err(FactorError::NotFinite { .. }) => return None,
+    };
+    (unknown >= count).then_some(unknown)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use lissom_solver::Pattern;
+    use num_complex::Complex64;
+
+    use super::*;
+
+    /// Two coordinates and their multipliers, all coupled.
+    fn structure(size: usize) -> Structure {
+        let all: Vec<usize> = (0..size).collect();
+        Structure::ungrouped(Arc::new(Pattern::from_cliques(size, [&all[..]])))
+    }
+
+    fn matrix<S: SolverOf>(structure: &Structure, values: &[f64], count: usize) -> SaddlePoint<Matrix<S>> {
+        let kind = lissom_solver::kind("sparse").expect("the default solver");
+        let mut matrix = Matrix::new(S::solver(kind, structure), structure);
+        matrix.values = values.iter().map(|&value| S::from_real(value)).collect();
+        SaddlePoint::new(matrix, count).equilibrated(structure.pattern.size())
+    }
+
+    /// Kept as it is, constrained twice by the same equation x - y = c, and loaded by (3, 1): x = (2, 2) + c (1, -1)/2, and the
+    /// multipliers share what remains.
+    fn repeats<S: SolverOf>() {
+        let structure = structure(4);
+        #[rustfmt::skip]
+        let values = [
+            1.0, 0.0, 1.0, 1.0,
+            0.0, 1.0, -1.0, -1.0,
+            1.0, -1.0, 0.0, 0.0,
+            1.0, -1.0, 0.0, 0.0,
+        ];
+        let mut saddle = matrix::<S>(&structure, &values, 2);
+        saddle.factor(&structure, 1.0).expect("a compliance helps");
+        assert!(saddle.redundant().is_some_and(|unknown| unknown >= 2));
+        let mut right: Vec<S> = [3.0, 1.0, 0.2, 0.2].map(S::from_real).to_vec();
+        saddle.solve(&structure, &mut right);
+        for (value, expected) in right.iter().zip([2.1, 1.9, 0.45, 0.45]) {
+            let [re, im] = value.parts();
+            assert!((re - expected).abs() < 1e-12 && im == 0.0, "{re} instead of {expected}");
+        }
+    }
+
+    #[test]
+    fn repeated_constraints_share_their_forces() {
+        repeats::<f64>();
+        repeats::<Complex64>();
+    }
+
+    #[test]
+    fn a_coordinate_without_a_pivot_of_its_own_is_solved_by_exchanges_of_rows() {
+        let structure = structure(2);
+        let values = [0.0, 1.0, 1.0, 0.0];
+        let mut saddle = matrix::<f64>(&structure, &values, 2);
+        assert!(matches!(saddle.factor(&structure, 1.0), Err(FactorError::ZeroPivot { .. })));
+        let mut saddle = matrix::<f64>(&structure, &values, 2).falling_back("sparse");
+        saddle.factor(&structure, 1.0).expect("exchanges of rows help");
+        assert!(saddle.fell_back().is_some() && saddle.redundant().is_none());
+        let mut right = [3.0, 5.0];
+        saddle.solve(&structure, &mut right);
+        assert!((right[0] - 5.0).abs() < 1e-14 && (right[1] - 3.0).abs() < 1e-14, "{right:?}");
+    }
+
+    #[test]
+    fn a_singular_matrix_is_reported_by_the_pivot_that_vanished_first() {
+        let structure = structure(2);
+        let mut saddle = matrix::<f64>(&structure, &[1.0, 1.0, 1.0, 1.0], 2).falling_back("sparse");
+        let error = saddle.factor(&structure, 1.0).expect_err("it is singular");
+        assert!(matches!(error, FactorError::ZeroPivot { unknown: 0 | 1, .. }), "{error}");
+        assert!(saddle.report().is_none());
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_are_no_redundancy() {
+        let structure = structure(2);
+        let mut saddle = matrix::<f64>(&structure, &[1.0, f64::NAN, f64::NAN, 0.0], 1).falling_back("sparse");
+        assert!(matches!(saddle.factor(&structure, 1.0), Err(FactorError::NotFinite { .. })));
+        assert!(saddle.redundant().is_none() && saddle.fell_back().is_none());
+    }
+}
