@@ -1,11 +1,32 @@
 //! All codes of warnings and failures of the core, for the manual and `lissom explain`.
 
+use crate::analysis::assembly::AssemblyError;
+use crate::analysis::path::PathError;
 use crate::analysis::{InitialError, InputError, StepError, signal_failure};
 use crate::diagnostics::Entry;
 use crate::judge::Warning;
+use crate::linear::{
+    BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
+};
 
 /// Their entries: warnings, then failures.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
-    let failures = StepError::ENTRIES.iter().chain(InitialError::ENTRIES).chain(InputError::ENTRIES);
-    Warning::ENTRIES.iter().chain(failures).chain([&signal_failure::ENTRY])
+    let of_motions = StepError::ENTRIES.iter().chain(InitialError::ENTRIES).chain(InputError::ENTRIES);
+    Warning::ENTRIES.iter().chain(of_motions).chain([&signal_failure::ENTRY]).chain(of_analyses())
+}
+
+/// Those of assembly, paths and linear models, which do not concern a motion.
+pub(crate) fn of_analyses() -> impl Iterator<Item = &'static Entry> {
+    let parts = [
+        AssemblyError::ENTRIES,
+        PathError::ENTRIES,
+        LinearError::ENTRIES,
+        ModeError::ENTRIES,
+        SteadyError::ENTRIES,
+        BucklingError::ENTRIES,
+        ReductionError::ENTRIES,
+        ResponseError::ENTRIES,
+        StateSpaceError::ENTRIES,
+    ];
+    parts.into_iter().flatten()
 }

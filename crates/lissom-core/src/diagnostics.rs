@@ -72,25 +72,17 @@ pub trait Diagnose {
 }
 
 impl Diagnostic {
-    /// The failure of an analysis that has no entry in the catalogue: a sentence with a remedy after its first semicolon.
+    /// A failure that has no entry in the catalogue, such as a request that a command rejects: its sentence is the cause.
     pub fn uncatalogued(sentence: &dyn Display) -> Self {
-        let sentence = sentence.to_string();
-        let (cause, remedy) = sentence.split_once("; ").unwrap_or((&sentence, ""));
         Self {
             code: None,
             severity: Severity::Failure,
             time: None,
             subject: None,
             values: Vec::new(),
-            cause: cause.to_owned(),
-            remedy: remedy.to_owned(),
+            cause: sentence.to_string(),
+            remedy: String::new(),
         }
-    }
-
-    /// The same about an entry.
-    #[must_use]
-    pub fn about(self, subject: Subject) -> Self {
-        Self { subject: Some(subject), ..self }
     }
 
     /// The same, in a wider context: `context` precedes the cause.
@@ -203,8 +195,7 @@ macro_rules! diagnostics {
             /// One of each variant that wraps nothing.
             #[cfg(test)]
             pub(crate) fn samples() -> Vec<Self> {
-                use $crate::diagnostics::tests::Sample;
-                vec![$(Self::$variant { $($field: Sample::sample(),)* },)*]
+                vec![$(Self::$variant { $($field: $crate::diagnostics::tests::Sample::sample(),)* },)*]
             }
         }
 
@@ -243,8 +234,15 @@ pub(crate) use diagnostics;
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use num_complex::Complex64;
+
+    use crate::analysis::assembly::{AssemblyError, Gap};
+    use crate::analysis::path::PathError;
     use crate::analysis::{InitialError, InputError, StepError};
     use crate::judge::Warning;
+    use crate::linear::{
+        BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
+    };
 
     /// A name with everything that sentences are divided by.
     const NAME: &str = "a`; b` = c: d";
@@ -266,12 +264,34 @@ pub(crate) mod tests {
 
     sample! {
         f64 => 0.25;
+        Complex64 => Complex64::new(0.0, 2.0);
+        StepError => StepError::TurnsTooFar { time: 0.25, node: NAME.to_owned(), angle: 2.0 };
+        Vec<Gap> => vec![Gap { joint: NAME.to_owned(), distance: Some(0.25), angle: None }];
         usize => 3;
         bool => true;
         String => NAME.to_owned();
         &'static str => "try this";
         Subject => Subject::new("node", NAME).component("translation 1");
         [String; 2] => [NAME.to_owned(), "other".to_owned()];
+    }
+
+    /// Those of assembly, paths and linear models.
+    fn of_analyses() -> impl Iterator<Item = Diagnostic> {
+        fn of<E: Diagnose>(samples: &[E]) -> Vec<Diagnostic> {
+            samples.iter().map(E::diagnostic).collect()
+        }
+        let parts = [
+            of(&AssemblyError::samples()),
+            of(&PathError::samples()),
+            of(&LinearError::samples()),
+            of(&ModeError::samples()),
+            of(&SteadyError::samples()),
+            of(&BucklingError::samples()),
+            of(&ReductionError::samples()),
+            of(&ResponseError::samples()),
+            of(&StateSpaceError::samples()),
+        ];
+        parts.into_iter().flatten()
     }
 
     /// All diagnostics that wrap no other one.
@@ -289,6 +309,7 @@ pub(crate) mod tests {
             .chain(of(&InitialError::samples()))
             .chain(of(&InputError::samples()))
             .chain([signal.diagnostic()])
+            .chain(of_analyses())
             .collect()
     }
 
@@ -328,16 +349,21 @@ pub(crate) mod tests {
         let without_remedy = ["model", "interrupted"];
         let codes_of_starts: Vec<&str> =
             InitialError::ENTRIES.iter().chain(InputError::ENTRIES).map(|entry| entry.code).collect();
+        let of_analyses: Vec<&str> = crate::catalogue::of_analyses().map(|entry| entry.code).collect();
         for diagnostic in all() {
             let code = diagnostic.code.unwrap();
+            let text = diagnostic.to_string();
+            assert!(text.starts_with(&diagnostic.cause) && text.ends_with(&diagnostic.remedy), "{code}");
+            // Many analyses concern the whole model, at no time.
+            if of_analyses.contains(&code) {
+                continue;
+            }
             let part = (!without_subject.contains(&code)).then_some(NAME);
             assert_eq!(diagnostic.part(), part, "{code}");
             let has_time = !without_time.contains(&code) && !codes_of_starts.contains(&code);
             assert_eq!(diagnostic.time, has_time.then_some(0.25), "{code}");
             assert_eq!(diagnostic.remedy().is_some(), !without_remedy.contains(&code), "{code}");
             assert!(!diagnostic.values.iter().any(|(name, _)| *name == "time"), "{code}");
-            let text = diagnostic.to_string();
-            assert!(text.starts_with(&diagnostic.cause) && text.ends_with(&diagnostic.remedy), "{code}");
         }
     }
 

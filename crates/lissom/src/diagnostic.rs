@@ -1,7 +1,6 @@
 //! Diagnostics of analyses and runs: those of what they contain, and the catalogue of all codes.
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Value};
-use lissom_core::linear::ResponseError;
 use serde_json::json;
 
 use crate::buckling::BucklingRunError;
@@ -76,7 +75,7 @@ impl Diagnose for FrequencyError {
     fn diagnostic(&self) -> Diagnostic {
         match self {
             Self::State(error) => error.diagnostic(),
-            Self::Response { error: ResponseError::Linear { error, .. }, .. } => error.diagnostic(),
+            Self::Response { error, .. } => error.diagnostic(),
             _ => Diagnostic::uncatalogued(self),
         }
     }

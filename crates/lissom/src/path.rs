@@ -383,7 +383,7 @@ fn under_loads(
     let mut path = match EquilibriumPath::new(unloaded, Arc::clone(&loaded), state.clone(), settings) {
         Ok(path) => path,
         // Stresses may be those of springs alone.
-        Err(PathError::NoLoad) => return Ok((state, Vec::new())),
+        Err(PathError::NoLoad {}) => return Ok((state, Vec::new())),
         Err(error) => return Err(error.into()),
     };
     while !path.is_finished() {

@@ -292,7 +292,7 @@ fn find_near<'a, S: Field>(
         None => 2 * freedoms + layout.impulses.len(),
     };
     if (is_empty && modes.is_empty()) || eigenvalues > most {
-        return Err(ModeError::NotConverged);
+        return Err(ModeError::NotConverged {});
     }
     modes.truncate(options.count);
     modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
@@ -400,7 +400,7 @@ fn estimates<S: Field>(krylov: &Krylov<S>) -> Result<Vec<Estimate>, ModeError> {
         return Ok(Vec::new());
     }
     let matrix = DMatrix::from_fn(order, order, |row, column| krylov.entry(row, column));
-    let (vectors, triangle) = S::schur(&matrix).ok_or(ModeError::NotConverged)?;
+    let (vectors, triangle) = S::schur(&matrix).ok_or(ModeError::NotConverged {})?;
     let scale = triangle.iter().fold(0.0_f64, |most, value| most.max(value.norm()));
     let mut all: Vec<Estimate> = (0..order)
         .map(|k| {

@@ -13,7 +13,7 @@ use super::lanczos::{is_converged, ritz, whole_clusters};
 use super::mode::Completeness;
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
-use crate::diagnostics::{Diagnose, Diagnostic};
+use crate::diagnostics::diagnostics;
 use crate::interrupt;
 use crate::round_off;
 
@@ -48,32 +48,38 @@ pub struct Buckling {
     pub completeness: Completeness,
 }
 
-/// Buckling modes that do not exist.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BucklingError {
-    /// The model is not stable without loads.
-    #[error(
-        "the model is not stable without loads ({0} unstable or free directions): linear buckling means nothing; hold what is free, or follow the path by an analysis of kind \
-         `path`"
-    )]
-    Unstable(usize),
-    /// The loads have no potential.
-    #[error(
-        "the stiffness under the loads is not symmetric, as with loads that follow; follow the path by an analysis of kind `path` instead"
-    )]
-    NotSymmetric,
-    /// A factorisation stopped.
-    #[error(transparent)]
-    Linear(#[from] LinearError),
+diagnostics! {
+    /// Why there are no buckling loads.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure BucklingError {
+        /// The model is not stable without loads.
+        Unstable {
+            /// Number of unstable or free directions.
+            directions: usize,
+        } => "unstable-without-loads" {
+            cause: ("the model is not stable without loads ({directions} unstable or free directions): linear buckling has no meaning"),
+            remedy: "hold what is free, or follow the path by an analysis of kind `path`",
+            meaning: "Linear buckling requires a model that is stable without its loads.",
+            advice: "Hold what is free, or follow the path by an analysis of kind `path`.",
+        }
+        /// The loads have no potential.
+        NotSymmetric {} => "buckling-not-symmetric" {
+            cause: ("the stiffness under the loads is not symmetric, as with loads that follow"),
+            remedy: "follow the path by an analysis of kind `path` instead",
+            meaning: "The loads have no potential, so that their stiffness is not symmetric. Linear buckling does not apply.",
+            advice: "Follow the path by an analysis of kind `path`.",
+        }
+    }
+    wraps {
+        /// A factorisation stopped.
+        Linear(LinearError), (error) => error.diagnostic(),
+    }
 }
 
-impl Diagnose for BucklingError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Linear(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
+impl From<LinearError> for BucklingError {
+    fn from(error: LinearError) -> Self {
+        Self::Linear(error)
     }
 }
 
@@ -126,12 +132,12 @@ impl LinearModel<'_> {
     /// If the model is not stable without loads, or the loads have no potential.
     pub fn buckling(&self, loaded: &LinearModel<'_>, count: usize) -> Result<Buckling, BucklingError> {
         if !(self.is_conservative() && loaded.is_conservative()) {
-            return Err(BucklingError::NotSymmetric);
+            return Err(BucklingError::NotSymmetric {});
         }
         let mut solver = RealShift::new(self.system, &self.representative);
         let below = solver.factor(&self.parts, 0.0).map_err(|error| self.stopped(&error))?;
         if below > 0 {
-            return Err(BucklingError::Unstable(below));
+            return Err(BucklingError::Unstable { directions: below });
         }
         let change: Vec<f64> =
             loaded.parts.stiffness.iter().zip(&self.parts.stiffness).map(|(one, zero)| one - zero).collect();

@@ -1,9 +1,9 @@
 //! Natural modes: options, results and errors.
 
-use crate::diagnostics::{Diagnose, Diagnostic};
 use num_complex::Complex64;
 
 use super::model::LinearError;
+use crate::diagnostics::diagnostics;
 
 /// Growth is distinguished from round-off by a damping ratio below this.
 const GROWING: f64 = -1e-7;
@@ -102,32 +102,42 @@ pub struct Modes {
     pub completeness: Completeness,
 }
 
-/// Modes that do not exist.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ModeError {
-    /// Nothing has mass.
-    #[error("the model has no mass, and so no natural modes: give bodies or sections a mass")]
-    NoMass,
-    /// No mode at all is asked for.
-    #[error("no mode is asked for: `count` must be at least 1")]
-    NothingAsked,
-    /// A factorisation stopped.
-    #[error(transparent)]
-    Linear(#[from] LinearError),
-    /// The small eigenvalue problem of the search has no solution.
-    #[error(
-        "the search for modes did not converge; ask for fewer modes, or for those near another frequency by `shift`"
-    )]
-    NotConverged,
+diagnostics! {
+    /// Why there are no modes.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure ModeError {
+        /// Nothing has mass.
+        NoMass {} => "no-mass" {
+            cause: ("the model has no mass, and therefore no natural modes"),
+            remedy: "give bodies or sections a mass",
+            meaning: "A model without mass has no natural modes.",
+            advice: "Give bodies or sections a mass.",
+        }
+        /// No mode at all is requested.
+        NothingAsked {} => "no-mode-requested" {
+            cause: ("no mode is requested"),
+            remedy: "set `count` to at least 1",
+            meaning: "The requested number of modes is zero.",
+            advice: "Set `count` to at least 1.",
+        }
+        /// The small eigenvalue problem of the search has no solution.
+        NotConverged {} => "modes-not-converged" {
+            cause: ("the search for modes did not converge"),
+            remedy: "request fewer modes, or those near another frequency by `shift`",
+            meaning: "The eigenvalue problem of the search for modes was not solved.",
+            advice: "Request fewer modes, or those near another frequency by `shift`.",
+        }
+    }
+    wraps {
+        /// A factorisation stopped.
+        Linear(LinearError), (error) => error.diagnostic(),
+    }
 }
 
-impl Diagnose for ModeError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Linear(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
+impl From<LinearError> for ModeError {
+    fn from(error: LinearError) -> Self {
+        Self::Linear(error)
     }
 }
 

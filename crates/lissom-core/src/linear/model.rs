@@ -1,6 +1,5 @@
 //! Mass, damping, stiffness and constraints of a system at a state, as sparse values on the tangent's pattern.
 
-use crate::diagnostics::{Diagnose, Diagnostic};
 use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector3, Vector6, lie_bracket_matrix};
@@ -12,7 +11,9 @@ use super::rolling_axes;
 use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use super::velocity_constraints::{refuse, take_forces};
 use crate::analysis::InitialError;
+use crate::analysis::StepError;
 use crate::analysis::initial_conditions::ConsistentInitialConditions;
+use crate::diagnostics::diagnostics;
 use crate::interrupt::{self, Interrupted};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity, Subject};
@@ -28,74 +29,77 @@ const SLOW: f64 = 1e-3;
 /// Squares of rates below this fraction of the small one that represents zero are zero.
 const NEUTRAL: f64 = 1e-6;
 
-/// A linear model that does not exist.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LinearError {
-    /// Signals are sampled.
-    #[error(
-        "there is no linear model of a system with sampled signals, which change at instants only; give them no `sample` for \
-         this analysis, as if they were sampled without end"
-    )]
-    Sampled,
-    /// Constraints between velocities.
-    #[error(
-        "`{joint}` rolls, which is a constraint between velocities, and this analysis knows constraints between positions alone; \
-         hold the wheel with another joint, or simulate the motion"
-    )]
-    Rolls {
-        /// Name of the joint.
-        joint: String,
-    },
-    /// A latch, which is a constraint between velocities.
-    #[error(
-        "a latch (`{coordinate}`) is a constraint between velocities, and this analysis knows constraints between positions alone; \
-         leave the latch out, or hold its joint by a stiff spring"
-    )]
-    Latched {
-        /// Name of its impulse.
-        coordinate: String,
-    },
-    /// A pivot vanished or a number is not finite.
-    #[error(
-        "the linear model at t = {time:.6e} s: elimination stops at the {unknown} (pivot {pivot:.1e}); give it mass, stiffness or a joint"
-    )]
-    Factor {
-        /// Time of the state [s].
-        time: f64,
-        /// Name of the unknown.
-        unknown: Subject,
-        /// The pivot, relative to the terms it is made of; not a number if it is not finite.
-        pivot: f64,
-    },
-    /// Accelerations and multipliers of a moving state do not exist.
-    #[error("the linear model at t = {time:.6e} s: {error}")]
-    Accelerations {
-        /// Time of the state [s].
-        time: f64,
-        /// What went wrong.
-        error: InitialError,
-    },
-    /// It was interrupted.
-    #[error(transparent)]
-    Interrupted(#[from] Interrupted),
+diagnostics! {
+    /// A linear model that does not exist.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure LinearError {
+        /// Signals are sampled.
+        Sampled {} => "linear-sampled-signals" {
+            cause: ("there is no linear model of a system with sampled signals, which change at instants only"),
+            remedy: "remove their `sample` for this analysis, as if they were sampled continuously",
+            meaning: "Sampled signals change at instants only and have no linear model.",
+            advice: "Remove their `sample` for this analysis.",
+        }
+        /// Constraints between velocities.
+        Rolls {
+            /// Name of the joint.
+            joint: String,
+        } => "linear-rolling" {
+            subject: Subject::new("joint", joint),
+            cause: ("`{joint}` rolls, which is a constraint between velocities, and this analysis supports constraints between positions \
+                    only"),
+            remedy: "hold the wheel with another joint, or simulate the motion",
+            meaning: "The analysis does not support rolling, which is a constraint between velocities.",
+            advice: "Hold the wheel with another joint, or simulate the motion.",
+        }
+        /// A latch, which is a constraint between velocities.
+        Latched {
+            /// Name of its impulse.
+            coordinate: String,
+        } => "linear-latch" {
+            subject: Subject::new("coordinate", coordinate),
+            cause: ("a latch (`{coordinate}`) is a constraint between velocities, and this analysis supports constraints between positions \
+                    only"),
+            remedy: "omit the latch, or hold its joint by a stiff spring",
+            meaning: "The analysis does not support latches, which are constraints between velocities.",
+            advice: "Omit the latch, or hold its joint by a stiff spring.",
+        }
+        /// A pivot vanished or a number is not finite.
+        Factor {
+            /// Time of the state [s].
+            time: f64,
+            /// Name of the unknown.
+            unknown: Subject,
+            /// The pivot, relative to its terms; not a number if it is not finite.
+            pivot: f64,
+        } => "linear-zero-pivot" {
+            time: *time,
+            subject: unknown,
+            cause: ("the linear model at t = {time:.6e} s: elimination stops at the {unknown} (pivot {pivot:.1e})"),
+            remedy: "give it mass, stiffness or a joint",
+            meaning: "A coordinate of the linear model has neither mass nor stiffness, or a number is not finite.",
+            advice: "Give the reported unknown mass, stiffness or a joint.",
+        }
+    }
+    wraps {
+        /// Accelerations and multipliers of a moving state do not exist.
+        Accelerations {
+            /// Time of the state [s].
+            time: f64,
+            /// The cause.
+            error: InitialError,
+        }, { time, error } => {
+            error.diagnostic().within(&format!("the linear model at t = {time:.6e} s")).at(*time)
+        },
+        /// It was interrupted.
+        Interrupted(Interrupted), (_) => StepError::Interrupted { time: f64::NAN }.diagnostic(),
+    }
 }
 
-impl Diagnose for LinearError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Rolls { joint } => Diagnostic::uncatalogued(self).about(Subject::new("joint", joint)),
-            Self::Latched { coordinate } => {
-                Diagnostic::uncatalogued(self).about(Subject::new("coordinate", coordinate))
-            }
-            Self::Factor { time, unknown, .. } => {
-                Diagnostic::uncatalogued(self).at(*time).about(unknown.clone())
-            }
-            Self::Accelerations { time, error } => {
-                error.diagnostic().within(&format!("the linear model at t = {time:.6e} s")).at(*time)
-            }
-            Self::Sampled | Self::Interrupted(_) => Diagnostic::uncatalogued(self),
-        }
+impl From<Interrupted> for LinearError {
+    fn from(interrupted: Interrupted) -> Self {
+        Self::Interrupted(interrupted)
     }
 }
 
@@ -127,7 +131,7 @@ impl<'a> LinearModel<'a> {
     pub fn of(system: &'a System, state: &State, solver: &'a SolverKind) -> Result<Self, LinearError> {
         interrupt::check()?;
         if system.signals().has_samples() {
-            return Err(LinearError::Sampled);
+            return Err(LinearError::Sampled {});
         }
         let mut state = state.clone();
         let is_at_rest = is_at_rest(system, &state.kinematics);

@@ -14,10 +14,10 @@ impl LinearModel<'_> {
     /// If the model has no mass or its matrices cannot be factored.
     pub fn modes(&self, options: &ModeOptions) -> Result<Modes, ModeError> {
         if options.count == 0 {
-            return Err(ModeError::NothingAsked);
+            return Err(ModeError::NothingAsked {});
         }
         if self.parts.mass.iter().all(|&value| value == 0.0) {
-            return Err(ModeError::NoMass);
+            return Err(ModeError::NoMass {});
         }
         if !self.is_conservative() {
             return arnoldi::find(self, options);

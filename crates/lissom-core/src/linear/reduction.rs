@@ -23,9 +23,10 @@ use super::mode::{Completeness, ModeError, ModeOptions};
 use super::model::{LinearError, LinearModel, is_symmetric, nothing, point};
 use super::shifted::RealShift;
 use super::velocity_constraints::refuse;
+use crate::diagnostics::{Diagnostic, diagnostics};
 use crate::elements::superelement::{Damping, ReducedMatrices};
 use crate::joints::evaluation_point::Chart;
-use crate::kinematics::{LOCKED, NodeId};
+use crate::kinematics::{LOCKED, NodeId, Subject};
 use crate::round_off;
 use crate::system::{Linearization, State, System};
 
@@ -36,49 +37,73 @@ const RIGID: f64 = 1e-6;
 /// Preload that displaces by less than this fraction of the model's length is none.
 const NO_PRELOAD: f64 = 1e-9;
 
-/// A reduction that does not exist.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ReductionError {
-    /// A factorisation stopped.
-    #[error(
-        "with its interfaces held the assembly cannot be solved for: {0}; what moves freely between the interfaces must be joined, \
-         or be an interface itself"
-    )]
-    Linear(#[from] LinearError),
-    /// There are no modes.
-    #[error("the modes with interfaces held: {0}")]
-    Modes(#[from] ModeError),
-    /// With the interfaces held the stiffness belongs to no energy, or rates have forces that do not damp.
-    #[error(
-        "with its interfaces held the assembly is not conservative: a superelement is linear elastic; leave out loads that follow and \
-         signals, and reduce it at rest"
-    )]
-    NotConservative,
-    /// With the interfaces held there is an unstable mode.
-    #[error(
-        "with its interfaces held the assembly is unstable: the state is beyond buckling, or parts are held by nothing but their stress"
-    )]
-    Unstable,
-    /// Forces act between the interfaces.
-    #[error(
-        "forces act between the interfaces that nothing in the assembly balances: they would displace it by {0:.1e} of its length; make \
-         what they act on an interface, or take the load away"
-    )]
-    Unbalanced(f64),
-    /// Something holds the assembly, or pulls at it, in directions fixed in space.
-    #[error(
-        "a rigid motion of the assembly is not free of forces: the {unknown} has {force:.1e} of terms of {terms:.1e}; leave out what \
-         leads from it to the ground, and loads with directions fixed in space"
-    )]
-    Held {
-        /// Name of the unknown.
-        unknown: String,
-        /// Force per unit of the rigid motion.
-        force: f64,
-        /// Sum of the terms' sizes.
-        terms: f64,
-    },
+diagnostics! {
+    /// An assembly that is not reduced.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure ReductionError {
+        /// With the interfaces held the stiffness belongs to no energy, or rates have forces that do not damp.
+        NotConservative {} => "reduction-not-conservative" {
+            cause: ("with its interfaces held the assembly is not conservative: a superelement is linear elastic"),
+            remedy: "omit loads that follow and signals, and reduce it at rest",
+            meaning: "With its interfaces held the assembly is not conservative, but a superelement is linear elastic.",
+            advice: "Omit loads that follow and signals, and reduce the assembly at rest.",
+        }
+        /// With the interfaces held there is an unstable mode.
+        Unstable {} => "reduction-unstable" {
+            cause: ("with its interfaces held the assembly is unstable: the state is beyond buckling, or parts are held by their stress only"),
+            remedy: "reduce it with less load, or hold these parts",
+            meaning: "With its interfaces held the assembly is unstable.",
+            advice: "Reduce it with less load, or hold the parts that only their stress holds.",
+        }
+        /// Forces act between the interfaces.
+        Unbalanced {
+            /// Displacement by these forces over the length of the assembly.
+            displacement: f64,
+        } => "reduction-unbalanced" {
+            cause: ("forces act between the interfaces that nothing in the assembly balances: they would displace it by {displacement:.1e} \
+                    of its length"),
+            remedy: "make what they act on an interface, or remove the load",
+            meaning: "Forces act on the assembly between its interfaces, and nothing in it balances them.",
+            advice: "Make what they act on an interface, or remove the load.",
+        }
+        /// Something holds the assembly, or pulls at it, in directions fixed in space.
+        Held {
+            /// Name of the unknown.
+            unknown: Subject,
+            /// Force per unit of the rigid motion.
+            force: f64,
+            /// Sum of the magnitudes of its terms.
+            terms: f64,
+        } => "reduction-held" {
+            subject: unknown,
+            cause: ("a rigid motion of the assembly is not free of forces: the {unknown} has {force:.1e} of terms of {terms:.1e}"),
+            remedy: "omit what connects it to the ground, and loads with directions fixed in space",
+            meaning: "Forces act on the assembly in a rigid motion.",
+            advice: "Omit what connects it to the ground, and loads with directions fixed in space.",
+        }
+    }
+    wraps {
+        /// A factorisation stopped.
+        Linear(LinearError), (error) => Diagnostic {
+            remedy: "join what moves freely between the interfaces, or make it an interface".to_owned(),
+            ..error.diagnostic().within("with its interfaces held the assembly has no solution")
+        },
+        /// There are no modes.
+        Modes(ModeError), (error) => error.diagnostic().within("the modes with interfaces held"),
+    }
+}
+
+impl From<LinearError> for ReductionError {
+    fn from(error: LinearError) -> Self {
+        Self::Linear(error)
+    }
+}
+
+impl From<ModeError> for ReductionError {
+    fn from(error: ModeError) -> Self {
+        Self::Modes(error)
+    }
 }
 
 /// A reduced assembly.
@@ -132,7 +157,7 @@ impl Assembly<'_> {
         let whole = Whole::of(self, &multipliers);
         let length = model.as_ref().map_or(1.0, LinearModel::length);
         if let Some(model) = model.as_ref().filter(|model| model.imbalance() > BALANCED) {
-            return Err(ReductionError::Unbalanced(model.imbalance()));
+            return Err(ReductionError::Unbalanced { displacement: model.imbalance() });
         }
         whole.check_rigid(self)?;
         let mut columns = self.boundary_columns();
@@ -141,7 +166,7 @@ impl Assembly<'_> {
             self.add_static_shapes(&whole, model, locked, &mut columns)?;
             model.parts.damping.fill(0.0);
             if !is_symmetric(locked, &model.representative, &model.parts) {
-                return Err(ReductionError::NotConservative);
+                return Err(ReductionError::NotConservative {});
             }
             model.is_conservative = true;
             if modes > 0 {
@@ -149,7 +174,7 @@ impl Assembly<'_> {
                 is_counted = found.completeness == Completeness::Counted;
                 for mode in found.modes {
                     if mode.kind.is_unstable() || mode.frequency == 0.0 {
-                        return Err(ReductionError::Unstable);
+                        return Err(ReductionError::Unstable {});
                     }
                     let mut column = vec![0.0; whole.size];
                     for (free, inner) in self.inner_rows(locked) {
@@ -407,7 +432,7 @@ impl Whole {
             });
             if let Some(row) = wrong {
                 return Err(ReductionError::Held {
-                    unknown: layout.name_of(row),
+                    unknown: layout.subject_of(row),
                     force: forces[row].abs(),
                     terms: terms[row],
                 });

@@ -10,6 +10,7 @@ use num_complex::Complex64;
 
 use super::model::{LinearError, LinearModel};
 use super::shifted::ComplexShift;
+use crate::diagnostics::{Diagnostic, Value, diagnostics};
 use crate::interrupt;
 
 /// What a solution leaves of the equations, relative to their terms, at most.
@@ -19,31 +20,43 @@ const ENOUGH: f64 = 1e-15;
 /// … or so many times.
 const REFINEMENTS: usize = 8;
 
-/// A response that was not found.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ResponseError {
-    /// The matrix could not be factored.
-    #[error(
-        "the response at s = {s} 1/s: {error}; where the model has no damping it is unbounded at a natural frequency"
-    )]
-    Linear {
-        /// The rate at which the input changes [1/s].
-        s: Complex64,
-        /// What went wrong.
-        error: LinearError,
-    },
-    /// A solution leaves too much of its equations.
-    #[error(
-        "the response at s = {s} 1/s is not known: the solution leaves {left:.1e} of its equations; nothing may hold the model \
-         there, or without damping a natural frequency is too near"
-    )]
-    Inexact {
-        /// The rate at which the input changes [1/s].
-        s: Complex64,
-        /// What is left, relative to the terms of the equations.
-        left: f64,
-    },
+diagnostics! {
+    /// A response that could not be computed.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure ResponseError {
+        /// A solution leaves too large a residual.
+        Inexact {
+            /// The rate at which the input changes [1/s].
+            s: Complex64,
+            /// The residual, relative to the terms of the equations.
+            left: f64,
+        } => "response-inexact" {
+            cause: ("the response at s = {s} 1/s is not determined: the residual of the solution is {left:.1e} of the terms of its equations"),
+            remedy: "check what holds the model there; without damping, choose a rate farther from a natural frequency",
+            meaning: "The equations of a frequency response are nearly singular.",
+            advice: "Hold the model, add damping, or choose a frequency farther from a natural frequency.",
+        }
+    }
+    wraps {
+        /// The matrix could not be factored.
+        Linear {
+            /// The rate at which the input changes [1/s].
+            s: Complex64,
+            /// The cause.
+            error: LinearError,
+        }, { s, error } => {
+            let diagnostic = error.diagnostic().within(&format!("the response at s = {s} 1/s"));
+            let remedy = format!("{}; without damping it is unbounded at a natural frequency", diagnostic.remedy);
+            Diagnostic { remedy, ..diagnostic }
+        },
+    }
+}
+
+impl From<&Complex64> for Value {
+    fn from(number: &Complex64) -> Self {
+        Self::Text(number.to_string())
+    }
 }
 
 /// Solves for one s after the other.

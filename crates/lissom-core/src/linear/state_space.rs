@@ -12,7 +12,8 @@ use nalgebra::{ColPivQR, DMatrix, Dyn, LU};
 
 use super::model::LinearModel;
 use super::output::OutputDerivatives;
-use crate::kinematics::Quantity;
+use crate::diagnostics::diagnostics;
+use crate::kinematics::{Quantity, Subject};
 
 /// Most coordinates of a model whose matrices are filled.
 const MAX_COORDINATES: usize = 600;
@@ -36,34 +37,61 @@ pub struct StateSpace {
     pub states: Vec<String>,
 }
 
-/// Why there are no such matrices.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StateSpaceError {
-    /// Too many coordinates.
-    #[error("the model has {0} coordinates: full matrices are made of up to {MAX_COORDINATES}")]
-    TooLarge(usize),
-    /// Inputs act on constraints.
-    #[error("an input is a prescribed motion, whose velocity and acceleration would be inputs as well")]
-    PrescribedInput,
-    /// Some degrees of freedom have no mass.
-    #[error("degrees of freedom without mass are left, whose velocities are no states")]
-    Massless,
-    /// Forces depend on normal forces.
-    #[error(
-        "creep forces of wheels on rails depend on the normal forces, which first-order equations have not among their states; \
-         `lissom modes` and `lissom response` know them"
-    )]
-    NormalForces,
-    /// Constraints between velocities.
-    #[error(
-        "{0}, a constraint between velocities, is none of first-order equations in independent coordinates; `lissom modes` and \
-         `lissom response` know it"
-    )]
-    VelocityConstraint(String),
-    /// A reaction that is recorded is not unique.
-    #[error("a reaction among the outputs is not unique, because constraints repeat each other")]
-    Redundant,
+diagnostics! {
+    /// First-order equations that do not exist.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure StateSpaceError {
+        /// Too many coordinates.
+        TooLarge {
+            /// Their number.
+            coordinates: usize,
+        } => "state-space-too-large" {
+            cause: ("the model has {coordinates} coordinates: full matrices are formed of at most {MAX_COORDINATES}"),
+            remedy: "use the sparse matrices of second order",
+            meaning: "Full matrices of first-order equations are formed of small models only.",
+            advice: "Use the sparse matrices of second order.",
+        }
+        /// Inputs act on constraints.
+        PrescribedInput {} => "state-space-prescribed-input" {
+            cause: ("an input is a prescribed motion, whose velocity and acceleration would be inputs as well"),
+            remedy: "use a load as input",
+            meaning: "A prescribed motion is no input of first-order equations, because they contain its velocity and acceleration, too.",
+            advice: "Use a load as input.",
+        }
+        /// Some degrees of freedom have no mass.
+        Massless {} => "state-space-massless" {
+            cause: ("degrees of freedom without mass remain, whose velocities are no states"),
+            remedy: "give them a mass",
+            meaning: "The velocities of degrees of freedom without mass are no states.",
+            advice: "Give all degrees of freedom a mass.",
+        }
+        /// Forces depend on normal forces.
+        NormalForces {} => "state-space-normal-forces" {
+            cause: ("creep forces of wheels on rails depend on the normal forces, which are not among the states of first-order equations"),
+            remedy: "use `lissom modes` or `lissom response`, which support them",
+            meaning: "Creep forces depend on normal forces, which are not among the states of first-order equations.",
+            advice: "Use `lissom modes` or `lissom response`.",
+        }
+        /// Constraints between velocities.
+        VelocityConstraint {
+            /// The constraint.
+            constraint: Subject,
+        } => "state-space-velocity-constraint" {
+            subject: constraint,
+            cause: ("{constraint}, a constraint between velocities, is not part of first-order equations in independent coordinates"),
+            remedy: "use `lissom modes` or `lissom response`, which support it",
+            meaning: "First-order equations in independent coordinates do not contain constraints between velocities.",
+            advice: "Use `lissom modes` or `lissom response`.",
+        }
+        /// A reaction that is recorded is not unique.
+        Redundant {} => "state-space-redundant" {
+            cause: ("a reaction among the outputs is not unique, because constraints are redundant"),
+            remedy: "remove the redundant constraint, or the output",
+            meaning: "A reaction among the outputs is not unique, because constraints are redundant.",
+            advice: "Remove the redundant constraint, or the output.",
+        }
+    }
 }
 
 impl LinearModel<'_> {
@@ -79,16 +107,18 @@ impl LinearModel<'_> {
     ) -> Result<StateSpace, StateSpaceError> {
         let count = self.coordinate_count();
         if count > MAX_COORDINATES {
-            return Err(StateSpaceError::TooLarge(count));
+            return Err(StateSpaceError::TooLarge { coordinates: count });
         }
         if inputs.iter().any(|input| input[count..].iter().any(|&value| value != 0.0)) {
-            return Err(StateSpaceError::PrescribedInput);
+            return Err(StateSpaceError::PrescribedInput {});
         }
         if self.system.sees_multipliers() {
-            return Err(StateSpaceError::NormalForces);
+            return Err(StateSpaceError::NormalForces {});
         }
         if let Some((row, _)) = self.system.layout().impulses().next() {
-            return Err(StateSpaceError::VelocityConstraint(self.system.layout().name_of(row)));
+            return Err(StateSpaceError::VelocityConstraint {
+                constraint: self.system.layout().subject_of(row),
+            });
         }
         let reduced = self.reduced(inputs)?;
         reduced.with_outputs(self, outputs, inputs)
@@ -225,10 +255,10 @@ fn solve(matrix: &DMatrix<f64>, right: DMatrix<f64>) -> Result<DMatrix<f64>, Sta
     let pivots = factors.u().diagonal().abs();
     let (least, most) = (pivots.min(), pivots.max());
     if !most.is_finite() || least <= SINGULAR * most {
-        return Err(StateSpaceError::Massless);
+        return Err(StateSpaceError::Massless {});
     }
     let scaled = DMatrix::from_fn(right.nrows(), right.ncols(), |i, j| right[(i, j)] / size(i));
-    let solution = factors.solve(&scaled).ok_or(StateSpaceError::Massless)?;
+    let solution = factors.solve(&scaled).ok_or(StateSpaceError::Massless {})?;
     Ok(DMatrix::from_fn(right.nrows(), right.ncols(), |i, j| solution[(i, j)] / size(i)))
 }
 
@@ -266,7 +296,7 @@ impl Reduced {
         let acceleration = &self.t * &self.accelerations;
         let multipliers = if outputs.iter().any(|(output, _)| !output.by_multiplier.is_empty()) {
             if self.dependent.len() < self.gradient.nrows() {
-                return Err(StateSpaceError::Redundant);
+                return Err(StateSpaceError::Redundant {});
             }
             let mut rest = -(&self.mass * &acceleration + &self.damping * &rate + &self.stiffness * &place);
             for (k, input) in inputs.iter().enumerate() {
@@ -275,7 +305,7 @@ impl Reduced {
                 }
             }
             let transposed = self.gradient.select_columns(&self.dependent).transpose();
-            transposed.lu().solve(&rest.select_rows(&self.dependent)).ok_or(StateSpaceError::Redundant)?
+            transposed.lu().solve(&rest.select_rows(&self.dependent)).ok_or(StateSpaceError::Redundant {})?
         } else {
             DMatrix::zeros(self.gradient.nrows(), width)
         };

@@ -9,7 +9,6 @@
 //!
 //! with a small s, so that free rotations have no share in the corrections.
 
-use crate::diagnostics::{Diagnose, Diagnostic};
 use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
 use lissom_solver::SolverKind;
 use num_complex::Complex64;
@@ -21,6 +20,7 @@ use super::rolling_axes;
 use super::shifted::ComplexShift;
 use super::velocity_constraints::refuse;
 use crate::analysis::initial_conditions::ConsistentInitialConditions;
+use crate::diagnostics::diagnostics;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeMotion, Quantity};
 use crate::round_off;
@@ -47,30 +47,39 @@ pub struct Departure {
     pub round_off: f64,
 }
 
-/// A steady rotation that was not found.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SteadyError {
-    /// Nothing turns.
-    #[error("nothing turns at the start: give parts an angular velocity, or take the static equilibrium")]
-    AtRest,
-    /// Velocities or the linear model do not exist.
-    #[error(transparent)]
-    Linear(#[from] LinearError),
-    /// No positions were found.
-    #[error(
-        "no steady rotation was found from the places of the file: the last correction was {0:.1e} of the model's length; at this \
-         speed there may be none, or the velocities at the start are no steady rotation"
-    )]
-    NotConverged(f64),
+diagnostics! {
+    /// Why there is no steady rotation.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure SteadyError {
+        /// Nothing rotates.
+        AtRest {} => "nothing-rotates" {
+            cause: ("nothing rotates at the start"),
+            remedy: "give parts an angular velocity, or use the static equilibrium",
+            meaning: "A steady rotation was requested, but all parts are at rest at the start.",
+            advice: "Give parts an angular velocity, or use the static equilibrium.",
+        }
+        /// No positions were found.
+        NotConverged {
+            /// Size of the last correction over the length of the model.
+            correction: f64,
+        } => "steady-rotation-not-found" {
+            cause: ("no steady rotation was found from the positions of the file: the last correction was {correction:.1e} of the model's \
+                    length"),
+            remedy: "check the velocities at the start, which must be those of a steady rotation, and the speed, at which there may be none",
+            meaning: "No positions were found at which the model rotates steadily.",
+            advice: "Check the initial velocities. At the given speed there may be no steady rotation.",
+        }
+    }
+    wraps {
+        /// Velocities or the linear model do not exist.
+        Linear(LinearError), (error) => error.diagnostic(),
+    }
 }
 
-impl Diagnose for SteadyError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Linear(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
+impl From<LinearError> for SteadyError {
+    fn from(error: LinearError) -> Self {
+        Self::Linear(error)
     }
 }
 
@@ -80,7 +89,7 @@ impl Diagnose for SteadyError {
 /// If nothing turns, or there are no such positions.
 pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
     if rate_of(state) == 0.0 {
-        return Err(SteadyError::AtRest);
+        return Err(SteadyError::AtRest {});
     }
     let mut state = state.clone();
     let layout = system.layout();
@@ -134,11 +143,15 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
             return Ok(state);
         }
         if !size.is_finite() {
-            return Err(SteadyError::NotConverged(size));
+            return Err(SteadyError::NotConverged { correction: size });
         }
         last = size;
     }
-    if last <= round_off::STEADY_MOTION { Ok(state) } else { Err(SteadyError::NotConverged(last)) }
+    if last <= round_off::STEADY_MOTION {
+        Ok(state)
+    } else {
+        Err(SteadyError::NotConverged { correction: last })
+    }
 }
 
 /// Largest rate at which a node turns [rad/s].

@@ -18,9 +18,10 @@ mod tree;
 use self::closing::{Closing, Pose};
 use self::groups::Groups;
 use self::tree::Tree;
+use crate::diagnostics::{Value, diagnostics};
 use crate::joints::attached::AttachedJoint;
 use crate::joints::{JointCoordinates, Relative};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Subject};
 use crate::system::System;
 
 /// Held angles are changed by no more than this between two closings [rad], so that a loop stays in its assembly mode.
@@ -83,22 +84,40 @@ pub struct Assembled {
     pub is_least: bool,
 }
 
-/// An assembly that does not exist.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum AssemblyError {
-    /// Joints stay open.
-    #[error("the joints do not close; the least gaps that were found leave open {}", in_words(.gaps))]
-    Open {
-        /// The open joints, the widest first.
-        gaps: Vec<Gap>,
-    },
-    /// Joints close with frames that point opposite ways.
-    #[error("`{joint}` closes upside down only: the axes of base and tip point opposite ways")]
-    UpsideDown {
-        /// Name of the joint.
-        joint: String,
-    },
+diagnostics! {
+    /// Joints that do not close.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure AssemblyError {
+        /// Joints stay open.
+        Open {
+            /// The open joints, the widest gap first.
+            gaps: Vec<Gap>,
+        } => "joints-do-not-close" {
+            subject: Subject::new("joint", gaps.first().map_or("", |gap| &gap.joint)),
+            cause: ("the joints do not close; the least gaps that were found leave open {}", in_words(gaps)),
+            remedy: "",
+            meaning: "No positions were found at which all joints close.",
+            advice: "Check the dimensions of the parts and the coordinates that are held.",
+        }
+        /// Joints close with frames that point opposite ways.
+        UpsideDown {
+            /// Name of the joint.
+            joint: String,
+        } => "joint-upside-down" {
+            subject: Subject::new("joint", joint),
+            cause: ("`{joint}` closes upside down only: the axes of base and tip point opposite ways"),
+            remedy: "",
+            meaning: "A joint closes only if the axes of its base and tip point opposite ways.",
+            advice: "Reverse the axis of the joint on one of its parts.",
+        }
+    }
+}
+
+impl From<&Vec<Gap>> for Value {
+    fn from(gaps: &Vec<Gap>) -> Self {
+        Self::Text(in_words(gaps))
+    }
 }
 
 fn in_words(gaps: &[Gap]) -> String {

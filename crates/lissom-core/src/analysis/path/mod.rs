@@ -11,12 +11,12 @@ mod critical;
 mod equations;
 mod systems;
 
-use crate::diagnostics::{Diagnose, Diagnostic};
 use std::sync::Arc;
 
 use lissom_solver::SolverKind;
 
 use super::StepError;
+use crate::diagnostics::{Value, diagnostics};
 use crate::kinematics::{Kinematics, Subject};
 use crate::newton::{self, JacobianState, Limits};
 use crate::scaling::ScalingChoice;
@@ -57,157 +57,181 @@ pub struct PathSettings {
     pub solver: &'static SolverKind,
 }
 
-/// A path that cannot be followed.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PathError {
-    /// The two systems are not one with and without loads.
-    #[error("the model without its loads has other unknowns than with them")]
-    NotAlike,
-    /// Loads depend on the motion, or there are states.
-    #[error(
-        "a path of a system with feedback is not known; remove loads and states whose signals depend on the motion"
-    )]
-    Feedback,
-    /// No load acts.
-    #[error(
-        "no load and no gravity acts at the time `start`, so that a load factor changes nothing; give loads a size there"
-    )]
-    NoLoad,
-    /// The number changes nothing.
-    #[error(
-        "a small change of `{name}` moves nothing in the equilibrium at {value}, where the path begins, so that there is no path along it; vary a number that \
-         forces, stiffnesses or lengths depend on"
-    )]
-    NoEffect {
-        /// What is varied.
-        name: String,
-        /// Its value at the start.
-        value: f64,
-    },
-    /// There is no model for the value at which a path begins.
-    #[error("`{name}` cannot be {value}, where the path begins: {problem}")]
-    NoSystem {
-        /// What is varied.
-        name: String,
-        /// Its value.
-        value: f64,
-        /// Why.
-        problem: String,
-    },
-    /// The number cannot go farther.
-    #[error(
-        "the path ends at {name} {value:.6e}, {arc:.3e} along it: the model has no meaning beyond ({problem}); end the path before that value, or take the sense in which \
-         it can go on"
-    )]
-    Beyond {
-        /// What is varied.
-        name: String,
-        /// Its value at the last equilibrium.
-        value: f64,
-        /// Length of the path up to there.
-        arc: f64,
-        /// What is wrong with the model beyond.
-        problem: String,
-    },
-    /// There is no equilibrium where a path along a number begins.
-    #[error("no equilibrium at {name} {value} at the start of the path: {error}")]
-    StartAlong {
-        /// What is varied.
-        name: String,
-        /// Its value.
-        value: f64,
-        /// Why none was found.
-        error: StepError,
-    },
-    /// There is no equilibrium without loads.
-    #[error("no equilibrium without loads at the start of the path: {0}")]
-    Start(StepError),
-    /// A step was not found however short.
-    #[error(
-        "the path ends at {name} {load_factor:.6e}, {arc:.3e} along it: no equilibrium is found nearby ({error})"
-    )]
-    Lost {
-        /// What changes along the path.
-        name: String,
-        /// Load factor of the last equilibrium.
-        load_factor: f64,
-        /// Length of the path up to there.
-        arc: f64,
-        /// Why the last attempt failed.
-        error: StepError,
-    },
-    /// A path along the load factor does not leave the model without loads.
-    #[error(
-        "after {steps} steps the load factor is {load_factor:.6e} and has never been larger than {most:.1e} ({reason}): nothing \
-         seems to resist small loads, as in a cable without tension; give it tension, follow a path along a number of the loaded \
-         model (`vary`), whose first equilibrium is found by relaxation, or take a smaller first `step`"
-    )]
-    NothingResists {
-        /// Steps taken.
-        steps: usize,
-        /// Load factor reached.
-        load_factor: f64,
-        /// The largest one so far.
-        most: f64,
-        /// Why it went no farther.
-        reason: String,
-    },
-    /// There are fewer bifurcations than that at which the path was to be left.
-    #[error(
-        "after {steps} steps the {name} is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} \
-         that `branch` asks for; give more `steps`, a smaller first `step`, or another `branch`"
-    )]
-    NoBifurcation {
-        /// What changes along the path.
-        name: String,
-        /// Steps taken.
-        steps: usize,
-        /// Load factor reached.
-        load_factor: f64,
-        /// Bifurcations met.
-        met: usize,
-        /// The one wanted.
-        wanted: usize,
-    },
-    /// No other path was found at a bifurcation.
-    #[error(
-        "no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}; disturb the model a little, so that its path goes \
-         over to a branch by itself, or leave out `branch`"
-    )]
-    NoBranchThere {
-        /// What changes along the path.
-        name: String,
-        /// Load factor of the bifurcation.
-        load_factor: f64,
-        /// Result of the attempts.
-        reason: String,
-    },
-    /// The number of steps is used up.
-    #[error(
-        "after {steps} steps the {name} is {load_factor:.6e} and has not reached {end}; give more `steps`, or an `end` \
-         that the path reaches"
-    )]
-    TooManySteps {
-        /// What changes along the path.
-        name: String,
-        /// Steps taken.
-        steps: usize,
-        /// Load factor reached.
-        load_factor: f64,
-        /// Load factor at which it should end.
-        end: f64,
-    },
+diagnostics! {
+    /// A path that could not be followed.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure PathError {
+        /// The two systems are not one with and without loads.
+        NotAlike {} => "path-unlike-models" {
+            cause: ("the model without its loads has other unknowns than with them"),
+            remedy: "omit loads that add coordinates or states",
+            meaning: "The model without its loads has other unknowns than with them.",
+            advice: "Omit loads that add coordinates or states.",
+        }
+        /// Loads depend on the motion, or there are states.
+        Feedback {} => "path-feedback" {
+            cause: ("a system with feedback has no equilibrium path"),
+            remedy: "remove loads and states whose signals depend on the motion",
+            meaning: "The path of a system with feedback is not defined.",
+            advice: "Remove loads and states whose signals depend on the motion.",
+        }
+        /// No load acts.
+        NoLoad {} => "path-without-load" {
+            cause: ("no load and no gravity acts at the time `start`, so that a load factor changes nothing"),
+            remedy: "give loads a magnitude there",
+            meaning: "No load acts at the time `start`, so that a load factor changes nothing.",
+            advice: "Give loads a magnitude at that time.",
+        }
+        /// The number changes nothing.
+        NoEffect {
+            /// What is varied.
+            name: String,
+            /// Its value at the start.
+            value: f64,
+        } => "path-without-effect" {
+            cause: ("a small change of `{name}` moves nothing in the equilibrium at {value}, where the path begins, so that there is no path \
+                    along it"),
+            remedy: "vary a number that forces, stiffnesses or lengths depend on",
+            meaning: "The varied number does not change the equilibrium.",
+            advice: "Vary a number that forces, stiffnesses or lengths depend on.",
+        }
+        /// There is no model for the value at which a path begins.
+        NoSystem {
+            /// What is varied.
+            name: String,
+            /// Its value.
+            value: f64,
+            /// Why.
+            problem: String,
+        } => "path-without-model" {
+            cause: ("`{name}` cannot be {value}, where the path begins: {problem}"),
+            remedy: "begin the path at another value",
+            meaning: "The model is not valid at the value at which the path begins.",
+            advice: "Begin the path at another value.",
+        }
+        /// The number cannot be changed further.
+        Beyond {
+            /// What is varied.
+            name: String,
+            /// Its value at the last equilibrium.
+            value: f64,
+            /// Length of the path up to there.
+            arc: f64,
+            /// What is wrong with the model beyond.
+            problem: String,
+        } => "path-leaves-model" {
+            cause: ("the path ends at {name} {value:.6e}, {arc:.3e} along it: the model has no meaning beyond ({problem})"),
+            remedy: "end the path before that value, or take the sense in which it can continue",
+            meaning: "The model is not valid beyond the reported value of the varied number.",
+            advice: "End the path before that value, or take the other sense.",
+        }
+        /// A step was not found however short.
+        Lost {
+            /// What changes along the path.
+            name: String,
+            /// Load factor of the last equilibrium.
+            load_factor: f64,
+            /// Length of the path up to there.
+            arc: f64,
+            /// Why the last attempt failed.
+            error: StepError,
+        } => "path-lost" {
+            cause: ("the path ends at {name} {load_factor:.6e}, {arc:.3e} along it: no equilibrium is found nearby ({error})"),
+            remedy: "",
+            meaning: "No equilibrium was found near the last one, however short the step.",
+            advice: "See the failure in parentheses; try a smaller first `step`.",
+        }
+        /// A path along the load factor does not leave the model without loads.
+        NothingResists {
+            /// Steps taken.
+            steps: usize,
+            /// Load factor reached.
+            load_factor: f64,
+            /// The largest one so far.
+            most: f64,
+            /// Why it was not exceeded.
+            reason: String,
+        } => "path-without-resistance" {
+            cause: ("after {steps} steps the load factor is {load_factor:.6e} and has never been larger than {most:.1e} ({reason}): nothing \
+                    seems to resist small loads, as in a cable without tension"),
+            remedy: "give it tension, follow a path along a number of the loaded model (`vary`), whose first equilibrium is found by \
+                relaxation, or take a smaller first `step`",
+            meaning: "Nothing seems to resist small loads, as in a cable without tension.",
+            advice: "Give it tension, follow a path along a number of the loaded model (`vary`), or take a smaller first `step`.",
+        }
+        /// There are fewer bifurcations than that at which the path was to be left.
+        NoBifurcation {
+            /// What changes along the path.
+            name: String,
+            /// Steps taken.
+            steps: usize,
+            /// Load factor reached.
+            load_factor: f64,
+            /// Bifurcations met.
+            met: usize,
+            /// The one wanted.
+            wanted: usize,
+        } => "path-without-bifurcation" {
+            cause: ("after {steps} steps the {name} is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} that \
+                    `branch` requests"),
+            remedy: "set more `steps`, a smaller first `step`, or another `branch`",
+            meaning: "The path has met fewer bifurcations than `branch` requests.",
+            advice: "Set more `steps`, a smaller first `step`, or another `branch`.",
+        }
+        /// No other path was found at a bifurcation.
+        NoBranchThere {
+            /// What changes along the path.
+            name: String,
+            /// Load factor of the bifurcation.
+            load_factor: f64,
+            /// Result of the attempts.
+            reason: String,
+        } => "path-without-branch" {
+            cause: ("no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}"),
+            remedy: "disturb the model a little, so that its path continues on a branch by itself, or omit `branch`",
+            meaning: "No branch was found at the bifurcation.",
+            advice: "Disturb the model a little, so that its path continues on a branch by itself, or omit `branch`.",
+        }
+        /// The number of steps is exhausted.
+        TooManySteps {
+            /// What changes along the path.
+            name: String,
+            /// Steps taken.
+            steps: usize,
+            /// Load factor reached.
+            load_factor: f64,
+            /// Load factor at which it should end.
+            end: f64,
+        } => "path-too-long" {
+            cause: ("after {steps} steps the {name} is {load_factor:.6e} and has not reached {end}"),
+            remedy: "set more `steps`, or an `end` that the path reaches",
+            meaning: "The path has not reached its end in the given number of steps.",
+            advice: "Set more `steps`, or an `end` that the path reaches.",
+        }
+    }
+    wraps {
+        /// There is no equilibrium where a path along a number begins.
+        StartAlong {
+            /// What is varied.
+            name: String,
+            /// Its value.
+            value: f64,
+            /// Why none was found.
+            error: StepError,
+        }, { name, value, error } => {
+            error.diagnostic().within(&format!("no equilibrium at {name} {value} at the start of the path"))
+        },
+        /// There is no equilibrium without loads.
+        Start(StepError), (error) => {
+            error.diagnostic().within("no equilibrium without loads at the start of the path")
+        },
+    }
 }
 
-impl Diagnose for PathError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Start(error) | Self::StartAlong { error, .. } | Self::Lost { error, .. } => {
-                error.diagnostic()
-            }
-            _ => Diagnostic::uncatalogued(self),
-        }
+impl From<&StepError> for Value {
+    fn from(error: &StepError) -> Self {
+        Self::Text(error.to_string())
     }
 }
 
@@ -285,15 +309,15 @@ impl EquilibriumPath {
         settings: PathSettings,
     ) -> Result<Self, PathError> {
         if unloaded.has_feedback() || loaded.has_feedback() {
-            return Err(PathError::Feedback);
+            return Err(PathError::Feedback {});
         }
         if !are_alike(&unloaded, &loaded) {
-            return Err(PathError::NotAlike);
+            return Err(PathError::NotAlike {});
         }
         Self::of_systems(PathSystems::Loads([unloaded, loaded]), 0.0, state, settings).map_err(|failed| {
             match failed {
                 NoStart::Failed(error) => PathError::Start(error),
-                NoStart::Nothing => PathError::NoLoad,
+                NoStart::Nothing => PathError::NoLoad {},
             }
         })
     }
@@ -311,7 +335,7 @@ impl EquilibriumPath {
     ) -> Result<Self, PathError> {
         let systems = PathSystems::of_number(name.clone(), family, [from, settings.end])?;
         if systems.any().has_feedback() {
-            return Err(PathError::Feedback);
+            return Err(PathError::Feedback {});
         }
         Self::of_systems(systems, from, state, settings).map_err(|failed| match failed {
             NoStart::Failed(error) => PathError::StartAlong { name, value: from, error },
