@@ -74,6 +74,10 @@ impl<S: Scalar> LinearSolver<S> for Dense<S> {
         NAME
     }
 
+    fn exchanges_rows(&self) -> bool {
+        true
+    }
+
     fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
         assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
         let size = self.pattern.size();

@@ -15,6 +15,11 @@ pub trait LinearSolver<S: Scalar>: Send {
     /// Name of its kind.
     fn name(&self) -> &'static str;
 
+    /// Whether it exchanges rows. Its report then compares pivots with each other, not with their terms.
+    fn exchanges_rows(&self) -> bool {
+        false
+    }
+
     /// Factors the matrix with the given values, in the order of the pattern. Without allocation where the
     /// solver does not pivot.
     ///

@@ -103,7 +103,8 @@ fn estimate<S: SolverOf>(structure: &Structure, values: &[S]) -> f64 {
     let Some(kind) = kind("sparse") else { return f64::INFINITY };
     let mut matrix = Matrix::new(S::solver(kind, structure), structure);
     matrix.values.copy_from_slice(values);
-    let mut saddle = SaddlePoint::new(matrix, values.len()).falling_back(kind.name);
+    let mut saddle =
+        SaddlePoint::new(matrix, structure.pattern.size()).without_compliance().falling_back(kind.name);
     if saddle.factor(structure, 1.0).is_err() {
         return f64::INFINITY;
     }

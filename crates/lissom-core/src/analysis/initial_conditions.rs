@@ -69,7 +69,6 @@ impl ConsistentInitialConditions {
         Self {
             saddle: SaddlePoint::new(matrix, count)
                 .equilibrated(layout.size())
-                .falling_back(kind.name)
                 .with_redundancy(structure, repeating.map(|multiplier| count + multiplier)),
             linearization: system.empty_linearization(),
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },

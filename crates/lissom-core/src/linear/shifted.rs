@@ -5,7 +5,7 @@
 
 use std::ops::Mul;
 
-use lissom_solver::{FactorError, LinearSolver, Multifrontal, Structure, Symmetric};
+use lissom_solver::{FactorError, Multifrontal, Structure, Symmetric};
 use num_complex::Complex64;
 
 use crate::saddle_point::{Matrix, SaddlePoint, SolverOf};
@@ -32,7 +32,6 @@ impl<'a> RealShift<'a> {
             system,
             representative: *representative,
             scaled: Scaled::at_rate(representative, 1.0),
-            // Nothing to fall back on: exchanges of rows would hide the number of negative pivots.
             saddle: SaddlePoint::new(matrix, layout.coordinate_count()).equilibrated(layout.size()),
         }
     }
@@ -112,17 +111,13 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
     /// For matrices on another structure than the system's.
     pub(super) fn on(system: &'a System, structure: &Structure, representative: &Representative) -> Self {
         let layout = system.layout();
-        let solver = Multifrontal::new(structure);
-        let own = solver.name();
-        let matrix = Matrix::new(Box::new(solver), structure);
+        let matrix = Matrix::new(Box::new(Multifrontal::new(structure)), structure);
         Self {
             system,
             structure: structure.clone(),
             representative: *representative,
             scaled: Scaled::at_rate(representative, 1.0),
-            saddle: SaddlePoint::new(matrix, layout.coordinate_count())
-                .equilibrated(layout.size())
-                .falling_back(own),
+            saddle: SaddlePoint::new(matrix, layout.coordinate_count()).equilibrated(layout.size()),
         }
     }
 

@@ -69,6 +69,10 @@ impl<S: SolverOf> Matrices for Matrix<S> {
         self.solver.factor(&self.values)
     }
 
+    fn exchanges_rows(&self) -> bool {
+        self.solver.exchanges_rows()
+    }
+
     fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
         self.solver = S::solver(kind, structure);
     }

@@ -321,6 +321,13 @@ impl Matrices for StageTangents {
         Ok(report)
     }
 
+    fn exchanges_rows(&self) -> bool {
+        self.systems.iter().any(|system| match system {
+            FactoredSystem::Real(own) => own.solver.exchanges_rows(),
+            FactoredSystem::Complex(own) => own.solver.exchanges_rows(),
+        })
+    }
+
     fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
         for system in &mut self.systems {
             match system {

@@ -67,7 +67,10 @@ impl<'a> Closing<'a> {
         let is_empty = columns.count[0] == 0 || columns.rows.is_empty();
         let saddle = lissom_solver::kind("sparse").filter(|_| !is_empty).map(|kind| {
             let matrix = Matrix::new((kind.real)(&structure), &structure);
-            SaddlePoint::new(matrix, columns.count[0]).equilibrated(size).falling_back(kind.name)
+            SaddlePoint::new(matrix, columns.count[0])
+                .equilibrated(size)
+                .without_compliance()
+                .falling_back(kind.name)
         });
         Self { columns, groups, at: at.clone(), structure, saddle }
     }

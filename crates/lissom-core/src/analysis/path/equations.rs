@@ -102,7 +102,7 @@ impl PathWork {
         let nothing = Change { rows: zeros.clone(), load: 0.0 };
         Self {
             scaled: Scaled::new(&settings.scaling, &representative, 1.0),
-            saddle: SaddlePoint::new(matrix, count).equilibrated(size).falling_back(settings.solver.name),
+            saddle: SaddlePoint::new(matrix, count).equilibrated(size),
             is_symmetric: true,
             other_values: vec![0.0; entries],
             scratch: Scratch::default(),
