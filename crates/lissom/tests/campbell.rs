@@ -474,7 +474,7 @@ stiffness = 1e5
     let ask = ModeRequest { count: Some(2), about: Some(OperatingPoint::Rotation), shift: None };
     let still = OVERHUNG.replace("speed = 10.0", "speed = 0.0");
     let error = modes(&Model::from_text("model.toml", &still), &[], &ask).expect_err("it is at rest");
-    assert!(error.to_string().contains("nothing turns"), "{error}");
+    assert!(error.to_string().contains("nothing rotates"), "{error}");
     // Gravity across the axis.
     let heavy = OVERHUNG.replace("[parameters]", "gravity = [0, 0, -9.81]\n[parameters]");
     let found = modes(&Model::from_text("model.toml", &heavy), &[], &ask);

@@ -9,7 +9,7 @@
 //! multiplier, whose equation then repeats others; with exchanges of rows, if that does not help either. Steps, paths,
 //! initial values, linear models, condition numbers and assembly have this sequence in common. Knows no mechanics.
 //!
-//! Only steps, condition numbers and assembly exchange rows. Paths and the search for modes count negative pivots, which
+//! Only steps and condition numbers fall back on exchanges of rows; assembly begins with them. Paths and the search for modes count negative pivots, which
 //! exchanges hide; and initial values and linear models report a coordinate whose pivot vanishes as one that nothing
 //! determines, where exchanges of rows would find some solution of a singular system.
 

@@ -65,12 +65,10 @@ impl<'a> Closing<'a> {
         let size = columns.count[0] + columns.rows.len();
         let structure = Structure::ungrouped(Pattern::from_entries(size, entries).into());
         let is_empty = columns.count[0] == 0 || columns.rows.is_empty();
-        let saddle = lissom_solver::kind("sparse").filter(|_| !is_empty).map(|kind| {
+        // The small weights of coordinates would cost digits without exchanges of rows.
+        let saddle = lissom_solver::kind("pivoting").filter(|_| !is_empty).map(|kind| {
             let matrix = Matrix::new((kind.real)(&structure), &structure);
-            SaddlePoint::new(matrix, columns.count[0])
-                .equilibrated(size)
-                .without_compliance()
-                .falling_back(kind.name)
+            SaddlePoint::new(matrix, columns.count[0]).equilibrated(size).without_compliance()
         });
         Self { columns, groups, at: at.clone(), structure, saddle }
     }
