@@ -33,6 +33,9 @@ const SLOW: (f64, usize) = (1e-8, 5);
 /// Steps below this, relative to the model's size, no longer change the least change.
 const SETTLED: f64 = 1e-9;
 
+/// Up to so many unknowns a dense matrix is faster.
+const DENSE: usize = 60;
+
 /// Where everything is.
 #[derive(Clone)]
 pub(super) struct Pose {
@@ -65,10 +68,12 @@ impl<'a> Closing<'a> {
         let size = columns.count[0] + columns.rows.len();
         let structure = Structure::ungrouped(Pattern::from_entries(size, entries).into());
         let is_empty = columns.count[0] == 0 || columns.rows.is_empty();
-        // The small weights of coordinates would cost digits without exchanges of rows.
-        let saddle = lissom_solver::kind("pivoting").filter(|_| !is_empty).map(|kind| {
+        // Small weights of coordinates cost digits without exchanges of rows, and so does their equilibration.
+        let sparse = lissom_solver::kind("pivoting").filter(|_| size > DENSE);
+        let kind = sparse.or_else(|| lissom_solver::kind("dense"));
+        let saddle = kind.filter(|_| !is_empty).map(|kind| {
             let matrix = Matrix::new((kind.real)(&structure), &structure);
-            SaddlePoint::new(matrix, columns.count[0]).equilibrated(size).without_compliance()
+            SaddlePoint::new(matrix, columns.count[0]).without_compliance()
         });
         Self { columns, groups, at: at.clone(), structure, saddle }
     }
