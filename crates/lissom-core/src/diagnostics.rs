@@ -1,6 +1,6 @@
 //! Diagnostics: what warnings and failures consist of, and the table of their codes.
 //!
-//! An enumeration in [`diagnostics!`] is a part of the catalogue: each variant states, in one place, its values, code, time,
+//! An enumeration in `diagnostics!` is a part of the catalogue: each variant states, in one place, its values, code, time,
 //! subject, cause, remedy and explanation. A new warning is a new variant.
 
 use std::fmt::{self, Display};
