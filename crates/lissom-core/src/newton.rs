@@ -1,6 +1,6 @@
-//! The only Newton loop. Knows neither time nor mechanics: it corrects, watches the contraction, keeps
-//! the tangent while it serves, renews it when it does not, and stops on a scaled tolerance or when
-//! corrections no longer shrink because round-off is reached.
+//! The only Newton loop. It has no notion of time or mechanics: it corrects, monitors the contraction, keeps the
+//! tangent while that converges, and renews it otherwise. It stops at a scaled tolerance, or when corrections stall
+//! at round-off.
 
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
@@ -12,28 +12,28 @@ use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
 /// A nonlinear system, as Newton's method solves it.
 pub trait Equations {
-    /// Evaluates the residual at the current iterate, solves with the current tangent and corrects.
+    /// Evaluates the residual at the current iterate, solves with the current tangent and applies the correction.
     fn correct(&mut self) -> Correction;
 
-    /// Linearises at the current iterate and factors.
+    /// Linearises at the current iterate and factorises.
     ///
     /// # Errors
     /// If a pivot vanishes.
     fn renew_tangent(&mut self) -> Result<(), FactorError>;
 
-    /// Goes back to the first guess.
+    /// Returns to the initial guess.
     fn restart(&mut self);
 
-    /// Takes the last correction back, and half of what is left of the one before.
+    /// Undoes the last correction, and half of what remains of the one before.
     fn back_off(&mut self);
 
-    /// Whether what is promised of the solution holds to round-off only where the solution does: then slow
-    /// corrections are not taken for round-off before new tangents have failed to speed them up.
+    /// Whether the properties of the solution hold to round-off only if the equations are solved to round-off. Slow
+    /// corrections are then considered round-off only after new tangents have failed to accelerate them.
     fn is_wanted_exactly(&self) -> bool {
         false
     }
 
-    /// Size of corrections that rounding of the equations causes [-]: a new tangent does not make them smaller.
+    /// Size of the corrections caused by rounding of the equations [-]: a new tangent does not reduce them.
     fn round_off(&self) -> f64 {
         0.0
     }
@@ -44,16 +44,16 @@ pub trait Equations {
 pub struct Correction {
     /// Largest scaled correction [-].
     pub size: f64,
-    /// What it is to be compared with: the size of what the step has to find out.
+    /// Size of the increment that the step determines, with which the correction is compared.
     pub reference: f64,
 }
 
-/// When to stop.
+/// Stopping criteria.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// Estimated remaining error relative to the correction's reference [-].
     pub tolerance: f64,
-    /// Most iterations in one solution.
+    /// Maximum number of iterations in one solution.
     pub max_iterations: usize,
     /// Features that are switched off, for studies.
     pub disabled: DisabledFeatures,
@@ -72,23 +72,23 @@ impl Default for Limits {
     }
 }
 
-/// State of the Jacobian's factorization, kept from one solution to the next.
+/// State of the Jacobian's factorization, retained from one solution to the next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct JacobianState {
-    /// Whether there is a factored tangent that may still serve.
+    /// Whether there is a factorised tangent that may be reused.
     pub has_tangent: bool,
-    /// Worst contraction of the last solution with this tangent in which it was seen.
+    /// Slowest contraction in the last solution with this tangent in which it could be measured.
     contraction: Option<f64>,
-    /// Solutions since then.
+    /// Number of solutions since then.
     unseen: u32,
-    /// Size of correction at which iterations have stalled for round-off [-].
+    /// Size at which corrections have stalled at round-off [-].
     round_off: f64,
-    /// What the tangent has cost.
+    /// Cost of the tangent and its solutions.
     cost: JacobianCost,
 }
 
 impl JacobianState {
-    /// Forgets the tangent, and what was learned with it.
+    /// Discards the tangent and its measured contraction.
     fn forget_tangent(&mut self) {
         self.has_tangent = false;
         (self.contraction, self.unseen) = (None, 0);
@@ -110,13 +110,13 @@ impl JacobianState {
     }
 }
 
-/// What a tangent and the solutions found with it have cost, in iterations. An old tangent needs more of them: it is best
-/// renewed when a solution costs more than all since it was made have cost on average, its making included.
+/// Cost of a tangent and of the solutions found with it, in iterations. Older tangents need more of them: a tangent is
+/// best renewed when a solution costs more than the average of all since its assembly, the assembly included.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct JacobianCost {
     spent: f64,
     solutions: f64,
-    /// Of a solution, lately.
+    /// Moving average of the cost of a solution.
     recent: f64,
 }
 
@@ -130,20 +130,20 @@ impl JacobianCost {
     }
 }
 
-/// A solution found.
+/// A converged solution.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Iterations made.
     pub iterations: usize,
-    /// Tangents factored.
+    /// Number of tangents factorised.
     pub factorizations: usize,
     /// Size of the last correction.
     pub correction: f64,
-    /// Whether it stopped because round-off was reached before the tolerance.
+    /// Whether it stopped at round-off before the tolerance was reached.
     pub stagnated: bool,
 }
 
-/// No solution.
+/// Why no solution was found.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
     /// Too many iterations, or corrections that grow.
@@ -158,19 +158,19 @@ pub enum Failure {
         /// Iterations made.
         iterations: usize,
     },
-    /// The tangent has no factorisation without pivoting.
+    /// The tangent cannot be factorised without pivoting.
     Factor(FactorError),
     /// It was interrupted.
     Interrupted,
 }
 
-/// Weight of the last solution in what solutions have cost lately.
+/// Weight of the last solution in the moving average of the cost.
 const NOVELTY: f64 = 0.05;
-/// A stalled correction below this part of what the step has to find out is round-off [-].
+/// A stalled correction below this fraction of the step's increment is round-off [-].
 const STALLS_BELOW: f64 = 1e-6;
-/// Where the solution is wanted exactly, stalled corrections above this are slow convergence [-].
+/// If an exact solution is required, stalled corrections above this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
-/// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
+/// If an exact solution is required, maximum number of new tangents for corrections that stall.
 const MAX_STALLS: usize = 2;
 
 /// Solves `equations`.
@@ -184,9 +184,9 @@ pub fn solve<E: Equations>(
 ) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::default();
     let mut previous: Option<f64> = None;
-    // Whether the tangent was made in this solution.
+    // Whether the tangent was assembled in this solution.
     let mut fresh = false;
-    // Corrections made with the tangent since it was made, and halvings of the last one.
+    // Corrections made with the tangent since its assembly, and halvings of the last one.
     let mut age = 0;
     let mut halvings = 0;
     let mut stalls = if equations.is_wanted_exactly() { MAX_STALLS } else { 0 };
@@ -237,8 +237,8 @@ pub fn solve<E: Equations>(
                 jacobian.update_cost(&outcome, limits);
                 return Ok(outcome);
             }
-            // Seen through the same tangent the next correction must be smaller (natural monotonicity
-            // [Deuflhard 2011, section 3.3]); where it is not, the last one went too far.
+            // With the same tangent the next correction must be smaller (natural monotonicity [Deuflhard 2011,
+            // section 3.3]); otherwise the last one overshot.
             Verdict::BackOff
                 if age == 2 && halvings < MAX_HALVINGS && limits.disabled.allows(SolverFeature::BackOff) =>
             {
@@ -250,7 +250,7 @@ pub fn solve<E: Equations>(
                 halvings = 0;
                 previous = Some(correction.size);
             }
-            // The tangent belongs to an earlier iterate.
+            // The tangent was assembled at an earlier iterate.
             Verdict::Renew | Verdict::BackOff => {
                 halvings = 0;
                 jacobian.forget_tangent();
@@ -270,18 +270,18 @@ pub fn solve<E: Equations>(
     Err(Failure::NotConverged { iterations: outcome.iterations, correction: outcome.correction })
 }
 
-/// What to do after a correction.
+/// Action after a correction.
 enum Verdict {
     Converged,
     /// Round-off is reached.
     Stalled,
-    /// Go on with the same tangent.
+    /// Continue with the same tangent.
     Continue,
-    /// Go on with a new tangent.
+    /// Continue with a new tangent.
     Renew,
-    /// The correction before went too far.
+    /// The previous correction overshot.
     BackOff,
-    /// Go back to the first guess with a new tangent.
+    /// Return to the initial guess with a new tangent.
     Restart,
 }
 
@@ -300,7 +300,7 @@ fn test_convergence(
     let goal = (limits.tolerance * reference).max(jacobian.round_off);
     let Some(previous) = previous else {
         // The first correction is judged by the contraction of earlier solutions: after n solutions in which it was not
-        // seen it may be n + 1 times as slow.
+        // measured it may be n + 1 times as slow.
         if size == 0.0 {
             return Verdict::Converged;
         }
@@ -312,7 +312,7 @@ fn test_convergence(
             jacobian.unseen += 1;
             return Verdict::Converged;
         }
-        // It will be seen anew.
+        // It will be measured again.
         (jacobian.contraction, jacobian.unseen) = (None, 0);
         return Verdict::Continue;
     };
@@ -322,7 +322,7 @@ fn test_convergence(
     if remaining(credible) * size <= goal {
         return Verdict::Converged;
     }
-    // Stiff members and large positions have more of it.
+    // Round-off is larger in models with stiff members or large positions.
     let near_round_off = size <= 10.0 * round_off::CORRECTION || size <= STALLS_BELOW * reference;
     if contraction > limits.tuning.of(TuningParameter::Stalled) && near_round_off && fresh {
         if size <= round_off::CORRECTION {
@@ -331,14 +331,14 @@ fn test_convergence(
         return Verdict::Stalled;
     }
     if contraction > 1.0 {
-        // An old tangent leads astray.
+        // An old tangent may diverge.
         return if fresh { Verdict::BackOff } else { Verdict::Restart };
     }
     let needed = if contraction < 1.0 { (goal / size).ln() / contraction.ln() } else { f64::INFINITY };
     if needed > limits.tuning.of(TuningParameter::TangentCost) { Verdict::Renew } else { Verdict::Continue }
 }
 
-/// Sum of the corrections still to come, relative to the last one: a geometric series.
+/// Sum of the remaining corrections, relative to the last one: a geometric series.
 fn remaining(contraction: f64) -> f64 {
     if contraction < 1.0 { contraction / (1.0 - contraction) } else { f64::INFINITY }
 }
@@ -347,7 +347,7 @@ fn remaining(contraction: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// x² = 2 with a tangent that is only renewed when asked.
+    /// x² = 2 with a tangent that is renewed only on request.
     struct Root {
         x: f64,
         slope: f64,
@@ -399,8 +399,8 @@ mod tests {
         assert!(outcome.iterations <= 6 && outcome.factorizations == 0);
     }
 
-    /// Two equations: one solved at once, the other, a million times smaller, with a tangent that contracts
-    /// by 0.9 until it is renewed. As in statics near a buckling load.
+    /// Two equations: one solved at once, the other, a million times smaller, with a tangent that contracts by 0.9
+    /// until it is renewed. Statics near a buckling load behaves similarly.
     struct Pair {
         large: f64,
         small: f64,
@@ -435,7 +435,7 @@ mod tests {
             root.x += 1e-15;
             solve(&mut root, &limits, &mut jacobian).expect("converges");
         }
-        // The next solution lies somewhere else and must be found.
+        // The next solution is elsewhere and has to be found.
         root.x = 1.5;
         solve(&mut root, &limits, &mut jacobian).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-11, "{}", root.x);

@@ -1,5 +1,5 @@
 //! Motion of the nodes at a stage, from their increments since the start of the step, eight nodes side by side.
-//! Knows neither how long a step is nor what the increments are found from: weights come with them.
+//! Independent of the step size and of the unknowns of the increments: weights are passed in.
 //!
 //! ```text
 //! from the start:  H = H₀ exp(V₀ t + z),          V = rate,                        V̇ = curvature
@@ -7,9 +7,9 @@
 //!                                                 V̇ = T(z) curvature + Ṫ(z) rate - ad_W Ad(exp(-z)) V₀
 //! ```
 //!
-//! H₀, V₀ frame and twist at the start, t time since then, z increment, rate and curvature linear combinations of
-//! the increments of all stages and of what is known at the start. All that depends on the start alone is computed
-//! once per step.
+//! H₀, V₀ frame and twist at the start, t time since then, z increment, rate and curvature linear combinations of the
+//! increments of all stages and of the state at the start. Terms that depend on the start only are computed once per
+//! step.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{
@@ -23,24 +23,24 @@ use crate::kinematics::lanes::{
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
 use crate::schemes::MAX_STAGES;
 
-/// What increments mean.
+/// Parametrization of the increments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meaning {
     /// See the formulas.
     FromStart,
     /// See the formulas.
     Departure,
-    /// Departures, where V - V₀ is asked for without cancellation: times [`StageTable::gain`] it replaces
-    /// the acceleration.
+    /// Departures, with V - V₀ computed without cancellation: multiplied by [`StageTable::gain`] it replaces the
+    /// acceleration.
     Gain,
 }
 
-/// What a scheme says about a stage, in SI.
+/// A scheme's coefficients at a stage, in SI.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StageTable {
-    /// What the increments mean.
+    /// Parametrization of the increments.
     pub(crate) meaning: Meaning,
-    /// Time since the start of the step that nodes go straight on [s].
+    /// Time since the start of the step over which nodes are extrapolated [s].
     pub(crate) ahead: f64,
     /// Weights of all stages' increments in the rate [1/s].
     pub(crate) rate: [f64; MAX_STAGES],
@@ -50,16 +50,16 @@ pub(crate) struct StageTable {
     pub(crate) gain: f64,
 }
 
-/// What is known at the start of a step, by row.
+/// Known terms at the start of a step, by row.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known<'a> {
-    /// Part of the rate that does not depend on increments; without the twist itself [m/s, rad/s].
+    /// Part of the rate that does not depend on increments, without the twist itself [m/s, rad/s].
     pub(crate) rate: &'a [f64],
     /// The same of the curvature [m/s², rad/s²].
     pub(crate) curvature: &'a [f64],
 }
 
-/// Which nodes move, and what is known of them at the start of a step.
+/// Which nodes move, and their state at the start of a step.
 #[derive(Clone, Debug)]
 pub(crate) struct Nodes {
     processor: pulp::Arch,
@@ -75,11 +75,11 @@ struct NodeBlock {
     count: usize,
     nodes: [NodeId; WIDTH],
     rows: [[u32; 6]; WIDTH],
-    /// Whether each node's rows are six in a row.
+    /// Whether the rows of each node are six consecutive ones.
     consecutive: bool,
 }
 
-/// What is known of eight nodes at the start of a step.
+/// State of eight nodes at the start of a step.
 #[derive(Clone, Debug)]
 struct BlockStart {
     frame: Frames,
@@ -92,7 +92,7 @@ struct BlockStart {
     curvature: Screws,
 }
 
-/// The same of as many nodes as stand side by side.
+/// The same for as many nodes as are processed side by side.
 #[derive(Clone, Copy)]
 struct Start<R> {
     frame: Pose<R>,
@@ -101,7 +101,7 @@ struct Start<R> {
     twist: Screw<R>,
 }
 
-/// Where nodes have come.
+/// Poses and motion of the nodes at a stage.
 #[derive(Clone, Copy)]
 struct Reached<R> {
     change: Pose<R>,
@@ -127,7 +127,7 @@ impl Nodes {
         Self { processor: processor_for(moving.len()), blocks, fixed, starts }
     }
 
-    /// Computes what depends on the start of a step only, for one stage.
+    /// Computes the terms of one stage that depend only on the start of a step.
     pub(crate) fn enter(&mut self, stage: usize, table: &StageTable, start: &Kinematics, known: Known<'_>) {
         self.processor.dispatch(Entry {
             blocks: &self.blocks,
@@ -138,7 +138,7 @@ impl Nodes {
         });
     }
 
-    /// Where the nodes are at a stage, with the increments of all stages by row, and how their frames have changed.
+    /// Poses of the nodes at a stage, from the increments of all stages by row, and the changes of their frames.
     pub(crate) fn update_nodes(
         &self,
         stage: usize,
@@ -171,7 +171,7 @@ impl NodeBlock {
         Self { count: nodes.len(), nodes: nodes_of_lanes, rows, consecutive }
     }
 
-    /// Values by row, zero where there is none.
+    /// Values by row, zero if a node lacks the row.
     #[inline(always)]
     fn gather(&self, lanes: usize, values: &[f64], screws: &mut Screws) {
         let of = |lane: usize| {
@@ -300,7 +300,7 @@ fn stage_kinematics<R: Real>(
     Reached { change, frame, twist: carried + gained, acceleration }
 }
 
-/// What one part of a block reaches, lane by lane.
+/// Result for one part of a block, lane by lane.
 struct Places {
     frame: Frames,
     twist: Screws,
@@ -323,7 +323,7 @@ impl Places {
         }
     }
 
-    /// To as many nodes as there are.
+    /// Writes to as many nodes as there are.
     #[inline(always)]
     fn scatter(&self, nodes: &[NodeId], at: &mut Kinematics, changes: &mut [MotionChange]) {
         for (lane, &node) in nodes.iter().enumerate().take(WIDTH) {
@@ -339,7 +339,7 @@ impl Places {
     }
 }
 
-/// Numbers as they are in the lanes.
+/// Numbers in the order of the lanes.
 #[inline(always)]
 fn spread<S: Simd, const N: usize>(numbers: [Lanes<S>; N]) -> [Block; N] {
     let mut blocks = [[0.0; WIDTH]; N];
@@ -365,7 +365,7 @@ mod tests {
     use super::*;
     use crate::kinematics::NodeMotion;
 
-    /// Numbers between -1 and 1 that look random.
+    /// Pseudo-random numbers between -1 and 1.
     fn numbers(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
         move || {
@@ -376,7 +376,7 @@ mod tests {
         }
     }
 
-    /// A fixed node, then nodes with all degrees of freedom, but one with translations only.
+    /// A fixed node, then nodes with all degrees of freedom, except one with translations only.
     fn layout(count: usize, point_mass: usize) -> Layout {
         let mut next = 0;
         let mut layout = Layout { node_rows: vec![[LOCKED; 6]], ..Layout::default() };

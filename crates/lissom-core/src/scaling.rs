@@ -1,4 +1,4 @@
-//! THE place: step size, scale, penalty, augmented Lagrangian term, scaled multipliers.
+//! The only module that scales: step size, scale, penalty, augmented Lagrangian term, scaled multipliers.
 //!
 //! Before any discretisation [Bauchau, Epple and Bottasso 2009]: time τ = t/h, so that q' = h v and
 //! q'' = h² a, equations of motion times h², constraints times s, multipliers λ = (s/h²) λ̂:
@@ -7,7 +7,7 @@
 //! M q'' + h D q' + h² K q + s Bᵀ (λ̂ + p C) = h² F,      s C = 0,      s = m_r + d_r h + k_r h²
 //! ```
 //!
-//! Elements and joints know none of this, schemes know unit steps only.
+//! Elements and joints are independent of scaling; schemes see unit steps only.
 
 use std::ops::Mul;
 
@@ -24,12 +24,12 @@ use crate::system::{Blend, Linearization, State, System};
 /// How the equations are scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ScaleBy {
-    /// s = m_r + d_r h + k_r h², from the model's own representative mass, damping and stiffness.
+    /// s = m_r + d_r h + k_r h², from the model's representative mass, damping and stiffness.
     #[default]
     Physical,
     /// s = 1.
     Unit,
-    /// Not at all: the equations as they are in SI.
+    /// No scaling: the equations in SI units.
     None,
 }
 
@@ -57,23 +57,23 @@ impl ScaleBy {
     }
 }
 
-/// What the user may choose.
+/// The user's choice of scaling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScalingChoice {
-    /// How s is found.
+    /// How s is determined.
     pub by: ScaleBy,
-    /// Whether rows and columns of a scaled tangent are brought to one size besides.
+    /// Whether rows and columns of a scaled tangent are also equilibrated.
     pub equilibrated: bool,
-    /// Whether the augmented Lagrangian term is there.
+    /// Whether the augmented Lagrangian term is included.
     pub augmented: bool,
     /// Its factor p [-].
     pub penalty: f64,
 }
 
-/// Small, because s counts the stiffest part of the model: with p = 1 the augmented term is a spring as stiff as
-/// that part across every constraint, and a tangent that is kept while joints turn contracts slowly. On the
-/// tip crank (HHT, h = 1e-4 s) p = 1 takes 395 tangents, 1e-3 takes 45 and 1e-6 takes 37. Any p > 0 makes the
-/// block of massless coordinates definite.
+/// Small, because s includes the stiffest part of the model. With p = 1 the augmented term is a spring as stiff as
+/// that part across every constraint, and a tangent that is kept while joints rotate contracts slowly. On the tip
+/// crank (HHT, h = 1e-4 s) p = 1 takes 395 tangents, 1e-3 takes 45 and 1e-6 takes 37. Any p > 0 makes the block of
+/// massless coordinates definite.
 pub const DEFAULT_PENALTY: f64 = 1e-3;
 
 impl Default for ScalingChoice {
@@ -89,9 +89,9 @@ impl ScalingChoice {
     }
 }
 
-/// Representative mass, damping and stiffness of a model: averages of the diagonals of M, D and K over
-/// all coordinates, massless ones included. A rotation counts as the arc it makes at the representative
-/// length, so that all of them are of one unit and change with the unit of length as a mass does.
+/// Representative mass, damping and stiffness of a model: averages of the diagonals of M, D and K over all
+/// coordinates, massless ones included. A rotation is measured by the arc at the representative length, so that all
+/// coordinates have one unit and scale with the unit of length as a mass does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Representative {
     /// m_r [kg].
@@ -111,7 +111,7 @@ impl Representative {
         let count = system.layout().coordinate_count();
         let length = spread(at);
         let quantities = system.layout().quantities();
-        // States are of other units than positions.
+        // States have other units than positions.
         let is_place = |row: &usize| quantities[*row] != Quantity::State;
         let places = (0..count).filter(is_place).count().max(1);
         let average = |values: &[f64]| {
@@ -131,7 +131,7 @@ impl Representative {
     }
 }
 
-/// Length that represents a unit of `quantity` where a radian is worth `radian` [m].
+/// Length that represents a unit of `quantity`, if `radian` is the length that represents a radian [m].
 fn unit(quantity: Quantity, radian: f64) -> f64 {
     match quantity {
         Quantity::Length | Quantity::State => 1.0,
@@ -139,7 +139,7 @@ fn unit(quantity: Quantity, radian: f64) -> f64 {
     }
 }
 
-/// Root mean square distance between two nodes; 1 where all are at a single position.
+/// Root mean square distance between two nodes; 1 if all nodes coincide.
 fn spread(at: &Kinematics) -> f64 {
     let places: Vec<_> = at.nodes.iter().map(|node| node.frame.position).collect();
     let count = places.len() as f64;
@@ -159,7 +159,7 @@ pub struct Scaled {
     augmented: f64,
     /// Factor of the equations of motion: h², or 1 unscaled.
     dynamic: f64,
-    /// Length that represents a radian: the representative length, or 1 m as SI has it.
+    /// Length that represents a radian: the representative length, or 1 m in SI.
     radian: f64,
 }
 
@@ -178,13 +178,13 @@ impl Scaled {
         Self { h, s, augmented, dynamic, radian }
     }
 
-    /// For a linear model without steps, time in units of 1/`rate` [1/s].
+    /// For a linear model without steps, with time in units of 1/`rate` [1/s].
     pub(crate) fn at_rate(representative: &Representative, rate: f64) -> Self {
         Self::new(&ScalingChoice::default(), representative, rate.recip())
     }
 
-    /// The same scale for steps of another size [s]: any scale will do, and a tangent made with this one may go on to
-    /// serve.
+    /// The same scale for steps of another size [s]: any scale is valid, and a tangent assembled with this one
+    /// remains usable.
     #[must_use]
     pub fn resized(mut self, choice: &ScalingChoice, h: f64) -> Self {
         self.h = h;
@@ -217,7 +217,7 @@ impl Scaled {
         self.dynamic
     }
 
-    /// From a scaled multiplier to λ [N, N m].
+    /// Factor from a scaled multiplier to λ [N, N m].
     pub fn multiplier_factor(&self) -> f64 {
         self.s / self.dynamic
     }
@@ -244,7 +244,7 @@ impl Scaled {
         }
     }
 
-    /// What a stage of a scheme says about nodes, in SI.
+    /// A stage's coefficients for the motion of nodes, in SI.
     fn stage_table(&self, scheme: &Scheme, stage: &Stage) -> StageTable {
         let meaning = match scheme.increments {
             Increments::FromStart => Meaning::FromStart,
@@ -260,8 +260,8 @@ impl Scaled {
         }
     }
 
-    /// Unit-step rates q' = h v, curvatures q'' = h² v̇ and scheme memory of a state, by row, and what the stages'
-    /// motions have from the start of the step.
+    /// Unit-step velocities q' = h v, accelerations q'' = h² v̇ and the scheme's algorithmic acceleration of a state,
+    /// by row, and the terms of the stages' motions that depend on the start of the step.
     pub fn to_unit_step(&self, layout: &Layout, scheme: &Scheme, state: &State, out: &mut UnitStepState) {
         let square = self.h * self.h;
         for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
@@ -289,7 +289,8 @@ impl Scaled {
         }
     }
 
-    /// The scheme's memory after a step, back in SI, from a linear combination of the increments and the start.
+    /// The scheme's algorithmic acceleration after a step, in SI, from a linear combination of the increments and the
+    /// start.
     pub fn memory_from_unit_step(
         &self,
         combination: &Combination,
@@ -312,8 +313,8 @@ impl Scaled {
         (start + elapsed, elapsed)
     }
 
-    /// Motion at a stage in SI, from the increments since the start of the step and the scheme's formulas
-    /// for unit-step rates and curvatures. `increments[j][row]` are those of stage j.
+    /// Motion at a stage in SI, from the increments since the start of the step and the scheme's formulas for
+    /// unit-step velocities and accelerations. `increments[j][row]` are those of stage j.
     pub fn stage_motion(
         &self,
         layout: &Layout,
@@ -324,7 +325,7 @@ impl Scaled {
         reached: &mut StageMotion,
     ) {
         let stage = &scheme.stages[increments.stage];
-        // Load steps have no rates to go on with.
+        // Load steps have no velocities to extrapolate with.
         let straight = if scheme.dynamic { 1.0 } else { 0.0 };
         let square = self.h * self.h;
         let StageMotion { at: out, changes, coordinate_changes } = reached;
@@ -353,8 +354,8 @@ impl Scaled {
     /// h V̇_i = Σ_j (A⁻¹)_ij (V_j - V_0),   V_end = V_0 + Σ_j (bᵀA⁻¹)_j (V_j - V_0),   ψ_end = Σ_j (bᵀA⁻¹)_j ψ_j
     /// ```
     ///
-    /// On entry the stages hold (V_j - V_0)/h in place of accelerations, see [`Self::stage_motion`]; algebraic
-    /// coordinates hold their rates.
+    /// On entry the stages contain (V_j - V_0)/h in place of accelerations, see [`Self::stage_motion`]; algebraic
+    /// coordinates contain their rates.
     pub fn integrate_velocities(
         &self,
         layout: &Layout,
@@ -412,7 +413,7 @@ impl Scaled {
         }
     }
 
-    /// How long the rates at the stages last on the way to each stage, and to the end [s].
+    /// Integration times of the stage rates up to each stage, and up to the end [s].
     pub(crate) fn durations(&self, tableau: &Tableau) -> ([[f64; STAGES]; STAGES], [f64; STAGES]) {
         (
             tableau.stages.map(|row| row.map(|weight| self.h * weight)),
@@ -421,7 +422,7 @@ impl Scaled {
     }
 }
 
-/// Motion at a stage, and what has changed since the start of the step.
+/// Motion at a stage, and its change since the start of the step.
 #[derive(Clone, Debug)]
 pub struct StageMotion {
     /// Positions, twists and accelerations.
@@ -443,7 +444,7 @@ impl StageMotion {
     }
 }
 
-/// Increments of all stages, and which stage is meant.
+/// Increments of all stages, and the index of the stage considered.
 #[derive(Clone, Copy, Debug)]
 pub struct StageIncrements<'a> {
     /// By stage, then by row.
@@ -461,14 +462,14 @@ pub struct UnitStepState {
     pub curvature: Vec<f64>,
     /// The scheme's memory, like q''.
     pub algorithmic: Vec<f64>,
-    /// What the rate and the curvature at a stage have from the start, in SI.
+    /// Terms of velocity and acceleration at a stage that depend on the start, in SI.
     known_rate: Vec<f64>,
     known_curvature: Vec<f64>,
     nodes: Nodes,
 }
 
 impl UnitStepState {
-    /// Room for the coordinates of a system.
+    /// Storage for the coordinates of a system.
     pub fn new(layout: &Layout, scheme: &Scheme) -> Self {
         let zeros = vec![0.0; layout.coordinate_count()];
         Self {
@@ -481,7 +482,7 @@ impl UnitStepState {
         }
     }
 
-    /// A scheme's first guess, which knows no increments yet, for all rows.
+    /// A scheme's initial guess, with all increments zero, for all rows.
     pub(crate) fn predict(&self, combination: &Combination, out: &mut [f64]) {
         known_part(combination, [&self.rate, &self.curvature, &self.algorithmic], out);
     }
@@ -498,7 +499,7 @@ impl UnitStepState {
     }
 }
 
-/// What a linear combination has from the rates, curvatures and memory at the start, by row.
+/// Terms of a linear combination from the velocities, accelerations and memory at the start, by row.
 fn known_part(combination: &Combination, [rate, curvature, algorithmic]: [&[f64]; 3], out: &mut [f64]) {
     for (((value, rate), curvature), algorithmic) in out.iter_mut().zip(rate).zip(curvature).zip(algorithmic)
     {

@@ -1,36 +1,36 @@
-//! Parameters of the nonlinear solver and of step-size control. Each can be halved and doubled, so that a
-//! command can show what depends on it. Bounds of round-off and sizes of memories are where they are used.
+//! Parameters of the nonlinear solver and of step-size control. Each can be halved and doubled by a command that
+//! shows their influence. Bounds of round-off and sizes of buffers are defined where they are used.
 
 /// A parameter of the solver.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum TuningParameter {
-    /// What a new tangent costs, in iterations: some seven of soft-beam-64 and beam-net-4 take as long. It is renewed within
-    /// a solution that would need more of them.
+    /// Cost of a new tangent, in iterations: some seven of soft-beam-64 and beam-net-4 take as long. The tangent is renewed
+    /// within a solution that would need more of them.
     TangentCost,
-    /// Where a solution is believed in without having seen its contraction, its error is to be this part of what is
-    /// allowed: many such solutions in a row err to the same side.
+    /// If a solution is accepted without a measured contraction, its estimated error must be below this fraction of
+    /// the tolerance: many such solutions in a row have errors of the same sign.
     Unseen,
-    /// A better contraction than this is not believed of a tangent made for another solution: the largest part of a
-    /// correction may vanish at once and hide a small part that shrinks slowly.
+    /// Lower bound of the contraction assumed for a tangent from another solution: the largest part of a correction
+    /// may vanish at once and hide a small part that shrinks slowly.
     Contraction,
-    /// Corrections that shrink by less than this are round-off, once they are small.
+    /// Corrections that shrink by less than this are round-off if they are small.
     Stalled,
-    /// A secant is kept if what the tangent has missed is below this fraction of it: where a tangent is worse it is to be
-    /// renewed, and corrections that are round-off contain no information.
+    /// A secant is kept if the tangent's error is below this fraction of it. A worse tangent has to be renewed, and
+    /// corrections at round-off contain no information.
     SecantCredible,
-    /// What a step counts for after another one in linear prediction: coefficients change as the motion does.
+    /// Weight of a step after the next one in linear prediction: the coefficients change with the motion.
     PredictionFading,
-    /// A step is chosen this much smaller than its estimated error allows, so that few are rejected.
+    /// Safety factor between the step allowed by the estimated error and the one chosen, so that few are rejected.
     Safety,
-    /// The size of steps is kept where it would change by less than this factor: what was learned of it goes on to serve.
+    /// The step size is kept if it would change by less than this factor: data of earlier steps remain valid.
     Kept,
-    /// What a step may err, over the tolerance to the power at which errors at the end are in proportion to it: with 1 they
-    /// are about the tolerance, with a half nine in ten stay below it.
+    /// Allowed error of a step over the tolerance, raised to the power at which errors at the end are proportional to it.
+    /// With 1 they are about the tolerance; with a half nine in ten are below it.
     ShareOfStep,
 }
 
-/// Every parameter with its word, its value and where it counts.
+/// Every parameter with its name, its value and its use.
 pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 9] = [
     (TuningParameter::TangentCost, "tangent-cost", 8.0, "iterations that a new tangent costs"),
     (
@@ -53,10 +53,10 @@ pub const TUNING_PARAMETERS: [(TuningParameter, &str, f64, &str); 9] = [
     (TuningParameter::ShareOfStep, "share-of-step", 0.5, "part of the tolerance that a step may err"),
 ];
 
-/// A planned step, a load step and a correction are halved so often at most.
+/// Maximum number of halvings of a planned step, a load step or a correction.
 pub(crate) const MAX_HALVINGS: u32 = 12;
 
-/// Their words.
+/// Their names.
 pub const WORDS: [&str; TUNING_PARAMETERS.len()] = {
     let mut words = [""; TUNING_PARAMETERS.len()];
     let mut index = 0;
@@ -78,12 +78,12 @@ impl Default for Tuning {
 }
 
 impl Tuning {
-    /// The value of one.
+    /// The value of one parameter.
     pub fn of(&self, parameter: TuningParameter) -> f64 {
         self.0[parameter as usize]
     }
 
-    /// With the parameters of these words `factor` times as large; none where a word means nothing.
+    /// With the named parameters multiplied by `factor`; none if a name is unknown.
     pub fn times<'a>(mut self, words: impl IntoIterator<Item = &'a str>, factor: f64) -> Option<Self> {
         for word in words {
             let (parameter, ..) = TUNING_PARAMETERS.iter().find(|(_, name, ..)| *name == word)?;

@@ -1,7 +1,7 @@
 //! Schemes of several stages from the inverse of their Runge-Kutta matrix, with one tangent for all stages.
 //!
-//! Legend: D_i increment at stage i, measured from going on with the rate at the start; (λ, v, u) an eigenvalue of A⁻¹ with its column
-//! v and row u, u v = 1.
+//! Legend: D_i increment at stage i, relative to extrapolation with the velocity at the start; (λ, v, u) an eigenvalue of A⁻¹
+//! with its column v and row u, u v = 1.
 //!
 //! ```text
 //! q' = Σ (A⁻¹)_ij D_j,   q'' = Σ (A⁻²)_ij D_j
@@ -21,7 +21,8 @@ use super::scheme::{
 
 use crate::round_off;
 
-/// A stiffly accurate scheme with stages at these abscissae, the last of them 1, from A⁻¹. Its constants for step control are to be set.
+/// A stiffly accurate scheme with stages at these abscissae, the last of them 1, from A⁻¹. Its constants for step control have to
+/// be set.
 pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rate: [[f64; S]; S]) -> Scheme {
     let matrix = SMatrix::<f64, S, S>::from_fn(|i, j| rate[i][j]);
     let curvature = matrix * matrix;
@@ -50,7 +51,7 @@ pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rat
     }
 }
 
-/// Eigenvalues with their columns and rows.
+/// Eigenvalues with their right and left eigenvectors.
 fn decouple<const S: usize>(matrix: &SMatrix<f64, S, S>) -> Coupling {
     let eigenvalues = nalgebra::DMatrix::from_fn(S, S, |i, j| matrix[(i, j)]).complex_eigenvalues();
     let mut systems = Vec::new();
@@ -87,7 +88,7 @@ fn decouple<const S: usize>(matrix: &SMatrix<f64, S, S>) -> Coupling {
 /// The vector with first entry 1 that (M - λ) maps to zero: by inverse iteration, exact after a few steps since λ is an eigenvalue to
 /// round-off.
 fn null_vector<const S: usize>(matrix: &SMatrix<f64, S, S>, value: Complex64) -> [Complex64; S] {
-    /// Solves with the nearly singular matrix, each of which gains nearly all digits.
+    /// Number of solutions with the nearly singular matrix, each of which adds nearly all digits.
     const STEPS: usize = 3;
     let shift = value * (1.0 + 1e-9);
     let shifted = nalgebra::DMatrix::from_fn(S, S, |i, j| {

@@ -15,8 +15,8 @@
 use super::radau_iia::two_stage_collocation;
 use super::scheme::{Scheme, SchemeError, SchemeKind, Tableau, within};
 
-/// The energy is bounded by the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step of
-/// 0.1 ms.
+/// The energy is bounded for the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step
+/// of 0.1 ms.
 const TOLERANCE: f64 = 1e-12;
 
 /// Registry entry.

@@ -1,7 +1,7 @@
 //! Generalized-α and HHT-α on Lie groups [Chung and Hulbert 1993; Hilber, Hughes and Taylor 1977; Arnold
 //! and Brüls 2007; Brüls, Cardona and Arnold 2012].
 //!
-//! Legend: v rate, v̇ curvature, a the scheme's memory, z increment.
+//! Legend: v velocity, v̇ acceleration, a the algorithmic acceleration, z increment.
 //!
 //! ```text
 //! z = v_n + (½ - β) a_n + β a_{n+1},      v_{n+1} = v_n + (1 - γ) a_n + γ a_{n+1}
@@ -54,7 +54,7 @@ pub fn hht(alpha: f64) -> Result<Scheme, SchemeError> {
 }
 
 fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
-    // These two give second order and, at given (α_m, α_f), the most damping of high frequencies.
+    // These two give second order and, for given (α_m, α_f), the largest damping of high frequencies.
     let gamma = 0.5 + alpha_f - alpha_m;
     let beta = 0.25 * (gamma + 0.5).powi(2);
     // a_{n+1} = (z - (½ - β) a_n) / β with the departure z = ψ - v_n
@@ -78,8 +78,8 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
         algorithmic: memory,
         increments: Increments::FromStart,
         memory_delay: alpha_m - alpha_f,
-        // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The prediction misses β j, the scheme errs
-        // by (β - 1/6 + (α_m - α_f)/2) j.
+        // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The error of the prediction is β j, that
+        // of the scheme (β - 1/6 + (α_m - α_f)/2) j.
         error_constant: (beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f)) / beta,
         controlled_order: 2,
         planned_share: 0.8,

@@ -1,7 +1,7 @@
-//! How time advances, for steps of unit length: no formula here contains the step size.
+//! Time integration for steps of unit length: no formula here contains the step size.
 //!
-//! A scheme is a table of numbers: at each stage, rate and curvature are linear combinations of the
-//! increments since the start of the step (the unknowns) and of what is known at the start.
+//! A scheme is a table of coefficients: at each stage, velocity and acceleration are linear combinations of the
+//! increments since the start of the step (the unknowns) and of the state at the start.
 
 pub(crate) mod collocation;
 pub mod energy_decaying;

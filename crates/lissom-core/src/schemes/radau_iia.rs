@@ -1,23 +1,23 @@
 //! Radau IIA with two stages, third order, stiffly accurate [Hairer and Wanner 1996, sections IV.5, IV.8].
 //!
-//! Legend: D_i increment at stage i, measured from going on with the rate at the start, so that
-//! q' = Σ (A⁻¹)_ij D_j and q'' = Σ (A⁻²)_ij D_j without terms of the start.
+//! Legend: D_i increment at stage i, relative to extrapolation with the velocity at the start, so that q' = Σ
+//! (A⁻¹)_ij D_j and q'' = Σ (A⁻²)_ij D_j without terms of the start.
 //!
 //! ```text
 //! A = [5/12 -1/12; 3/4 1/4],   c = (1/3, 1),   A⁻¹ = [3/2 1/2; -9/2 5/2],   A⁻² = [0 2; -18 4]
 //! ```
 //!
-//! A⁻¹ = T diag(μ, μ̄) T⁻¹ with μ = 2 + i√2: with one tangent for both stages the linear systems come
-//! apart into one complex system of the size of a single stage. Its real form must not be eliminated first
-//! stage first without pivoting, for (A⁻²)₁₁ = 0.
+//! A⁻¹ = T diag(μ, μ̄) T⁻¹ with μ = 2 + i√2: with one tangent for both stages the linear systems decouple into one
+//! complex system of the size of a single stage. Its real form must not be eliminated stage by stage without
+//! pivoting, because (A⁻²)₁₁ = 0.
 
 use super::collocation::collocation;
 use super::scheme::{Scheme, SchemeKind};
 
-/// The prediction misses a sixth of the third derivative; the scheme's own error is of fourth order. With this part
-/// of what is missed, errors at the end of a run are near the tolerance.
+/// The error of the prediction is a sixth of the third derivative; the scheme's own error is of fourth order. With
+/// this fraction of the prediction error, errors at the end of a run are near the tolerance.
 const ERROR_CONSTANT: f64 = 0.5;
-/// With steps of one size the scheme errs by a power of the step less than that part: measured, a quarter of the sum where
+/// With a constant step size the scheme's error is one order smaller than that fraction: measured, a quarter of the sum if
 /// it is some per cent.
 const PLANNED_SHARE: f64 = 0.25;
 
@@ -49,7 +49,7 @@ mod tests {
     use super::*;
     use crate::schemes::Combination;
 
-    /// Rates and curvatures of quadratics are exact.
+    /// Velocities and accelerations of quadratics are exact.
     #[test]
     fn quadratic_motion_is_reproduced() {
         let scheme = two_stages();

@@ -4,17 +4,17 @@
 //! c = ((4 - √6)/10, (4 + √6)/10, 1),   A = [c_i^k/k] [c_j^(k-1)]⁻¹,   k = 1, 2, 3
 //! ```
 //!
-//! Of constrained motions positions are of fifth order, velocities of third and multipliers of second order
-//! [Hairer, Lubich and Roche 1989].
+//! In constrained motion positions are of fifth order, velocities of third and multipliers of second order [Hairer,
+//! Lubich and Roche 1989].
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::collocation::collocation;
 use super::scheme::{Scheme, SchemeKind};
 
-/// As for two stages, from the same estimates: they are of lower order than the scheme.
+/// As for two stages, from the same estimates: their order is lower than that of the scheme.
 const ERROR_CONSTANT: f64 = 0.5;
-/// With steps of one size the scheme errs by powers of the step less than that part.
+/// With a constant step size the scheme's error is of higher order than that fraction.
 const PLANNED_SHARE: f64 = 0.05;
 
 /// Registry entry.

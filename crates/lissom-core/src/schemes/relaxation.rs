@@ -1,12 +1,12 @@
-//! Relaxation: inertia resists each step from rest, and nothing moves after it.
+//! Relaxation: inertia resists each step, which starts from rest; velocities after it are zero.
 //!
-//! With rate zero and q'' = z a step minimises ½ zᵀMz + V over the positions, V the potential [proximal point method, Rockafellar
-//! 1976]: the potential falls in every step, and where a step moves nothing there is equilibrium. The inertia makes the tangent
-//! definite where the stiffness is not, as that of a cable without tension.
+//! With zero velocity and q'' = z a step minimises ½ zᵀMz + V over the positions, V the potential [proximal point method,
+//! Rockafellar 1976]. The potential decreases in every step, and a step without motion is an equilibrium. The inertia makes the
+//! tangent definite where the stiffness is not, such as that of a slack cable.
 
 use super::scheme::{Combination, Coupling, Increments, Scheme, Stage, Weights};
 
-/// The scheme with rate zero and the increment as curvature.
+/// The scheme with zero velocity and the increment as acceleration.
 pub(crate) fn relaxation() -> Scheme {
     Scheme {
         name: "relaxation".to_owned(),

@@ -1,11 +1,11 @@
-//! What a scheme consists of: its stages as linear combinations, its linear systems, its parameters. The table of all schemes is
-//! in `schemes`.
+//! The parts of a scheme: its stages as linear combinations, its linear systems, its parameters. The table of all schemes is in
+//! `schemes`.
 
 use num_complex::Complex64;
 
 use crate::kinematics::step_stages::STAGES;
 
-/// Most stages a scheme may have.
+/// Maximum number of stages of a scheme.
 pub const MAX_STAGES: usize = 3;
 
 /// Coefficients of a linear combination.
@@ -13,11 +13,11 @@ pub const MAX_STAGES: usize = 3;
 pub struct Combination {
     /// Of each stage's increment.
     pub increments: [f64; MAX_STAGES],
-    /// Of the rate q' at the start.
+    /// Of the velocity q' at the start.
     pub rate: f64,
-    /// Of the scheme's memory at the start, which is like q''.
+    /// Of the scheme's algorithmic acceleration at the start, which is similar to q''.
     pub algorithmic: f64,
-    /// Of the curvature q'' at the start.
+    /// Of the acceleration q'' at the start.
     pub curvature: f64,
 }
 
@@ -50,27 +50,27 @@ impl Combination {
 pub struct Stage {
     /// Position in the step, 0 … 1.
     pub abscissa: f64,
-    /// q' at the stage, less that at the start.
+    /// q' at the stage minus that at the start.
     pub rate: Combination,
     /// q'' at the stage.
     pub curvature: Combination,
-    /// A first guess of the increment.
+    /// Initial guess of the increment.
     pub prediction: Combination,
 }
 
-/// What a scheme's increments z mean for a frame H that turns.
+/// Meaning of a scheme's increments z for a rotating frame H.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Increments {
-    /// H = H_start exp(c q'_start + z), and q' is the body twist: the scheme is stated on the Lie group. Only
-    /// the departure z from going straight on is unknown, so that it keeps its digits in short steps.
+    /// H = H_start exp(c q'_start + z), and q' is the body twist: the scheme is defined on the Lie group. Only the
+    /// departure z from extrapolation is unknown, so that it keeps its digits in short steps.
     FromStart,
-    /// H = H_start exp(c q'_start) exp z, the departure from going on as at the start, c the stage's
-    /// abscissa. q' - q'_start is the rate of z: the scheme is stated in these local coordinates. They stay small
-    /// however fast the frame turns, and both stages see nearly the same tangent.
+    /// H = H_start exp(c q'_start) exp z, the departure from extrapolation with the twist at the start, c the stage's
+    /// abscissa. q' - q'_start is the rate of z: the scheme is defined in these local coordinates. They remain small
+    /// however fast the frame rotates, and both stages have nearly the same tangent.
     Departure,
 }
 
-/// Derivatives of rate and curvature with respect to the increment.
+/// Derivatives of velocity and acceleration with respect to the increment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights<T> {
     /// ∂q'/∂z.
@@ -79,19 +79,19 @@ pub struct Weights<T> {
     pub curvature: T,
 }
 
-/// A linear system of the size of one stage. With the residuals r of the stages, solve J w = Σ left_i r_i; the corrections of
-/// stage i have the part Re(right_i w).
+/// A linear system of the size of one stage. With the residuals r of the stages, solve J w = Σ left_i r_i; its contribution
+/// to the correction of stage i is Re(right_i w).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decoupled<T> {
     /// Weights of its matrix J.
     pub weights: Weights<T>,
     /// Row of T⁻¹, by stage.
     pub left: [T; MAX_STAGES],
-    /// Column of T, by stage; twice that for a pair of complex conjugates.
+    /// Column of T, by stage; doubled for a pair of complex conjugates.
     pub right: [T; MAX_STAGES],
 }
 
-/// A decoupled system of a real eigenvalue, or of a pair of complex ones.
+/// A decoupled system of a real eigenvalue, or of a complex conjugate pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StageSystem {
     /// Of a real eigenvalue.
@@ -100,11 +100,11 @@ pub enum StageSystem {
     Complex(Decoupled<Complex64>),
 }
 
-/// The decoupled systems whose solutions add up to the corrections of all stages: with one tangent for all stages, T
-/// diagonalises A⁻¹, the matrix of the rates.
+/// The decoupled systems whose solutions sum to the corrections of all stages: with one tangent for all stages, T
+/// diagonalises A⁻¹, the matrix of the velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
-    /// One per real eigenvalue and per pair of complex ones.
+    /// One per real eigenvalue and per complex conjugate pair.
     pub systems: Vec<StageSystem>,
 }
 
@@ -116,8 +116,8 @@ impl Coupling {
     }
 }
 
-/// Coefficients of a Runge-Kutta method that integrates velocities, strains and violations from their rates at
-/// the stages.
+/// Coefficients of a Runge-Kutta method that integrates velocities, strains and violations from their rates at the
+/// stages.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tableau {
     /// A: weights of the rates at the stages, for the values at a stage.
@@ -142,32 +142,32 @@ impl Tableau {
 /// A time-integration scheme for unit steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheme {
-    /// Name, with its parameter.
+    /// Name including its parameter.
     pub name: String,
-    /// The stages; without tableau, the last is the end of the step.
+    /// The stages; without a tableau, the last is the end of the step.
     pub stages: Vec<Stage>,
-    /// The scheme's memory at the end of the step.
+    /// The scheme's algorithmic acceleration at the end of the step.
     pub algorithmic: Combination,
     /// What the increments mean.
     pub increments: Increments,
-    /// How the linear systems come apart.
+    /// The decoupled linear systems.
     pub coupling: Coupling,
-    /// For schemes that integrate velocities, strains and violations; the others evaluate strains and
-    /// violations where a stage is.
+    /// For schemes that integrate velocities, strains and violations; other schemes evaluate strains and violations
+    /// at the stages.
     pub tableau: Option<Tableau>,
-    /// The memory starts as the acceleration this long after the start of the first step, in steps.
+    /// Time after the start of the first step whose acceleration initialises the memory, in steps.
     pub memory_delay: f64,
-    /// Local error at the end of a step over what the last stage's prediction misses, both of third order.
+    /// Local error at the end of a step over the prediction error of the last stage, both of third order.
     pub error_constant: f64,
-    /// Order of the errors that step control keeps at the tolerance: those of positions, unless velocities are of lower order.
+    /// Order of the errors that step control limits: those of positions, unless velocities are of lower order.
     pub controlled_order: i32,
-    /// Error at the end of a run with steps of one size, as a fraction of the sum of such errors.
+    /// Error at the end of a run with constant step size, as a fraction of the sum of the local errors.
     pub planned_share: f64,
-    /// Whether inertia takes part.
+    /// Whether inertia is included.
     pub dynamic: bool,
 }
 
-/// Parameters a scheme may take.
+/// Parameters that a scheme accepts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SchemeParameters {
     /// α of HHT-α, -1/3 … 0.
@@ -190,20 +190,20 @@ pub struct SchemeError {
     pub highest: f64,
 }
 
-/// A kind of scheme, as the model file knows it.
+/// A kind of scheme in the model file.
 #[derive(Clone, Copy, Debug)]
 pub struct SchemeKind {
     /// Name in the model file.
     pub name: &'static str,
     /// One sentence.
     pub summary: &'static str,
-    /// Tolerance of Newton's iterations where the user names none and the scheme needs its own.
+    /// Default tolerance of Newton's iterations, if the scheme needs its own.
     pub tolerance: Option<f64>,
-    /// Makes the scheme.
+    /// Builds the scheme.
     pub build: fn(&SchemeParameters) -> Result<Scheme, SchemeError>,
 }
 
-/// `value`, if it lies between the limits.
+/// Returns `value` if it is between the limits.
 pub(super) fn within(
     parameter: &'static str,
     value: f64,

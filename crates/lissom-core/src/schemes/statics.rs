@@ -1,8 +1,8 @@
-//! Statics: equilibrium without inertia and rates at the end of each load step.
+//! Statics: equilibrium without inertia and velocities at the end of each load step.
 
 use super::scheme::{Combination, Coupling, Increments, Scheme, Stage, Weights};
 
-/// The scheme with rate and curvature zero.
+/// The scheme with zero velocity and acceleration.
 pub fn statics() -> Scheme {
     Scheme {
         name: "statics".to_owned(),
