@@ -4,7 +4,7 @@
 //! factor = 0.8 ε^(-1/3)        for estimates of order h³ [Hairer, Nørsett and Wanner 1993, II.4]
 //! ```
 //!
-//! ε is the estimated error over the tolerance. The size is kept where it could change a little only.
+//! ε is the estimated error over the tolerance. The size is kept if it would change only slightly.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +16,11 @@ use crate::integrator::Attempt;
 use crate::integrator::error_estimate::{ErrorOrder, MIN_ERROR, MIN_REFERENCE, driven, excursion};
 use crate::tuning::{Tuning, TuningParameter};
 
-/// A step grows by this factor at most.
+/// Largest growth of a step.
 const MAX_GROWTH: f64 = 5.0;
-/// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
+/// Fraction of the tolerance allowed for a step whose estimate is of lower order than its scheme: such steps are few.
 const FIRST: f64 = 0.1;
-/// Steps shorter than this part of the largest one are not tried [-].
+/// Steps shorter than this fraction of the largest one are not tried [-].
 const SHORTEST: f64 = 1e-12;
 
 /// Order of the estimate in the step size.
@@ -31,14 +31,14 @@ const ORDER: f64 = 3.0;
 pub(crate) struct Adaptive {
     control: StepControl,
     controller: Controller,
-    /// How far any node has moved since the start, at most 1 [-].
+    /// Largest displacement of a node since the start, at most 1 [-].
     farthest: f64,
-    /// Duration to the instant at which the present step is aimed, and the longest step there [s].
+    /// Duration to the target of the present step, and the longest step on the way [s].
     distance: f64,
     bound: f64,
     /// Estimated error of the attempt reviewed last, over the tolerance.
     error: f64,
-    /// Its size [s], and how far any node has moved at its end.
+    /// Its size [s], and the largest displacement of a node at its end.
     reviewed: f64,
     reached: f64,
 }
@@ -51,8 +51,8 @@ impl Adaptive {
         Self { control, controller, farthest: 0.0, distance, bound, error: 1.0, reviewed: 0.0, reached: 0.0 }
     }
 
-    /// Estimated error of an attempt over what is allowed, as the size of the step would have it: to the power of
-    /// three over the order of the estimate.
+    /// Estimated error of an attempt over the allowed error, converted to third order in the step size: raised to the
+    /// power of three over the order of the estimate.
     fn estimated_error(&mut self, review: Review<'_>) -> f64 {
         let StepControl { relative_tolerance: tolerance, max_step } = self.control;
         let Problem { system, settings } = review.problem;
@@ -114,7 +114,7 @@ impl Control for Adaptive {
 
     fn propose(&mut self) -> f64 {
         let size = self.controller.propose(self.distance).min(self.control.max_step).min(self.bound);
-        // What would be left is round-off, over which velocities cannot be determined.
+        // The remainder would be round-off, over which velocities cannot be determined.
         if (self.distance - size).abs() <= SAME * size { self.distance } else { size }
     }
 
@@ -138,7 +138,7 @@ impl Control for Adaptive {
 
     fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool {
         self.controller.accept(attempt.size, self.error, self.control.max_step, tuning);
-        // An event may have ended the step before where it was reviewed.
+        // An event may have ended the step before the time at which it was reviewed.
         if attempt.size == self.reviewed {
             self.farthest = self.farthest.max(self.reached);
         }
@@ -170,7 +170,7 @@ impl Control for Adaptive {
 struct Controller {
     /// Size of the next step [s].
     size: f64,
-    /// Whether the last attempt failed: then the step does not grow at once.
+    /// Whether the last attempt failed: the step then does not grow at once.
     has_failed: bool,
 }
 
@@ -185,31 +185,31 @@ impl Controller {
         self.size
     }
 
-    /// The next attempt is shorter than the control would have it, to end where it must: the size is kept for later.
+    /// Shortens the next attempt to end at the target; the size is kept for later.
     fn propose(&self, rest: f64) -> f64 {
         if self.size >= rest * (1.0 - 1e-9) {
             rest
         } else if 2.0 * self.size > rest {
-            // Two steps of one size rather than a long and a very short one.
+            // Two steps of equal size rather than a long and a very short one.
             0.5 * rest
         } else {
             self.size
         }
     }
 
-    /// A step of `taken` [s] had an estimated error of `error` times the tolerance, and is accepted.
+    /// A step of `taken` [s] is accepted with an estimated error of `error` times the tolerance.
     fn accept(&mut self, taken: f64, error: f64, max_step: f64, tuning: &Tuning) {
         let largest = if self.has_failed { 1.0 } else { MAX_GROWTH };
         let factor = (tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER)).min(largest);
         self.has_failed = false;
         let kept = tuning.of(TuningParameter::Kept);
         let wanted = taken * if (1.0 / kept..kept).contains(&factor) { 1.0 } else { factor };
-        // A step cut short to end where it must says that at least its size is possible.
+        // A step shortened to end at the target shows that at least its size is possible.
         self.size = if taken < self.size { wanted.max(self.size.min(taken * factor)) } else { wanted };
         self.size = self.size.min(max_step);
     }
 
-    /// A step of `taken` [s] had an estimated error of `error` times the tolerance, above 1, and is rejected.
+    /// A step of `taken` [s] is rejected: its estimated error is `error` times the tolerance, above 1.
     fn reject(&mut self, taken: f64, error: f64, tuning: &Tuning) {
         if error.is_finite() {
             self.size = taken * tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER);
@@ -257,7 +257,7 @@ mod tests {
         assert!((taken.iter().sum::<f64>() - 2.0).abs() < 1e-12);
         let settled = taken[taken.len() / 2];
         assert!((0.006..0.01).contains(&settled), "{settled}");
-        // A constant task is done with one size.
+        // A constant problem is solved with one step size.
         assert!(taken[20..taken.len() - 3].iter().all(|size| *size == settled), "{taken:?}");
     }
 

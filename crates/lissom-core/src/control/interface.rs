@@ -1,4 +1,4 @@
-//! What a control of the step length consists of.
+//! Interface of a step-length control.
 
 use crate::analysis::Problem;
 use crate::integrator::{Attempt, Integrator};
@@ -7,15 +7,15 @@ use crate::kinematics::Kinematics;
 use crate::system::State;
 use crate::tuning::Tuning;
 
-/// An attempt that was solved, for review.
+/// A solved attempt, for review.
 pub(crate) struct Review<'r> {
     pub(crate) problem: Problem<'r>,
     pub(crate) integrator: &'r mut Integrator,
     pub(crate) attempt: &'r Attempt,
-    /// Where the first step began.
+    /// Configuration at the beginning of the first step.
     pub(crate) origin: &'r Kinematics,
     pub(crate) start: &'r State,
-    /// Duration of the step before [s].
+    /// Duration of the previous step [s].
     pub(crate) last_size: f64,
     /// Energy and work up to the start.
     pub(crate) energy_balance: &'r EnergyBalance,
@@ -23,47 +23,48 @@ pub(crate) struct Review<'r> {
     pub(crate) has_switched: bool,
 }
 
-/// Decides how long steps are.
+/// Determines the step length.
 pub(crate) trait Control: Send + Sync {
-    /// The longest step [s]: instants are the same if they differ by round-off of it.
+    /// The longest step [s]: instants that differ by round-off of it are equal.
     fn longest(&self) -> f64;
 
-    /// Changes the size of planned steps [s]; sizes that are chosen do not change.
+    /// Changes the size of planned steps [s]; adaptive sizes do not change.
     fn set_planned(&mut self, size: f64) {
         let _ = size;
     }
 
-    /// Duration of the next step where nothing within it ends it and `rest` [s] remain: that of a planned step. It is then taken
-    /// to its end, in as many parts as it needs.
+    /// Duration of a planned step, if nothing ends it earlier and `rest` [s] remain. It is then completed in as many parts as
+    /// necessary.
     fn planned(&self) -> Option<f64>;
 
-    /// Size of the next step as its error would have it [s], where errors are estimated.
+    /// Size of the next step by the estimated error [s], if errors are estimated.
     fn by_error(&self) -> Option<f64> {
         None
     }
 
-    /// The next attempts lead to an instant that is `distance` [s] away, in steps no longer than `bound` [s].
+    /// Sets the target of the next attempts, `distance` [s] away, to be reached in steps no longer than `bound` [s].
     fn aim(&mut self, distance: f64, bound: f64);
 
     /// Size of the next attempt [s].
     fn propose(&mut self) -> f64;
 
-    /// Whether an attempt that has a solution can be accepted.
+    /// Whether a solved attempt can be accepted.
     fn review(&mut self, review: Review<'_>) -> bool {
         let _ = review;
         true
     }
 
-    /// An attempt of `size` [s] has no solution, or was not accepted. Whether a shorter one is to be made.
+    /// Records that an attempt of `size` [s] has no solution, or was not accepted. Whether a shorter one is to be
+    /// made.
     fn shorten(&mut self, size: f64, has_solution: bool) -> bool;
 
-    /// An attempt is accepted. Whether the instant at which it was aimed is reached.
+    /// Records an accepted attempt. Whether its target is reached.
     fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool;
 
-    /// The step failed, and the next begins anew.
+    /// Records that the step failed, and that the next begins anew.
     fn restart(&mut self) {}
 
-    /// Whether attempts as short as help have been made.
+    /// Whether attempts as short as useful have been made.
     fn has_tried_shortest(&self) -> bool {
         true
     }
@@ -79,14 +80,14 @@ pub(crate) trait Control: Send + Sync {
         1.0
     }
 
-    /// Estimated error of the attempt reviewed last over the tolerance, where errors are estimated [-].
+    /// Estimated error of the last reviewed attempt over the tolerance, if errors are estimated [-].
     fn error(&self) -> Option<f64> {
         None
     }
 
-    /// What was learned from the steps so far.
+    /// Serialises the data of the steps so far.
     fn save(&self) -> Vec<u8>;
 
-    /// Goes back to what [`save`](Self::save) returned. Whether it could be read.
+    /// Restores the result of [`save`](Self::save). Whether it could be read.
     fn restore(&mut self, saved: &[u8]) -> bool;
 }

@@ -1,8 +1,8 @@
-//! Load steps of chosen size: as long as Newton's method contracts well and the work of the loads is explained.
+//! Adaptive load steps: as long as Newton's method contracts well and the work of the loads is stored as energy.
 //!
-//! The error of a load step is the part of its work, by the trapezoidal rule, that is not stored as energy: of the third
-//! order in the step on a smooth path of equilibria, all of it where the model jumps. What does not get smaller with
-//! the step is a jump, or is dissipated, and is no reason for shorter ones.
+//! The error of a load step is the part of its work, by the trapezoidal rule, that is not stored as energy. On a smooth
+//! path of equilibria it is of third order in the step; where the model jumps it is the whole work. A part that does not
+//! decrease with the step is due to a jump or to dissipation, and does not require shorter steps.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,11 +12,11 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::integrator::Attempt;
 use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
-/// Iterations that a step of the right length takes: few tangents serve several steps.
+/// Iterations of a step of suitable length: few tangents serve several steps.
 const EASY: f64 = 15.0;
-/// Least and largest change from step to step.
+/// Smallest and largest ratio of consecutive steps.
 const CHANGE: (f64, f64) = (0.3, 2.0);
-/// Where a step of half the length leaves more than this part unexplained of what the whole left, its length is not the
+/// If halving a step leaves more than this fraction of the unexplained work of the whole step, its length is not the
 /// cause.
 const SAME: f64 = 0.7;
 
@@ -25,12 +25,12 @@ const SAME: f64 = 0.7;
 pub(crate) struct LoadSteps {
     control: StepControl,
     length: LoadControl,
-    /// Load parameter from here to where the steps are aimed [s].
+    /// Change of the load parameter to the target of the steps [s].
     distance: f64,
     attempts: Attempts,
-    /// The length before them.
+    /// The step length before them.
     before: LoadControl,
-    /// Part of its work that the last attempt left unexplained.
+    /// Fraction of its work that the last attempt left unexplained.
     missing: f64,
 }
 
@@ -101,10 +101,10 @@ struct LoadControl {
     least: f64,
 }
 
-/// One step's attempts.
+/// The attempts of one step.
 #[derive(Clone, Copy, Debug, Default)]
 struct Attempts {
-    /// What the last attempt left unexplained, if it had a solution.
+    /// Fraction of its work that the last attempt left unexplained, if it had a solution.
     missing: Option<f64>,
 }
 
@@ -114,10 +114,10 @@ impl LoadControl {
         Self { size, least: size / f64::from(1_u32 << MAX_HALVINGS) }
     }
 
-    /// The next step, where `rest` is left of the range.
+    /// The next step, if `rest` remains of the range.
     fn propose(&self, rest: f64, most: f64) -> f64 {
         let size = self.size.min(most);
-        // Two steps of equal length rather than one with a short rest.
+        // Two steps of equal length rather than one with a short remainder.
         if rest <= size * (1.0 + 1e-9) {
             rest
         } else if rest < 2.0 * size {
@@ -127,23 +127,24 @@ impl LoadControl {
         }
     }
 
-    /// Whether a step that left the part `missing` of its work unexplained is to be tried again with half its length.
+    /// Whether a step that left the fraction `missing` of its work unexplained is to be repeated with half its
+    /// length.
     fn refuses(&mut self, size: f64, missing: f64, tolerance: f64, attempts: &mut Attempts) -> bool {
         let helps = attempts.missing.is_none_or(|before| missing < SAME * before);
         attempts.missing = Some(missing);
         missing > tolerance && helps && self.halve(size)
     }
 
-    /// A step had no solution: whether half of it may be tried.
+    /// Records that a step had no solution. Whether half of it may be tried.
     fn halve(&mut self, size: f64) -> bool {
         self.size = 0.5 * size;
         self.size >= self.least
     }
 
-    /// A step of that length was taken, in so many iterations.
+    /// Records a step of that length, accepted after so many iterations.
     fn accept(&mut self, size: f64, iterations: usize, (missing, tolerance): (f64, f64), tuning: &Tuning) {
         let ease = EASY / iterations.max(1) as f64;
-        // The part that is missing grows with the square of the length.
+        // The missing fraction grows with the square of the length.
         let error = if missing > 0.0 {
             tuning.of(TuningParameter::Safety) * (tolerance / missing).sqrt()
         } else {

@@ -1,8 +1,8 @@
-//! How long steps are: the one owner of the step length. A control proposes the size of an attempt, reviews what it has led to, and
-//! proposes a shorter one where that is not accepted.
+//! Step length, determined only here. A control proposes the size of an attempt, reviews its result, and proposes a shorter one
+//! if it is not accepted.
 //!
-//! Planned steps have one size, and are taken in parts where they have no solution. Adaptive steps are as long as their estimated
-//! error allows, load steps as long as Newton's method contracts well and the work of the loads is explained.
+//! Planned steps have one size, and are bisected if they have no solution. Adaptive steps are as long as their estimated error
+//! allows, load steps as long as Newton's method contracts well and the work of the loads is stored as energy.
 
 mod adaptive;
 mod interface;
@@ -13,7 +13,7 @@ pub(crate) use interface::{Control, Review};
 
 use crate::analysis::Settings;
 
-/// The control that the settings ask for.
+/// The control required by the settings.
 pub(crate) fn of(settings: &Settings) -> Box<dyn Control> {
     match settings.control {
         Some(control) if settings.scheme.dynamic => {

@@ -1,5 +1,5 @@
-//! Steps of one size. One that has no solution is taken in parts: halves, as often as necessary. What a step of a scheme promises
-//! holds for its parts, and so for the whole.
+//! Steps of one size. A step without solution is bisected as often as necessary. The properties of a scheme's step hold for its
+//! parts, and so for the whole.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,9 +9,9 @@ use crate::integrator::Attempt;
 use crate::solver_features::{DisabledFeatures, SolverFeature};
 use crate::tuning::{MAX_HALVINGS, Tuning};
 
-/// After so many parts of a planned step in a row the next one is twice as long.
+/// After this number of consecutive parts of a planned step the next one is twice as long.
 const PARTS_TO_GROW: u32 = 3;
-/// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
+/// If parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
 const SHORT_PART: f64 = 1e-3;
 
 /// Control of steps of one size.
@@ -19,10 +19,10 @@ const SHORT_PART: f64 = 1e-3;
 pub(crate) struct Planned {
     /// Size of the planned steps [s].
     size: f64,
-    /// Duration to the instant at which the present step is aimed [s].
+    /// Duration to the target of the present step [s].
     distance: f64,
     bisection: StepBisection,
-    /// Whether steps are taken in parts.
+    /// Whether steps may be bisected.
     may_bisect: bool,
 }
 
@@ -91,18 +91,18 @@ impl Control for Planned {
     }
 }
 
-/// Smallest parts a planned step may be cut into.
+/// Smallest parts of a planned step.
 const MAX_PARTS: u32 = 1 << MAX_HALVINGS;
 
-/// The position within a planned step. Positions are whole multiples of the current part's size, so that the end of the
-/// planned step is met exactly.
+/// The position within a planned step. Positions are whole multiples of the size of the present part, so that the end
+/// of the planned step is reached exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct StepBisection {
     /// Parts done, of [`MAX_PARTS`].
     done: u32,
-    /// Parts in the next attempt.
+    /// Size of the next attempt in parts.
     size: u32,
-    /// Parts taken in a row since the size last changed.
+    /// Attempts accepted in a row since the size last changed.
     taken: u32,
 }
 
@@ -112,7 +112,7 @@ impl StepBisection {
         Self { done: 0, size: MAX_PARTS, taken: 0 }
     }
 
-    /// Fraction of the planned step that the next attempt takes.
+    /// Size of the next attempt as a fraction of the planned step.
     fn fraction(&self) -> f64 {
         f64::from(self.size) / f64::from(MAX_PARTS)
     }
@@ -122,7 +122,7 @@ impl StepBisection {
         self.done = 0;
     }
 
-    /// A part was taken. Whether the end of the planned step is reached.
+    /// Records an accepted part. Whether the end of the planned step is reached.
     fn accept(&mut self) -> bool {
         self.done += self.size;
         let is_complete = self.done >= MAX_PARTS;
@@ -130,7 +130,7 @@ impl StepBisection {
             self.done = 0;
         }
         self.taken += 1;
-        // A doubled part must end where whole doubled parts end.
+        // A doubled part must end at a multiple of its size.
         if self.taken >= PARTS_TO_GROW && self.size < MAX_PARTS && self.done.is_multiple_of(2 * self.size) {
             self.size *= 2;
             self.taken = 0;
@@ -138,7 +138,7 @@ impl StepBisection {
         is_complete
     }
 
-    /// A part failed. Whether it is to be tried again with half its size.
+    /// Records a failed part. Whether it is to be repeated with half its size.
     fn halve(&mut self) -> bool {
         self.taken = 0;
         let can_halve = self.size > 1;

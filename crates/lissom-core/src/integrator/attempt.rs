@@ -1,20 +1,20 @@
-//! An attempt at a step: control accepts it, asks for a shorter one, or rejects it.
+//! An attempt at a step: the step control accepts it, requires a shorter one, or rejects it.
 
 use crate::judge::EnergyBalance;
 use crate::newton::Outcome;
 use crate::system::State;
 
-/// What an attempt at a step has led to. The state it starts from is not changed by it.
+/// Result of an attempt at a step. The state at its start is not changed.
 pub(crate) struct Attempt {
     /// Size of the step [s].
     pub(crate) size: f64,
-    /// The state at the start as steps of this size see it, where the scheme remembers what belongs to the step size.
+    /// The state at the start, converted to this step size if the scheme's memory depends on the step size.
     pub(crate) converted: State,
     /// Whether `converted` is the start of this attempt.
     pub(crate) is_converted: bool,
     /// The state at the end.
     pub(crate) end: State,
-    /// How Newton's method found it.
+    /// Outcome of Newton's method.
     pub(crate) outcome: Outcome,
     /// Energy and work up to the end.
     pub(crate) energy_balance: EnergyBalance,
@@ -23,7 +23,7 @@ pub(crate) struct Attempt {
 }
 
 impl Attempt {
-    /// Room for attempts, `state` standing for both ends.
+    /// Storage for attempts, with both ends equal to `state`.
     pub(crate) fn new(state: &State, energy_balance: EnergyBalance) -> Self {
         Self {
             size: 0.0,
@@ -36,12 +36,12 @@ impl Attempt {
         }
     }
 
-    /// The start of the step, which is `state` unless it was converted.
+    /// The start of the step: `state`, unless it was converted.
     pub(crate) fn start<'s>(&'s self, state: &'s State) -> &'s State {
         if self.is_converted { &self.converted } else { state }
     }
 
-    /// Makes the end of the attempt the `state`, and its start the one `previous` to it.
+    /// Makes the end of the attempt the `state`, and its start the `previous` state.
     pub(crate) fn accept(&mut self, previous: &mut State, state: &mut State) {
         let start = if self.is_converted { &mut self.converted } else { &mut *state };
         std::mem::swap(previous, start);

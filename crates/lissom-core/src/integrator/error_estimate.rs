@@ -1,9 +1,9 @@
-//! The error of a step: what the scheme's prediction from the start of the step has missed at its end, filtered once
-//! through the tangent, so that motions faster than the step count as little as the scheme lets them through.
+//! The error of a step: the error at its end of the scheme's prediction from its start, filtered once through the
+//! tangent, so that motions faster than the step are damped as by the scheme itself.
 //!
-//! Legend: z departure from going straight on at the end of the step, z_predicted = ½ h² times the acceleration (or the
-//! scheme's memory of it) at the start, r ratio of the step to the one before, κ the scheme's constant, J tangent in use
-//! with its constraints, so that what cannot move has no error, w₂ M its part from inertia, τ relative tolerance.
+//! Legend: z departure from extrapolation at the end of the step, z_predicted = ½ h² times the acceleration (or the
+//! scheme's memory of it) at the start, r ratio of the step to the previous one, κ the scheme's constant, J tangent in
+//! use with its constraints, so that constrained directions have no error, w₂ M its inertial part, τ relative tolerance.
 //!
 //! ```text
 //! m_n = z - z_predicted = O(h³)     or, where it is larger,     m_v = (q'_end - q'_start - q''_start)/3
@@ -11,12 +11,13 @@
 //! fourth order:  e = (m_n - r³ m_{n-1}) 4/(1 + 3/r),    ε = (|J⁻¹ w₂ M e| / (reference · τ^(4/3)/2))^(3/4)
 //! ```
 //!
-//! Schemes of second order err in the third order, schemes of third order in the fourth: what a step has missed beyond what
-//! the one before lets expect is that, brought to steps of one size by its last factor. Where N steps of size h = 1/N err by
-//! h³ or h⁴ each, places at the end err by h² or h³, and so by τ, with every scheme. A first step of a scheme of third
-//! order, and one behind a kink or a switch, has only the estimate of third order; it may be a tenth of τ.
-//! The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the largest entry, lengths in ℓ_r. The reference is how
-//! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
+//! The local error of second-order schemes is of third order, that of third-order schemes of fourth. The latter is estimated
+//! by the part of a step's prediction error that the previous step does not predict, scaled to a constant step size by its
+//! last factor. If N steps of size h = 1/N have errors of h³ or h⁴ each, positions at the end have errors of h² or h³, and
+//! so of τ, with every scheme. The first step of a third-order scheme, and one after a breakpoint or a switch, has only the
+//! third-order estimate; it may be a tenth of τ. The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the
+//! largest entry, with lengths relative to ℓ_r. The reference is the largest displacement or rotation of a node since the
+//! start, or that of a drive within the longest step, at most 1.
 
 use super::Integrator;
 use crate::analysis::Problem;
@@ -33,24 +34,25 @@ pub(crate) enum ErrorOrder {
     Fourth,
 }
 
-/// Motions smaller than this part of the model's size are not resolved for their own sake.
+/// Motions smaller than this fraction of the model's size are not resolved individually.
 pub(crate) const MIN_REFERENCE: f64 = 1e-6;
 
-/// Errors of a step below this part of the model's size are round-off, which no smaller step lowers.
+/// Errors of a step below this fraction of the model's size are round-off, which no smaller step reduces.
 pub(crate) const MIN_ERROR: f64 = 3e-13;
 
-/// Largest scaled displacement or turn of a node, or change of a generalised coordinate, between two instants, at most 1.
+/// Largest scaled displacement or rotation of a node, or change of a generalised coordinate, between two instants, at
+/// most 1.
 pub(crate) fn excursion(system: &System, (from, to): (&Kinematics, &Kinematics), length: f64) -> f64 {
     let way = |&own: &CoordinateId| {
         let change = (to.coordinates[own].value - from.coordinates[own].value).abs();
         if system.layout().coordinate_quantity(own) == Quantity::Length { change / length } else { change }
     };
-    // Coordinates of joints are seen by what moves on them.
+    // Coordinates of joints appear in the motion of the attached nodes.
     let mut most = system.free_coordinates.iter().map(way).fold(0.0_f64, f64::max).min(1.0);
     for (a, b) in from.nodes.iter().zip(&to.nodes) {
         let shift = (b.frame.position - a.frame.position).norm() / length;
         let [p, q] = [a, b].map(|node| node.frame.rotation.quaternion());
-        // |sin(φ/2)| of the relative turn, from the chord between the two unit quaternions.
+        // |sin(φ/2)| of the relative rotation, from the chord between the two unit quaternions.
         let chord = |sign: f64| p.iter().zip(&q).map(|(p, q)| (p - sign * q).powi(2)).sum::<f64>();
         let turn = 2.0 * chord(1.0).min(chord(-1.0)).sqrt();
         most = most.max(shift).max(turn);
@@ -61,7 +63,7 @@ pub(crate) fn excursion(system: &System, (from, to): (&Kinematics, &Kinematics),
     most
 }
 
-/// How far drives go between two instants, at most 1.
+/// Largest change of a drive between two instants, at most 1.
 pub(crate) fn driven(system: &System, (from, to): (f64, f64), length: f64) -> f64 {
     let of = |drive: &Drive| {
         let function = &drive.prescribed.value;
@@ -72,7 +74,7 @@ pub(crate) fn driven(system: &System, (from, to): (f64, f64), length: f64) -> f6
     system.drives().iter().map(of).fold(0.0_f64, f64::max).min(1.0)
 }
 
-/// `out = M e` over the coordinate rows; zero where there is no mass.
+/// `out = M e` over the coordinate rows; zero for massless coordinates.
 pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out: &mut [f64]) {
     out.fill(0.0);
     for inertia in system.inertias() {
@@ -104,22 +106,22 @@ pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out
     }
 }
 
-/// What the velocity at the end of a step misses, as a length of the position's miss: equal to it where the acceleration
-/// changes linearly.
+/// Error of the velocity prediction at the end of a step, expressed as a position error: both are equal if the
+/// acceleration changes linearly.
 ///
 /// ```text
 /// v_end - v_start - a_start = a'/2,   z_end - a_start/2 = a'/6      (step of unit length)
 /// ```
 ///
 /// In two-stage Radau IIA the force of the last stage has no weight in the position at the end, (A²)₂₂ = 0: a force that
-/// begins late in a step changes the velocity alone.
+/// begins late in a step changes only the velocity.
 fn velocity_miss(stage: &Stage, unit: &UnitStepState, increments: &[Vec<f64>], row: usize) -> f64 {
     (unit.combine(&stage.rate, increments, row) - unit.curvature[row]) / 3.0
 }
 
 impl Integrator {
-    /// Leaves the estimated error of the last attempt, which ended at `end` after a step of `last_size` [s], in the workspace: as
-    /// it is and filtered. Forces may have switched at its start.
+    /// Stores the estimated error of the last attempt, which ended at `end` after a step of `last_size` [s], in the workspace,
+    /// unfiltered and filtered. Forces may have switched at its start.
     pub(crate) fn estimate_error(
         &mut self,
         problem: Problem<'_>,
@@ -132,7 +134,7 @@ impl Integrator {
         let work = &mut *self.work;
         let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
         if has_switched {
-            // The filter would hide a motion that the switch has just woken: an impact on a stiff stop.
+            // The filter would hide a motion that the switch has just started, such as an impact on a stiff stop.
             motion.copy_from_slice(&work.error);
             problem.system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
             return;
@@ -144,8 +146,9 @@ impl Integrator {
         work.tangent.scale(&mut work.filtered);
     }
 
-    /// The miss from which the error of the last attempt is estimated, by row: that of the position or of the velocity,
-    /// whichever is larger, times the scheme's constant, or what it exceeds the miss of the step before.
+    /// The prediction error from which the error of the last attempt is estimated, by row: that of the position or of
+    /// the velocity, whichever is larger, times the scheme's constant, or the part by which it exceeds that of the
+    /// previous step.
     fn miss_of_attempt(
         &mut self,
         Problem { system, settings }: Problem<'_>,
@@ -162,7 +165,7 @@ impl Integrator {
         let unit = &work.unit;
         let (Some(found), Some(predicted)) = (work.increments.last(), work.predicted.last()) else { return };
         let weight = 4.0 / (1.0 + 3.0 * last_size / self.scaled.step_size());
-        // Behind a switch the motion is not smooth, and constants that assume so do not apply.
+        // After a switch the motion is not smooth, and constants that assume smoothness do not apply.
         let constant = if has_switched { 1.0 } else { scheme.error_constant };
         let mut error = std::mem::take(&mut work.error);
         let quantities = system.layout().quantities();

@@ -1,4 +1,4 @@
-//! What schemes of one stage remember belongs to the size of the step: an attempt of another size starts from a converted state.
+//! The memory of one-stage schemes depends on the step size: an attempt of another size starts from a converted state.
 //!
 //! Legend: a algorithmic acceleration, h step size, r ratio of the new to the old one, v velocities, B gradient of the
 //! constraints.
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! a approximates the acceleration δ h after the state [Arnold and Brüls 2007]. In the direction of the constraint
-//! gradients the velocity of an index-3 scheme errs by a multiple of h² that belongs to the step in use. Without the
-//! second change multipliers lose an order when steps change.
+//! gradients the velocity error of an index-3 scheme is a multiple of h² for the step size in use. Without the second
+//! change multipliers lose an order when the step size changes.
 
 use lissom_solver::SolverKind;
 
@@ -20,14 +20,14 @@ use crate::kinematics::LOCKED;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// Where the step grows by more than this at once, as after one that ended at an event, what is known of ȧ and v_B may be
-/// round-off of a short step, which would grow by r² from step to step: a stays, and velocities are made consistent.
+/// If the step grows by more than this at once, for example after one that ended at an event, ȧ and v_B may be round-off
+/// of a short step, which would grow by r² from step to step. Then a is kept, and velocities are made consistent.
 const MAX_RATIO: f64 = 2.0;
 
 /// Converts the memory of a state.
 pub(crate) struct IntegratorHistory {
     initial: ConsistentInitialConditions,
-    /// Step size that the memory belongs to [s].
+    /// Step size to which the memory belongs [s].
     step: f64,
     /// ȧ by row; v_B for the present step size by row.
     slope: Vec<f64>,
@@ -56,19 +56,19 @@ impl IntegratorHistory {
         }
     }
 
-    /// What is remembered, as plain numbers.
+    /// The memory as plain numbers.
     pub(crate) fn to_numbers(&self) -> (f64, bool, Vec<f64>, Vec<f64>) {
         (self.step, self.is_known, self.slope.clone(), self.across.clone())
     }
 
-    /// Takes over what was remembered.
+    /// Restores the memory.
     pub(crate) fn set_numbers(&mut self, (step, is_known, slope, across): &(f64, bool, Vec<f64>, Vec<f64>)) {
         (self.step, self.is_known) = (*step, *is_known);
         self.slope.copy_from_slice(slope);
         self.across.copy_from_slice(across);
     }
 
-    /// The state is another one, found with a step of this size.
+    /// Records that the state is a new one, found with a step of this size.
     pub(crate) fn renew(&mut self, step: f64) {
         self.step = step;
         self.is_known = false;
@@ -80,10 +80,10 @@ impl IntegratorHistory {
     }
 
     /// Writes `state` with the memory of steps of another size to `out`. `previous` is the state before the last step, or
-    /// the same where there was none; `scratch` is overwritten.
+    /// equal to `state` if there was none; `scratch` is overwritten.
     ///
     /// # Errors
-    /// If the velocities cannot be taken apart.
+    /// If the velocities cannot be decomposed.
     pub(crate) fn convert(
         &mut self,
         system: &System,
@@ -109,7 +109,7 @@ impl IntegratorHistory {
         Ok(())
     }
 
-    /// Finds ȧ and v_B.
+    /// Computes ȧ and v_B.
     fn find(
         &mut self,
         system: &System,

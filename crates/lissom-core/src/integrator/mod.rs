@@ -1,5 +1,5 @@
-//! Solves steps: from a state and a step size to the state at the end of the step. Decides neither about the size nor about
-//! whether the result is accepted.
+//! Solves steps: from a state and a step size to the state at the end of the step. It neither chooses the size nor accepts
+//! the result.
 
 mod attempt;
 pub(crate) mod error_estimate;
@@ -21,32 +21,32 @@ use crate::scaling::{Representative, ScaleBy, Scaled};
 use crate::schemes::StageSystem;
 use crate::system::{State, Threads};
 
-/// Where round-off keeps schemes that integrate velocities from the tolerance, a last correction below this is a solution all
-/// the same: what it does to the energy is seen by the energy balance.
+/// If round-off prevents schemes that integrate velocities from reaching the tolerance, a last correction below this is
+/// accepted: its effect on the energy is checked by the energy balance.
 const SUFFICIENT: f64 = 1e-9;
 
-/// The state from which a step begins, and the one before the last step, which is the same before the first.
+/// The state at which a step begins, and the one before the last step; both are equal before the first step.
 #[derive(Clone, Copy)]
 pub(crate) struct Start<'s> {
     pub(crate) previous: &'s State,
     pub(crate) state: &'s State,
 }
 
-/// Solves steps of one simulation, with what is learned from step to step.
+/// Solves steps of one simulation, with data that are reused from step to step.
 pub(crate) struct Integrator {
     pub(crate) representative: Representative,
     /// The scaling of the tangent in use, for the size of the last attempt.
     pub(crate) scaled: Scaled,
     pub(crate) work: Box<Workspace>,
     pub(crate) jacobian_state: JacobianState,
-    /// For schemes that remember what belongs to the step size.
+    /// For schemes whose memory depends on the step size.
     pub(crate) history: Option<IntegratorHistory>,
-    /// For schemes whose velocities leave the constraints a little.
+    /// For schemes whose velocities deviate slightly from the constraints.
     projection: Option<Projection>,
 }
 
 impl Integrator {
-    /// At the start of a simulation. `repeating` is the first multiplier whose constraint repeats others.
+    /// At the start of a simulation. `repeating` is the first multiplier of a redundant constraint.
     pub(crate) fn new(
         Problem { system, settings }: Problem<'_>,
         state: &State,
@@ -84,10 +84,10 @@ impl Integrator {
         }
     }
 
-    /// Solves a step of `size` [s] and leaves the result in `attempt`.
+    /// Solves a step of `size` [s] and stores the result in `attempt`.
     ///
     /// # Errors
-    /// If Newton's iterations do not converge, the tangent has no factorisation, or something at the end is not finite.
+    /// If Newton's iterations do not converge, the tangent cannot be factorised, or a value at the end is not finite.
     pub(crate) fn attempt(
         &mut self,
         problem: Problem<'_>,
@@ -118,7 +118,7 @@ impl Integrator {
         Ok(())
     }
 
-    /// Goes over to steps of `size` [s], and converts the start of one to a step of unit length.
+    /// Changes to steps of `size` [s], and converts the start of one to a step of unit length.
     pub(crate) fn begin(
         &mut self,
         Problem { system, settings }: Problem<'_>,
@@ -147,11 +147,11 @@ impl Integrator {
         Ok(())
     }
 
-    /// Goes over to steps of another size with all that is learned.
+    /// Changes the step size and rescales all retained data.
     pub(crate) fn resize(&mut self, Problem { system, settings }: Problem<'_>, size: f64) {
         self.work.rescale_predictions(size / self.scaled.step_size());
         self.scaled = self.scaled.resized(&settings.scaling, size);
-        // Scaled tangents of motions hardly depend on the step size, those of load steps and unscaled ones do.
+        // Scaled tangents of motions hardly depend on the step size; those of load steps and unscaled ones do.
         if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None {
             self.jacobian_state = JacobianState::default();
         }
@@ -189,7 +189,7 @@ impl Integrator {
         system.signals().check(&end.kinematics).map_err(StepError::Signal)
     }
 
-    /// Learns from an attempt that was accepted, which began with these multipliers.
+    /// Updates the retained data after an accepted attempt, which began with these multipliers.
     pub(crate) fn learn(&mut self, settings: &Settings, multipliers: &[f64]) {
         if settings.scheme.dynamic {
             self.work.learn(&settings.scheme, multipliers);
@@ -199,10 +199,10 @@ impl Integrator {
         }
     }
 
-    /// Makes the tangent at the solution of the step that began at `start` anew, and keeps it in use.
+    /// Reassembles the tangent at the solution of the step that began at `start`, and uses it from then on.
     ///
     /// # Errors
-    /// If the tangent has no factors.
+    /// If the tangent cannot be factorised.
     pub(crate) fn renew_at_solution(
         &mut self,
         problem: Problem<'_>,
@@ -217,7 +217,7 @@ impl Integrator {
         result
     }
 
-    /// The tangent at the solution of the step that began at `start`, under another scaling.
+    /// The tangent at the solution of the step that began at `start`, with another scaling.
     pub(crate) fn tangent_at_solution(
         &mut self,
         problem: Problem<'_>,
@@ -257,7 +257,7 @@ fn last_stage<'m>(settings: &Settings, multipliers: &'m [Vec<f64>]) -> Option<&'
     multipliers.get(settings.scheme.stages.len() - 1)
 }
 
-/// Small last corrections suffice for schemes that integrate velocities.
+/// Accepts small last corrections for schemes that integrate velocities.
 fn sufficient(result: Result<Outcome, Failure>, integrates_velocities: bool) -> Result<Outcome, Failure> {
     match result {
         Err(Failure::NotConverged { iterations, correction })
@@ -269,7 +269,7 @@ fn sufficient(result: Result<Outcome, Failure>, integrates_velocities: bool) -> 
     }
 }
 
-/// A failure of Newton's method in a step to the time `end` [s], with names.
+/// Describes a failure of Newton's method, with names, in a step to the time `end` [s].
 fn describe_failure(
     equations: &StepEquations<'_>,
     settings: &Settings,
@@ -290,7 +290,7 @@ fn describe_failure(
             return error;
         }
     }
-    // With a pivoting solver a smaller step may do what this one could not.
+    // With a pivoting solver a smaller step may succeed.
     let pivoted = !matches!(failure, Failure::Factor(_));
     let failure = equations.unforgiven(failure);
     let mut error = describe(&failure, system.layout(), end, settings, &equations.worst_unknown());

@@ -1,5 +1,5 @@
-//! What velocities miss: schemes hold the constraints, and their rates only as well as the step resolves the motion. Where drives or
-//! loops prescribe the places, nothing else shows that steps are too long.
+//! Violation of velocity constraints. Schemes satisfy the constraints of position, and their rates only as well as the step
+//! resolves the motion. If drives or loops prescribe the positions, nothing else shows that steps are too long.
 //!
 //! ```text
 //! B v + ∂c/∂t ≈ (c(q + ε v, t + ε) - c(q, t))/ε
@@ -14,19 +14,19 @@ use crate::judge::{Warning, report};
 use crate::kinematics::{Kinematics, Quantity};
 use crate::system::System;
 
-/// ε is this part of the time in which the fastest node goes a representative length, or a radian, and of the step: what the difference
-/// errs is half of it times the rate, and round-off 1e-11 of it.
+/// ε is this fraction of the step, and of the time in which the fastest node moves a representative length or a radian. The error
+/// of the difference is half of it times the rate, and round-off 1e-11 of it.
 const PART: f64 = 1e-4;
 
-/// Rates of constraints that miss more than this part of the speed are reported: forces then err by a multiple of it.
+/// Constraint rates above this fraction of the speed are reported: the error of forces is a multiple of it.
 const NOTEWORTHY: f64 = 0.02;
 
-/// What the rates of constraints miss at the ends of steps of planned size.
+/// Violation of velocity constraints at the ends of steps of planned size.
 struct ConstraintRates {
     pairs: Pairs,
-    /// Sums over all steps examined: what rates of constraints miss, and speeds.
+    /// Sums over all steps examined: constraint rates, and speeds.
     sums: [f64; 2],
-    /// Room for what is compared.
+    /// Storage for the compared configuration.
     moved: Kinematics,
     before: Vec<f64>,
     after: Vec<f64>,
@@ -51,7 +51,7 @@ impl Monitor for ConstraintRates {
         report(
             warnings,
             |warning| matches!(warning, Warning::UnresolvedRates { .. }),
-            // What a start has shaken may turn out small beside what follows.
+            // A disturbance at the start may be small compared with what follows.
             |known| {
                 let time = match known {
                     Some(Warning::UnresolvedRates { time, .. }) => *time,
@@ -81,8 +81,8 @@ impl ConstraintRates {
         Self { pairs, sums: [0.0; 2], moved: at.clone(), before: none.clone(), after: none }
     }
 
-    /// The largest rate of a constraint at these velocities behind a step of `step` [s], and the largest speed; lengths in
-    /// representative `length` [1/s].
+    /// The largest rate of a constraint at these velocities after a step of `step` [s], and the largest speed; lengths
+    /// relative to the representative `length` [1/s].
     fn missed(&mut self, system: &System, at: &Kinematics, length: f64, step: f64) -> [f64; 2] {
         let length = if length > 0.0 { length } else { 1.0 };
         let speed = at.nodes.iter().fold(0.0_f64, |most, node| {

@@ -1,11 +1,11 @@
-//! Constraints that are violated by more than solving leaves, and less than what fails: they repeat or contradict each other, and
-//! yield.
+//! Constraints that are violated by more than the error of the solution, and by less than the limit of failure: they are
+//! redundant or contradictory, and are regularised.
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::judge::warn;
 use crate::judge::{Judge, Warning};
 
-/// Has learned nothing.
+/// Has no state.
 struct ConstraintsYield;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {

@@ -1,5 +1,5 @@
-//! What wheels that roll ask of the plane: no more than it can give; and of steps of planned size: that they are short beside
-//! the time in which the point of contact runs round.
+//! Checks that the contact of rolling wheels can transmit their forces, and that steps of planned size are short compared
+//! with the time in which the point of contact travels round.
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::contact::wheel_on_rail::Pose;
@@ -11,12 +11,12 @@ use crate::kinematics::Kinematics;
 use crate::round_off;
 use crate::system::{State, System};
 
-/// A point of contact that runs round by this angle in a step is not resolved: all schemes miss a twelfth of its third power
-/// in a step, here 1 % of the circle's radius [rad].
+/// A point of contact that travels by this angle in a step is not resolved: the error of all schemes is a twelfth of its
+/// third power in a step, here 1 % of the circle's radius [rad].
 const MAX_RUN: f64 = 0.5;
 
-/// The first wheel on a plane whose point of contact runs round by more in a step than the step resolves, as where the wheel
-/// has nearly fallen flat. No part turns as fast as that.
+/// The first wheel on a plane whose point of contact travels by more in a step than the step resolves, such as a wheel that
+/// has nearly fallen flat. No part rotates as fast as that.
 pub(crate) fn runs_round(system: &System, (from, to): (&Kinematics, &Kinematics)) -> Option<Warning> {
     system.joints().iter().find_map(|joint| {
         let contact = joint.joint().contact()?;
@@ -27,7 +27,7 @@ pub(crate) fn runs_round(system: &System, (from, to): (&Kinematics, &Kinematics)
     })
 }
 
-/// Whether contacts can give what wheels ask of them. Has learned nothing.
+/// Whether contacts can transmit the forces of wheels. Has no state.
 struct Contact;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
@@ -42,7 +42,7 @@ impl Monitor for Contact {
     }
 }
 
-/// Whether points of contact run round slowly beside steps of planned size. Has learned nothing.
+/// Whether points of contact travel slowly compared with steps of planned size. Has no state.
 struct ContactRun;
 
 pub(super) fn begin_run(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
@@ -68,7 +68,7 @@ fn doubt(system: &System, state: &State) -> Option<Warning> {
     on_rails.or_else(|| on_planes(system, state, &largest))
 }
 
-/// The first doubt about a wheel on a rail.
+/// The first limit exceeded by a wheel on a rail.
 fn rail_doubt(joint: &AttachedJoint, state: &State, round_off: f64) -> Option<Warning> {
     let contact = joint.joint().rail_contact()?;
     let normal = -state.multipliers[joint.first_multiplier];

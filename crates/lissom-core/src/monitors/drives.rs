@@ -1,4 +1,4 @@
-//! Drives that jump: however short the step, a place that changes at once is reached with a speed that nothing prescribes.
+//! Drives that jump: however short the step, a prescribed position that jumps is reached with an undefined speed.
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::analysis::Problem;
@@ -8,12 +8,12 @@ use crate::kinematics::{Kinematics, Quantity};
 use crate::scaling::Representative;
 use crate::system::System;
 
-/// A drive goes at once if it goes further in a step than its larger rate at both ends would take it, so many times over.
+/// A drive jumps if it moves in a step by more than this multiple of its larger rate at both ends times the step.
 const MAX_RATIO: f64 = 2.0;
-/// Ways below this part of the representative length, or this angle, are not reported [-, rad].
+/// Displacements below this fraction of the representative length, or this angle, are not reported [-, rad].
 const MIN_DISPLACEMENT: f64 = 1e-6;
 
-/// Has learned nothing.
+/// Has no state.
 struct Drives;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {

@@ -1,9 +1,9 @@
-//! A motion with more energy than loads and drives have put in.
+//! A motion with more energy than loads and drives have supplied.
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::judge::{Warning, report};
 
-/// Has learned nothing: the energy balance is kept with the state.
+/// Has no state: the energy balance is part of the simulation's state.
 struct EnergySurplus;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
@@ -18,7 +18,7 @@ impl Monitor for EnergySurplus {
         report(
             warnings,
             |warning| matches!(warning, Warning::EnergySurplus { .. }),
-            // What looked large at the start may turn out small beside what follows.
+            // A surplus at the start may be small compared with what follows.
             |known| {
                 let since = match known {
                     Some(Warning::EnergySurplus { time, .. }) => *time,

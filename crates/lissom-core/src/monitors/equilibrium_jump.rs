@@ -4,14 +4,14 @@ use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::judge::{Warning, warn};
 
-/// Part of the work of a load step that must be missing for it to be reported as a jump: a path of equilibria that the
-/// trapezoidal rule follows badly, as with all of a load at once, misses up to a third.
+/// Fraction of the work of a load step that must be missing for a jump to be reported. On a path of equilibria that
+/// the trapezoidal rule approximates badly, for example with the whole load at once, up to a third is missing.
 const JUMP: f64 = 0.6;
-/// Energy that the first load step may release, over what a linear model says of it.
+/// Energy that the first load step may release, over the value of a linear model.
 const RELEASED: f64 = 4.0;
 
 struct EquilibriumJump {
-    /// Energy that the first load step releases because its start is no equilibrium [J].
+    /// Energy that the first load step releases because its start is not in equilibrium [J].
     released: f64,
     is_first: bool,
 }
@@ -25,7 +25,7 @@ impl Monitor for EquilibriumJump {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let [before, after] = step.energy_balance;
         let is_first = std::mem::replace(&mut self.is_first, false);
-        // A start that is no equilibrium, as one with prestress, releases energy that no load has put in.
+        // A start that is not in equilibrium, for example with prestress, releases energy that no load has supplied.
         let is_release = is_first && after.unexplained_work(before).abs() <= RELEASED * self.released;
         let (start, time) = (step.start.kinematics.time, step.end.kinematics.time);
         // Relaxation leaves the path, and has a warning of its own.

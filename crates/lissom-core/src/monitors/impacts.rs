@@ -1,10 +1,10 @@
-//! Steps of planned size do not end where forces switch. Where a motion runs into a contact that is shorter than the steps,
-//! a scheme takes its energy away without a word; this is noticed by how fast switches are passed.
+//! Steps of planned size do not end at switches of forces. If a motion meets a contact that is shorter than the steps, a
+//! scheme dissipates its energy silently; this is detected from the rates at which switches are crossed.
 //!
-//! Legend: g number that changes its sign where a force has a kink or a jump (a gap), ω frequency of what it meets, h step.
+//! Legend: g switching function, at whose zero a force has a kink or a jump (a gap), ω frequency of the contact, h step.
 //!
-//! A contact that is resolved slows an approach ġ like cos ωt. An approach that has lost half of its rate two steps after g
-//! has passed through zero belongs to ωh > π/6, and one that turns back without having passed it was stopped within a step.
+//! A resolved contact slows an approach ġ like cos ωt. An approach that has lost half of its rate two steps after g has
+//! crossed zero has ωh > π/6, and one that reverses without having crossed it was stopped within a step.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,26 +14,27 @@ use crate::judge::{Warning, report};
 use crate::kinematics::Kinematics;
 use crate::system::System;
 
-/// Steps after a crossing at whose ends the rate is looked at.
+/// Steps after a crossing at whose ends the rate is checked.
 const STEPS: u8 = 2;
-/// Part of its rate that an approach keeps there if the contact is resolved.
+/// Fraction of its rate that an approach retains there if the contact is resolved.
 const KEPT: f64 = 0.5;
-/// Approaches slower than this part of the fastest one of the same switch hold no significant energy: a hundredth.
+/// Approaches slower than this fraction of the fastest one of the same switch have no significant energy: a
+/// hundredth.
 const SLOW: f64 = 0.1;
 
-/// What is known of one switch.
+/// State of one switch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Approach {
     value: f64,
     rate: Option<f64>,
     fastest: f64,
-    /// Rate with which zero was passed last, and steps since then.
+    /// Rate at the last crossing of zero, and steps since then.
     passed: Option<(f64, u8)>,
     /// Rate and end [s] of the fastest approach that was stopped.
     stopped: Option<(f64, f64)>,
 }
 
-/// How fast the switches of one simulation are passed.
+/// Crossing rates of the switches of one simulation.
 #[derive(Default)]
 struct Impacts {
     time: f64,
@@ -51,8 +52,8 @@ impl Impacts {
         impacts
     }
 
-    /// After a step that was accepted: the first switch that stopped what passed it faster than steps resolve, and when [s].
-    /// What looked fast at the start of a motion may turn out slow beside what follows, and is then not reported.
+    /// After an accepted step: the first switch that stopped an approach faster than steps resolve, and when [s]. An
+    /// approach that was fast at the start of a motion may be slow compared with what follows, and is then not reported.
     fn follow(&mut self, system: &System, at: &Kinematics) -> Option<(usize, f64)> {
         values_at(system, at, &mut self.values);
         let duration = at.time - self.time;
@@ -127,13 +128,13 @@ impl Approach {
         let is_slow = last.abs() < SLOW * self.fastest;
         let is_beyond = |place: f64| before != 0.0 && (before > 0.0) != (place > 0.0);
         if is_beyond(value) || is_beyond(before + last * duration) {
-            // It has passed, or should have.
+            // It has crossed, or should have.
             self.passed = (!is_slow).then_some((last, 0));
         }
         let Some((entry, steps)) = &mut self.passed else { return false };
         *steps += 1;
         let is_stopped = rate / *entry < KEPT;
-        // The crossing itself belongs to two motions.
+        // The step with the crossing itself contains two motions.
         let is_over = *steps > STEPS || is_stopped;
         if is_over {
             self.passed = None;
@@ -153,7 +154,7 @@ mod tests {
     use super::*;
 
     /// Whether the gap of a body that meets a spring of ω at a rate of 1 at the time 0 is reported, with steps of `step` the
-    /// first of which ends at `first`; the body goes on through the spring and back.
+    /// first of which ends at `first`; the body moves into the spring and back.
     fn is_reported(omega: f64, step: f64, first: f64, restitution: f64) -> bool {
         let contact = std::f64::consts::PI / omega;
         let gap = |time: f64| match time {

@@ -1,11 +1,11 @@
-//! Whether superelements deform no more than their linear matrices allow, and are loaded no more than that.
+//! Whether superelements remain in the range of deformations and loads for which their linear matrices are valid.
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::elements::{LinearLimit, LinearRange};
 use crate::judge::Warning;
 use crate::system::{State, System};
 
-/// Reports the first superelement that leaves its linear range in each way. Has learned nothing.
+/// Reports the first superelement that leaves its linear range in each respect. Has no state.
 struct LinearRanges;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {

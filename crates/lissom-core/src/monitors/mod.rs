@@ -1,7 +1,7 @@
 //! Monitors check every accepted step and report warnings. They do not change the motion.
 //!
-//! A monitor is one file and one line of `KINDS`. What it has learned is part of snapshots, under its name: a snapshot that was
-//! taken without a monitor can be restored with it.
+//! A monitor is one file and one line of `KINDS`. Its state is part of snapshots, under its name: a snapshot that was taken
+//! without a monitor can be restored with it.
 
 pub(crate) mod constraint_rates;
 mod constraints_yield;
@@ -30,11 +30,11 @@ use crate::kinematics::Kinematics;
 struct Kind {
     /// Its name in snapshots.
     name: &'static str,
-    /// The monitor of a simulation, if there is something to look at.
+    /// The monitor of a simulation, if it applies.
     begin: fn(&Beginning<'_>) -> Option<Box<dyn Monitor>>,
 }
 
-/// All monitors, in the order in which they look at a step.
+/// All monitors, in the order in which they check a step.
 const KINDS: &[Kind] = &[
     Kind { name: "contact-run", begin: contact::begin_run },
     Kind { name: "constraint-rates", begin: constraint_rates::begin },
@@ -56,20 +56,20 @@ pub(crate) struct Monitors {
 }
 
 impl Monitors {
-    /// Those that have something to look at.
+    /// Those that apply.
     pub(crate) fn new(beginning: &Beginning<'_>) -> Self {
         let begin = |kind: &Kind| Some((kind.name, (kind.begin)(beginning)?));
         Self { monitors: KINDS.iter().filter_map(begin).collect() }
     }
 
-    /// Lets all look at a step.
+    /// Passes a step to all monitors.
     pub(crate) fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         for (_, monitor) in &mut self.monitors {
             monitor.accept(step, warnings);
         }
     }
 
-    /// The first cause of a failure at `time` [s] that a monitor sees.
+    /// The first cause of a failure at `time` [s] that a monitor recognises.
     pub(crate) fn cause(&mut self, problem: Problem<'_>, at: &Kinematics, time: f64) -> Option<StepError> {
         self.monitors.iter_mut().find_map(|(_, monitor)| monitor.cause(problem, at, time))
     }
@@ -79,13 +79,13 @@ impl Monitors {
         self.monitors.iter().find_map(|(_, monitor)| (&**monitor as &dyn Any).downcast_ref())
     }
 
-    /// What all of them have learned, by name.
+    /// The state of all monitors, by name.
     pub(crate) fn save(&self) -> Vec<(String, Vec<u8>)> {
         let saved = |(name, monitor): &(&str, Box<dyn Monitor>)| ((*name).to_owned(), monitor.save());
         self.monitors.iter().map(saved).filter(|(_, saved)| !saved.is_empty()).collect()
     }
 
-    /// Goes back to what was learned; a monitor of which nothing was saved begins anew. Whether all could be read.
+    /// Restores their state; a monitor without saved state begins anew. Whether all could be read.
     pub(crate) fn restore(&mut self, saved: &[(String, Vec<u8>)]) -> bool {
         self.monitors.iter_mut().all(|(name, monitor)| {
             let own = saved.iter().find(|(known, _)| known == name);

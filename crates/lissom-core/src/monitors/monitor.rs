@@ -1,4 +1,4 @@
-//! What a monitor consists of, and what it sees.
+//! Interface of a monitor, and its input.
 
 use std::any::Any;
 
@@ -16,7 +16,7 @@ pub(crate) struct Beginning<'b> {
     pub(crate) problem: Problem<'b>,
     pub(crate) state: &'b State,
     pub(crate) representative: &'b Representative,
-    /// Energy that the first load step releases because its start is no equilibrium [J].
+    /// Energy that the first load step releases because its start is not in equilibrium [J].
     pub(crate) released: f64,
 }
 
@@ -31,11 +31,11 @@ impl Beginning<'_> {
 pub(crate) struct Accepted<'s> {
     pub(crate) problem: Problem<'s>,
     pub(crate) integrator: &'s mut Integrator,
-    /// Where the first step began.
+    /// Configuration at the beginning of the first step.
     pub(crate) origin: &'s Kinematics,
     pub(crate) start: &'s State,
     pub(crate) end: &'s State,
-    /// Duration of the step before [s].
+    /// Duration of the previous step [s].
     pub(crate) last_size: f64,
     /// Before and after the step.
     pub(crate) energy_balance: [&'s EnergyBalance; 2],
@@ -47,24 +47,24 @@ pub(crate) struct Accepted<'s> {
     pub(crate) has_switched: bool,
 }
 
-/// Looks at every accepted step.
+/// Checks every accepted step.
 pub(crate) trait Monitor: Any + Send + Sync {
-    /// Looks at a step, and adds, updates or withdraws warnings.
+    /// Checks a step, and adds, updates or withdraws warnings.
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>);
 
-    /// Why a step from this state has no solution however short, if what this monitor has seen says so. `time` is that of the
+    /// Why a step from this state has no solution however short, if this monitor has detected a cause. `time` is that of the
     /// failure [s].
     fn cause(&mut self, problem: Problem<'_>, at: &Kinematics, time: f64) -> Option<StepError> {
         let _ = (problem, at, time);
         None
     }
 
-    /// What was learned from the steps so far; empty if nothing is.
+    /// Serialises the monitor's state; empty if it has none.
     fn save(&self) -> Vec<u8> {
         Vec::new()
     }
 
-    /// Goes back to what [`save`](Self::save) returned. Whether it could be read.
+    /// Restores the result of [`save`](Self::save). Whether it could be read.
     fn restore(&mut self, saved: &[u8]) -> bool {
         saved.is_empty()
     }

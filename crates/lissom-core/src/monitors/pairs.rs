@@ -1,8 +1,8 @@
-//! Which steps of planned size are examined: now and then two in a row of one size, a pair.
+//! Which steps of planned size are examined: at intervals, two consecutive ones of one size, a pair.
 
 use serde::{Deserialize, Serialize};
 
-/// Steps or parts from one pair to the next: with the two estimates of sixteen steps a chain of ten rigid bodies took four per
+/// Steps or parts from one pair to the next: with the two estimates in sixteen steps a chain of ten rigid bodies took four per
 /// cent more instructions.
 pub(super) const STRIDE: u32 = 64;
 /// Steps or parts before the first pair.
@@ -24,8 +24,8 @@ impl Pairs {
         Self { wait: FIRST, has_first: false, fraction: 0.0 }
     }
 
-    /// Counts a step, or a part of one, that is this fraction of a planned one. Whether it is examined: a motion may take each
-    /// planned step in parts.
+    /// Counts a step, or a part of one, of this fraction of a planned one. Whether it is examined: a motion may be solved with
+    /// each planned step in parts.
     pub(super) fn is_due(&mut self, fraction: f64) -> bool {
         self.wait = self.wait.saturating_sub(1);
         self.has_first &= fraction == self.fraction;
@@ -33,7 +33,7 @@ impl Pairs {
         self.wait == 0
     }
 
-    /// A step was examined. Whether it completes a pair.
+    /// Records that a step was examined. Whether it completes a pair.
     pub(super) fn is_complete(&mut self) -> bool {
         let is_complete = std::mem::replace(&mut self.has_first, true);
         if is_complete {

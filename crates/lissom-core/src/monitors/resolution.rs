@@ -1,15 +1,14 @@
-//! Whether steps of planned size resolve the motion: now and then the error of two steps in a row is estimated, and what
-//! such errors add up to over the run is compared with how far the model moves.
+//! Whether steps of planned size resolve the motion. At intervals the error of two consecutive steps is estimated, and
+//! the accumulated error over the run is compared with the displacement of the model.
 //!
 //! ```text
 //! E_i = s min(Σ |ẽ_i|, 8 A_i),      A_i = |e_i| / (C (ωh)³),   ωh = |e_i - e_i'| / |e_i|
 //! ```
 //!
 //! Legend: e error of a step, ẽ the same filtered through the tangent (see `error_estimate`), by unknown and scaled; e' that of
-//! the step after it; A amplitude of what is missed: an oscillation that gets out of phase errs twice by it, and it was larger
-//! before it was damped;
-//! s fraction of the sum that errors at the end amount to, by scheme. Fitted to some eight hundred random mechanisms, where the
-//! error beside the reference was mostly 0.2 to 3.6 times E.
+//! the next step; A amplitude of the unresolved motion: the error of an oscillation out of phase is twice that, and it was
+//! larger before it was damped; s error at the end as a fraction of the sum of local errors, by scheme. Fitted to some eight
+//! hundred random mechanisms, for which the error relative to the reference was mostly 0.2 to 3.6 times E.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,41 +18,41 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::integrator::error_estimate::{ErrorOrder, MIN_REFERENCE, excursion};
 use crate::judge::{Warning, report};
 
-/// Errors of two steps in a row that differ by more than this factor belong to an instant, not to the motion.
+/// Errors of two consecutive steps that differ by more than this factor are due to an instant, not to the motion.
 const SPIKE: f64 = 4.0;
 /// C: local error of an oscillation over (ωh)³ times its amplitude, for all schemes about a twelfth.
 const OSCILLATION: f64 = 1.0 / 12.0;
 /// Mean of |cos|.
 const MEAN_COSINE: f64 = std::f64::consts::FRAC_2_PI;
-/// Most that an oscillation errs, in amplitudes.
+/// Maximum error of an oscillation, in amplitudes.
 const MAX_ERROR: f64 = 8.0;
-/// Estimates beyond this part of how far the model moves are reported. Where motions amplify errors, those at the end are up to ten
-/// times the estimate: of 10 000 random mechanisms four erred by 1 to 2.5 % with estimates of 0.15 to 0.19 %.
+/// Estimates above this fraction of the model's displacement are reported. If motions amplify errors, those at the end are up to
+/// ten times the estimate: of 10 000 random mechanisms four had errors of 1 to 2.5 % with estimates of 0.15 to 0.19 %.
 const NOTEWORTHY: f64 = 1e-3;
-/// What is known of one unknown [scaled].
+/// Estimates for one unknown [scaled].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Missed {
-    /// Sum of the filtered errors of all steps so far, as if they changed linearly from pair to pair.
+    /// Sum of the filtered errors of all steps so far, interpolated linearly from pair to pair.
     sum: f64,
     /// Filtered error of a step of the last pair.
     last: f64,
-    /// Sums over all pairs: unfiltered errors, and how they differ within a pair.
+    /// Sums over all pairs: unfiltered errors, and their differences within a pair.
     errors: f64,
     differences: f64,
 }
 
 impl Missed {
-    /// How far the unknown may be off so many steps after the last pair.
+    /// Estimated error of the unknown after this number of steps since the last pair.
     fn total(&self, pairs: f64, steps: f64) -> f64 {
         let angle = self.differences / self.errors;
         let amplitude = self.errors / (2.0 * pairs * MEAN_COSINE * OSCILLATION * angle.powi(3));
-        // Where nothing differs there is no oscillation.
+        // Without differences there is no oscillation.
         let sum = self.sum + steps * self.last;
         if amplitude.is_nan() { sum } else { sum.min(MAX_ERROR * amplitude) }
     }
 }
 
-/// What steps of planned size are estimated to miss.
+/// Estimated errors of steps of planned size.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Resolution {
     missed: Vec<Missed>,
@@ -64,12 +63,12 @@ struct Resolution {
     steps: f64,
     /// Number of pairs.
     count: f64,
-    /// How far any node has moved since the start, at most 1 [-].
+    /// Largest displacement of a node since the start, at most 1 [-].
     farthest: f64,
 }
 
 impl Resolution {
-    /// At the start of a motion with so many coordinates.
+    /// At the start of a motion with this number of coordinates.
     fn new(coordinates: usize) -> Self {
         Self {
             missed: vec![Missed::default(); coordinates],
@@ -114,7 +113,7 @@ impl Resolution {
         true
     }
 
-    /// The coordinate row that is off most, and by how much.
+    /// The coordinate row with the largest error, and that error.
     fn worst(&self) -> (usize, f64) {
         let all = self.missed.iter().map(|missed| missed.total(self.count, self.steps)).enumerate();
         all.fold((0, 0.0), |worst, (row, total)| if total > worst.1 { (row, total) } else { worst })
@@ -139,7 +138,7 @@ impl Monitor for Resolution {
             let errors = work.filtered.iter().zip(&work.error).zip(&work.sizes);
             is_pair = self.note(errors.map(|((filtered, error), size)| [filtered * size, error * size]));
         }
-        // What has been reported is kept up to date with every step, so that the last word is that of the end.
+        // A reported warning is updated in every step, so that its values are those of the end.
         if !is_pair && !warnings.iter().any(is_unresolved) {
             return;
         }
@@ -148,7 +147,7 @@ impl Monitor for Resolution {
         let (row, total) = self.worst();
         let part = step.problem.settings.scheme.planned_share * total / self.farthest.max(MIN_REFERENCE);
         report(warnings, is_unresolved, |known| {
-            // What looked large at the start may turn out small beside how far the model goes.
+            // An error at the start may be small compared with the later displacement of the model.
             if part <= NOTEWORTHY {
                 return None;
             }
@@ -176,7 +175,7 @@ mod tests {
     use super::super::pairs::{FIRST, STRIDE};
     use super::*;
 
-    /// What is estimated of an oscillation whose error is C (ωh)³ per step, of this amplitude, after so many steps.
+    /// Estimate for an oscillation whose error is C (ωh)³ per step, of this amplitude, after this number of steps.
     fn estimated(angle: f64, amplitude: f64, steps: u32) -> f64 {
         let mut resolution = Resolution::new(1);
         for step in 0..steps {
@@ -230,7 +229,7 @@ mod tests {
         assert!(due > 0 && !resolution.pairs.has_first);
     }
 
-    /// A motion of constant error per step, which a failure in the middle has taken in sixteenths for a while.
+    /// A motion of constant error per step, with some steps in sixteenths after a failure.
     #[test]
     fn steps_that_are_taken_in_parts_count_as_often_as_whole_ones() {
         let estimated = |parts: u32| {

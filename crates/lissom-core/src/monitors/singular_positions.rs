@@ -1,4 +1,4 @@
-//! Whether steps come through singular positions of closed loops.
+//! Whether the motion crosses singular positions of closed loops.
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::analysis::singular_positions::SingularPositions;
@@ -19,7 +19,7 @@ impl Monitor for SingularPositions {
         let Problem { system, settings } = step.problem;
         let (before, at) = (&step.start.kinematics, &step.end.kinematics);
         let representative = &step.integrator.representative;
-        // Load steps have no velocities; each is looked at.
+        // Load steps have no velocities; each is checked.
         let way = if settings.scheme.dynamic && representative.length > 0.0 {
             representative.largest_speed(system, at) / representative.length * (at.time - before.time)
         } else {

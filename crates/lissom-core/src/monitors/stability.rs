@@ -1,5 +1,5 @@
 //! Whether equilibria are stable: whether the stiffness, multipliers included, has negative eigenvalues among the motions
-//! that the constraints leave. They are counted by the signs of pivots [Sylvester's law of inertia].
+//! that satisfy the constraints. They are counted by the signs of pivots [Sylvester's law of inertia].
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::analysis::Problem;
@@ -12,8 +12,8 @@ use crate::system::State;
 /// Stability of the equilibria of load steps.
 #[derive(Default)]
 pub(crate) struct Stability {
-    /// From which load parameter on [s] an equilibrium is unstable in how many directions; none where that cannot be
-    /// determined.
+    /// Load parameters [s] at which the number of unstable directions changes, each with the new number; none if that
+    /// cannot be determined.
     pub(crate) changes: Vec<(f64, Option<usize>)>,
     /// The last load parameter at which the equilibrium was stable [s].
     stable_at: Option<f64>,
@@ -24,8 +24,8 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     is_static.then(|| Box::new(Stability::default()) as Box<dyn Monitor>)
 }
 
-/// Directions in which an equilibrium is unstable; none where that cannot be determined: in motion, where the stiffness is
-/// singular, and where it belongs to no energy, as with loads that turn with the model.
+/// Directions in which an equilibrium is unstable; none if that cannot be determined: in motion, if the stiffness is
+/// singular, and if it derives from no energy, for example with follower loads.
 pub(crate) fn unstable_directions(Problem { system, settings }: Problem<'_>, state: &State) -> Option<usize> {
     if settings.scheme.dynamic {
         return None;
