@@ -1,8 +1,8 @@
-//! Joints whose equations hold less than at the start: a `constant_velocity` joint that is bent by half a turn, whose
-//! third rotation vanishes there with its gradient. No step across such a place has a solution, however short.
+//! Joints whose equations have lost rank since the start: a `constant_velocity` joint that is bent by half a turn,
+//! whose third rotation vanishes there with its gradient. No step across such a pose has a solution, however short.
 //!
-//! Seen is the smallest singular value of the gradient by the relative motion and the joint's own coordinates, over
-//! what it was at the start.
+//! The criterion is the smallest singular value of the gradient by the relative motion and the joint's own
+//! coordinates, over its value at the start.
 
 use nalgebra::DMatrix;
 
@@ -11,22 +11,22 @@ use crate::joints::attached::AttachedJoint;
 use crate::kinematics::{Kinematics, Quantity};
 use crate::system::System;
 
-/// A joint holds nearly nothing in one direction where the smallest singular value is less than this part of that at the
-/// start: for the rotation of a `constant_velocity` joint, 26 degrees beside half a turn.
+/// A joint has almost lost a constraint if the smallest singular value is less than this fraction of that at the start:
+/// for the rotation of a `constant_velocity` joint, within 26 degrees of half a turn.
 const RANK_LOSS: f64 = 0.05;
 
-/// A joint close to a place where one of its equations vanishes.
+/// A joint close to a pose in which one of its equations vanishes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RankLoss {
     pub(crate) joint: String,
     pub(crate) kind: &'static str,
-    /// The equation that takes most part in what vanishes.
+    /// The equation with the largest component in the singular direction.
     pub(crate) equation: &'static str,
     /// Angle of the relative rotation of its two frames [rad].
     pub(crate) angle: f64,
 }
 
-/// The joint that holds least at a configuration, compared with where the motion began; none where all hold well.
+/// The joint closest to losing rank at a configuration, compared with the start of the motion; none if no joint is.
 /// Lengths are compared with angles through `length` [m].
 pub(crate) fn rank_loss(
     system: &System,
@@ -56,8 +56,8 @@ pub(crate) fn rank_loss(
     least.map(|(_, found)| found)
 }
 
-/// The joint that a step has led across a pose in which one of its equations vanishes: the gradient of an equation turns by more
-/// than a right angle, or the step ends on a branch of solutions that the joint cannot reach.
+/// The joint that has crossed a pose in which one of its equations vanishes: the gradient of an equation rotates by more than a
+/// right angle, or the step ends on a branch of solutions that the joint cannot reach.
 pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> Option<RankLoss> {
     system.joints().iter().find_map(|joint| {
         let branch = joint.joint().branch()?;
@@ -83,8 +83,8 @@ pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> 
     })
 }
 
-/// Smallest singular value of a joint's gradient, with the equation that takes most part in it; angles count as arcs at
-/// `length`. None where numbers are not finite.
+/// Smallest singular value of a joint's gradient, with the equation that has the largest component; angles count as
+/// arcs at `length`. None if values are not finite.
 fn smallest_singular_value(joint: &AttachedJoint, at: &Kinematics, length: f64) -> Option<(f64, usize)> {
     let gradient = joint.own_gradient(&joint.evaluate_absolute(at));
     let row_size = |row: usize| match joint.joint().equation_quantity(row) {
@@ -125,7 +125,8 @@ mod tests {
     use crate::registry::Parameters;
     use crate::system::{Builder, Placement};
 
-    /// A joint without parts of its own, and the motion with its tip bent about an axis across the shaft, then turned about its own.
+    /// A joint without parts of its own, and the motion with its tip bent about an axis across the shaft, then rotated about its
+    /// own.
     fn bent(angle: f64, beside: f64) -> (System, Kinematics) {
         let mut builder = Builder::new();
         let tip = builder.add_node("tip", Motion::identity(), Freedoms::Full);
@@ -143,7 +144,7 @@ mod tests {
         (system, at)
     }
 
-    /// Shafts bent by 160 degrees, with the output at the angle of the input and half a turn beside it: both satisfy the equation.
+    /// Shafts bent by 160 degrees, with the output at the angle of the input and half a turn from it: both satisfy the equation.
     #[test]
     fn a_step_across_half_a_turn_ends_on_another_branch() {
         let (system, start) = bent(160.0, 0.0);

@@ -1,15 +1,16 @@
-//! Where energy goes: energy of the model beside the work of loads and drives. What dampers and schemes take away
-//! lowers the balance; nothing may raise it.
+//! Energy balance: energy of the model compared with the work of loads and drives. Dissipation by dampers and schemes
+//! lowers it; nothing may raise it.
 //!
 //! ```text
 //! D = E - W,     surplus = D - (least D so far),     lost = (D at the start) - D
 //! ```
 //!
-//! Where nothing dissipates, what is lost is lost to the scheme, or work is counted with wrong forces.
+//! In a model without dissipation, the lost energy is dissipated by the scheme, or work is computed with wrong
+//! forces.
 //!
-//! E kinetic, elastic and potential energy, W work of loads and drives (see
-//! `System::work_of_loads`). In statics weight is a load, for it may be
-//! applied in steps, and nothing takes energy away; the potential energy is that of all of it.
+//! E kinetic, elastic and potential energy, W work of loads and drives (see `System::work_of_loads`). In statics
+//! weight is a load, because it may be applied in steps, and nothing dissipates energy; the potential energy is that
+//! of the full weight.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,16 +21,16 @@ use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// A surplus of this part of the energy turned over is reported.
+/// A surplus of this fraction of the energy exchanged is reported.
 const NOTEWORTHY: f64 = 0.05;
-/// A surplus of this part of the energy turned over, over a run or in a single step, makes the motion invalid.
+/// A surplus of this fraction of the energy exchanged, over a run or in a single step, makes the motion invalid.
 const GROSS: f64 = 0.25;
-/// Places are known to this part of the representative length: energies below are round-off.
+/// Relative accuracy of positions, with respect to the representative length: energies below are round-off.
 const PLACE: f64 = 1e-7;
-/// Changes of places are known to this part of the representative length.
+/// Relative accuracy of changes of positions, with respect to the representative length.
 const CHANGE: f64 = 1e-12;
 
-/// A state as the energy balance sees it.
+/// Input of the energy balance from a state.
 pub(crate) struct Entry<'a> {
     at: &'a Kinematics,
     multipliers: &'a [f64],
@@ -42,28 +43,28 @@ impl<'a> From<&'a State> for Entry<'a> {
     }
 }
 
-/// In smooth motion energy is looked at after so many steps, so that it costs about one part in a hundred.
+/// In smooth motion energy is evaluated after this number of steps, so that it costs about one part in a hundred.
 const STRIDE: u32 = 8;
 
 /// Energy and work since the start of a simulation [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
-    /// Energy when it was looked at last, at most eight steps ago.
+    /// Energy at its last evaluation, at most eight steps ago.
     pub energy: Energy,
     /// Work of forces, moments and other loads since the start, in statics that of weight included.
     pub loads: f64,
     /// Work of prescribed motions since the start.
     pub drives: f64,
-    /// Energy that latches have taken when they engaged.
+    /// Energy that latches have dissipated when they engaged.
     #[serde(default)]
     pub latches: f64,
-    /// The largest surplus so far: energy that nothing put in.
+    /// The largest surplus so far: energy without a source.
     pub surplus: f64,
-    /// Energy that dampers, friction, impacts and the scheme have taken since the start: negative where energy was put in.
+    /// Energy dissipated by dampers, friction, impacts and the scheme since the start: negative if they supplied energy.
     #[serde(default)]
     pub lost: f64,
-    /// Energy turned over so far: the largest sum of kinetic and elastic energy, the range of the potential one, and
-    /// what loads and drives have moved to and fro.
+    /// Energy exchanged so far: the largest sum of kinetic and elastic energy, the range of the potential one, and
+    /// the work of loads and drives in both directions.
     pub turned_over: f64,
     #[serde(default)]
     first_balance: f64,
@@ -73,14 +74,14 @@ pub struct EnergyBalance {
     potential: [f64; 2],
     moved: f64,
     floor: f64,
-    /// The most that violated constraints would give back: those that repeat each other yield a little, like springs.
+    /// Upper bound of the energy of violated constraints: redundant ones have a small compliance, like springs.
     constraint_energy: f64,
-    /// Steps since the energy was looked at.
+    /// Steps since the energy was evaluated.
     steps_since_check: u32,
 }
 
 impl EnergyBalance {
-    /// At the start of a simulation; of a motion, with the `interval` in which places change [s].
+    /// At the start of a simulation; of a motion, with the `interval` in which positions change [s].
     pub(crate) fn new(
         system: &System,
         at: &Kinematics,
@@ -89,7 +90,7 @@ impl EnergyBalance {
     ) -> Self {
         let energy = system.energy(at);
         let place = PLACE * representative.length;
-        // What rests moves by round-off of places, and has energy where nothing has any.
+        // Models at rest move by round-off of positions, and then have energy although none was supplied.
         let speed = interval.map_or(0.0, |interval| CHANGE * representative.length / interval);
         let mut energy_balance = Self {
             energy,
@@ -103,17 +104,17 @@ impl EnergyBalance {
         energy_balance
     }
 
-    /// Surplus relative to the energy turned over.
+    /// Surplus relative to the energy exchanged.
     pub fn relative_surplus(&self) -> f64 {
         self.surplus / (self.turned_over + self.least_known())
     }
 
-    /// Whether the surplus is worth a warning.
+    /// Whether the surplus requires a warning.
     pub fn is_noteworthy(&self) -> bool {
         self.surplus > NOTEWORTHY * self.turned_over + self.least_known()
     }
 
-    /// Energies below this are round-off, or held by constraints.
+    /// Energies below this are round-off, or stored in constraints.
     fn least_known(&self) -> f64 {
         let largest = self.most.max(self.potential[0].abs()).max(self.potential[1].abs());
         self.floor + self.constraint_energy + round_off::ENERGY * largest + f64::MIN_POSITIVE
@@ -124,7 +125,7 @@ impl EnergyBalance {
         energy - self.loads - self.drives
     }
 
-    /// After a step. The energy of every element costs a tenth of a step: without `weighs` only work is added up.
+    /// After a step. The energy of every element costs a tenth of a step: without `weighs` only work is summed.
     pub(crate) fn after(
         &self,
         system: &System,
@@ -148,7 +149,7 @@ impl EnergyBalance {
             ..*self
         };
         if weighs {
-            // Weight that grows with the load parameter does its work by the trapezoidal rule, as other loads do.
+            // Weight that grows with the load parameter does work by the trapezoidal rule, as other loads do.
             let gravity = [start.at, end.at].map(|at| system.gravity_factor(at.time));
             let of_weight = (!is_motion).then_some(0.5 * (gravity[0] + gravity[1]));
             after.weigh(system.energy(end.at), of_weight);
@@ -179,12 +180,12 @@ impl EnergyBalance {
         self.turned_over = self.most + (self.potential[1] - self.potential[0]) + self.moved;
     }
 
-    /// Whether the energy is to be looked at after the next step, however smooth it is.
+    /// Whether the energy has to be evaluated after the next step, however smooth it is.
     pub(crate) fn is_due(&self) -> bool {
         self.steps_since_check + 1 >= STRIDE
     }
 
-    /// Fails where this energy balance, after `before`, shows more energy than can be there.
+    /// Fails if this energy balance, after `before`, has a gross surplus of energy.
     pub(crate) fn refuse_gain(
         &self,
         before: &Self,
@@ -205,12 +206,12 @@ impl EnergyBalance {
         })
     }
 
-    /// In statics, what the last load step lost or won relative to the work done in it: a path that was followed loses
-    /// nothing but what the trapezoidal rule misses.
+    /// In statics, the energy lost or gained in the last load step relative to the work done in it: along a path of
+    /// equilibria only the error of the trapezoidal rule is missing.
     pub(crate) fn missing_work(&self, before: &Self) -> f64 {
         let stored = self.energy.strain - before.energy.strain;
         let (loads, drives) = (self.loads - before.loads, self.drives - before.drives);
-        // What drives lift against a load is done by one and undone by the other.
+        // The work that drives do against a load is done by one and undone by the other.
         let turned_over = stored.abs() + loads.abs() + drives.abs();
         (stored - loads - drives).abs() / (turned_over + self.least_known())
     }

@@ -1,9 +1,9 @@
-//! The one place that judges a finished step: whether its equations were solved in a way that the motion can be
-//! believed. Knows no scheme and no step size.
+//! Checks a solved step: whether the solution of its equations is a valid motion. Independent of the scheme and the
+//! step size.
 //!
-//! A solution of the discrete equations can be wrong: constraints that contradict each other leave a violation, angles
-//! beyond half a turn stand for others, and energy that nothing put in shows that the step left its branch or that the
-//! scheme feeds motions which it does not resolve.
+//! A solution of the discrete equations can be wrong. Contradictory constraints leave a violation, angles beyond half
+//! a turn are ambiguous, and a surplus of energy shows that the step left its branch or that the scheme excites
+//! motions which it does not resolve.
 
 pub(crate) mod degenerate_joint;
 mod energy_balance;
@@ -23,35 +23,35 @@ use crate::kinematics::{Kinematics, Quantity, Subject};
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// Violation of a constraint at which it is not held, relative to the representative length, or in radians. Solutions
+/// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.
 const MAX_VIOLATION: f64 = 1e-5;
 /// Violation that is reported: a tenth of that.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
-/// A node that turns further in one step than a quarter of a turn is not resolved by any of the schemes [rad].
+/// A node that rotates in one step by more than a quarter of a turn is not resolved by any of the schemes [rad].
 pub(crate) const MAX_TURN: f64 = 0.5 * PI;
-/// Nodes of an element that are turned against each other by more than this cannot be distinguished from the other way round:
-/// part of half a turn.
+/// Relative rotation of an element's nodes, as a fraction of half a turn, above which it cannot be distinguished from the
+/// opposite one.
 const MAX_RELATIVE_TURN: f64 = 0.9;
-/// Velocities that change by more than this part of the largest in a step are no smooth motion.
+/// Velocities that change by more than this fraction of the largest in a step are not a smooth motion.
 const SMOOTH: f64 = 0.5;
-/// A slider may be past the end of its beam by this part of the length: round-off.
+/// A slider may be beyond the end of its beam by this fraction of the length: round-off.
 const PAST_THE_END: f64 = 1e-9;
-/// Constraints named in a message.
+/// Maximum number of constraints named in a message.
 const MAX_LISTED: usize = 4;
 
-/// Judges steps of one simulation.
+/// Checks steps of one simulation.
 pub(crate) struct Judge<'a> {
     pub(crate) system: &'a System,
     pub(crate) representative: &'a Representative,
-    /// Whether there is a motion, not a sequence of equilibria.
+    /// Whether the problem is a motion, not a sequence of equilibria.
     pub(crate) is_motion: bool,
-    /// Whether energy out of nothing fails the step.
+    /// Whether spurious energy fails the step.
     pub(crate) checks_energy: bool,
 }
 
 impl<'a> Judge<'a> {
-    /// Judges steps of a model.
+    /// Checks steps of a model.
     pub(crate) fn new(Problem { system, settings }: Problem<'a>, representative: &'a Representative) -> Self {
         let (is_motion, checks_energy) = (settings.scheme.dynamic, settings.energy_check);
         Self { system, representative, is_motion, checks_energy }
@@ -59,11 +59,11 @@ impl<'a> Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Judges the step from `start` to `end`; gives the energy balance after it, and the largest violation of a constraint, relative to the
-    /// representative length, or in radians.
+    /// Checks the step from `start` to `end`. Returns the energy balance after it, and the largest violation of a constraint,
+    /// relative to the representative length, or in radians.
     ///
     /// # Errors
-    /// If the end of the step cannot be believed.
+    /// If the end of the step is invalid.
     pub(crate) fn examine(
         &self,
         start: &State,
@@ -93,7 +93,7 @@ impl Judge<'_> {
         Ok((after, violation))
     }
 
-    /// Name of the node whose velocity changes most, a turn counting as that of an arc at the representative length.
+    /// Name of the node whose velocity changes most; a rotation counts as the arc at the representative length.
     fn most_restless(&self, start: &State, end: &State) -> String {
         let length = self.representative.length;
         let change = |node: usize| {
@@ -105,8 +105,8 @@ impl Judge<'_> {
         self.system.layout().name_of_node(most).to_owned()
     }
 
-    /// Fails where constraints are violated by more than solving leaves: they contradict each other, or a drive asks
-    /// for more than the others leave. Gives the largest violation.
+    /// Fails if constraints are violated by more than the error of the solution: they contradict each other, or a
+    /// drive prescribes a motion that the others do not allow. Returns the largest violation.
     fn constraints(&self, end: &State) -> Result<f64, StepError> {
         let worst = self.violations(end).fold(0.0_f64, f64::max);
         if worst <= MAX_VIOLATION {
@@ -118,7 +118,7 @@ impl Judge<'_> {
         })
     }
 
-    /// Constraints violated by more than solving leaves, and less than what fails, are reported.
+    /// Reports constraints violated by more than the error of the solution, and by less than the limit of failure.
     pub(crate) fn regularized(&self, end: &State, worst: f64) -> Option<Warning> {
         let is_reported = worst > NOTEWORTHY_VIOLATION;
         is_reported.then(|| Warning::RegularizedConstraints {
@@ -146,7 +146,7 @@ impl Judge<'_> {
     fn names_of_violated(&self, end: &State, worst: f64) -> Subject {
         let mut named: Vec<(f64, usize)> =
             self.violations(end).enumerate().map(|(k, size)| (size, k)).collect();
-        // Constraints that miss as much as each other are named in the model's order, not by their last digits.
+        // Constraints with equal violations are listed in the model's order, not by their last digits.
         let rank = |size: f64| (20.0 * size / worst).round();
         named.sort_by(|a, b| rank(b.0).total_cmp(&rank(a.0)));
         let mut violated: Vec<Subject> = Vec::new();
@@ -163,7 +163,7 @@ impl Judge<'_> {
         Subject::list(violated)
     }
 
-    /// Fails where a slider has come off the end of its beam.
+    /// Fails if a slider has left the end of its beam.
     fn sliders(&self, end: &State) -> Result<(), StepError> {
         for slider in self.system.sliders() {
             let (place, length) = (end.kinematics.coordinates[slider.coordinate].value, slider.length());
@@ -176,8 +176,8 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Fails where a node turns so far that what it turns beyond would pass unseen. Reports whether the motion goes on
-    /// smoothly: no velocity changes by half of the largest.
+    /// Fails if a node rotates by more than a step resolves. Returns whether the motion is smooth: no velocity changes by
+    /// half of the largest.
     fn turns(&self, start: &State, end: &State) -> Result<bool, StepError> {
         let elapsed = end.kinematics.time - start.kinematics.time;
         let (mut fastest, mut node) = (0.0, 0);
@@ -203,14 +203,14 @@ impl Judge<'_> {
     }
 }
 
-/// Fails where the kinetic energy of an element is negative in some motion: its equations are unstable there.
+/// Fails if the kinetic energy of an element is negative in some motion: its equations are unstable there.
 fn positive_mass(system: &System, at: &Kinematics) -> Result<(), StepError> {
     let Some(node) = system.without_positive_mass(at) else { return Ok(()) };
     let interface = system.layout().name_of_node(node).to_owned();
     Err(StepError::NegativeKineticEnergy { time: at.time, interface })
 }
 
-/// Fails where two nodes of an element are turned against each other by nearly half a turn or more.
+/// Fails if two nodes of an element are rotated relative to each other by nearly half a turn or more.
 pub(crate) fn relative_turns(system: &System, at: &Kinematics) -> Result<(), StepError> {
     let Some((cosine, [one, other])) = system.max_relative_rotation(at) else { return Ok(()) };
     if cosine >= (0.5 * MAX_RELATIVE_TURN * PI).cos() {

@@ -1,4 +1,4 @@
-//! The list of warnings: each kind once, kept up to date, and withdrawn where later steps show that there was no reason for it.
+//! The list of warnings: each kind once, updated, and withdrawn if later steps show that it was unjustified.
 
 use super::Warning;
 
@@ -9,8 +9,8 @@ pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
     }
 }
 
-/// Adds, updates or withdraws the warning of which `is_known` recognises the kind: `reported` makes it, given the known one, or
-/// nothing if there is no reason for it any more.
+/// Adds, updates or withdraws the warning whose kind `is_known` recognises. `reported` returns the new warning, given the known
+/// one, or none if there is no longer a cause.
 pub(crate) fn report(
     warnings: &mut Vec<Warning>,
     is_known: impl Fn(&Warning) -> bool,

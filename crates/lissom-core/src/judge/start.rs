@@ -1,4 +1,4 @@
-//! Whether a motion starts as given.
+//! Whether a motion starts with the given initial conditions.
 
 use lissom_motion::Vector3;
 
@@ -8,32 +8,33 @@ use crate::kinematics::{Kinematics, NodeMotion, Quantity, Subject, split};
 use crate::scaling::Representative;
 use crate::system::System;
 
-/// Changes of given velocities below this part of the largest are round-off of given numbers.
+/// Changes of given velocities below this fraction of the largest are round-off of given numbers.
 const NOTEWORTHY: f64 = 1e-3;
-/// Rates of coordinates below this part of the largest speed come from velocities that are written with six digits.
+/// Rates of coordinates below this fraction of the largest speed result from velocities that are written with six
+/// digits.
 const WRITTEN: f64 = 1e-6;
-/// Where less than this part of the given kinetic energy remains, nothing of what was given does.
+/// If less than this fraction of the given kinetic energy remains, the given velocities are considered lost.
 const NOTHING: f64 = 1e-4;
-/// Rates of constraints that stay above this part of the largest rate contradict each other.
+/// Rates of constraints that remain above this fraction of the largest rate contradict each other.
 const MAX_RATE: f64 = 1e-6;
-/// Deformation rates below this part of the largest speed over the representative length are not worth reporting.
+/// Deformation rates below this fraction of the largest speed over the representative length are not reported.
 const JOLT: f64 = 1e-3;
 
-/// Deformation rates below are round-off of a model at rest [1/s].
+/// Deformation rates below this are round-off of a model at rest [1/s].
 const STILL: f64 = 1e-9;
 
-/// Speeds that move nothing by more than the round-off of positions within `duration` [s].
+/// Speed below which displacements within `duration` [s] are round-off of positions.
 pub(crate) fn negligible(representative: &Representative, duration: f64) -> f64 {
     f64::EPSILON * representative.length / duration
 }
 
-/// Speed of a node, a turn counting as that of an arc at `length`.
+/// Speed of a node; a rotation counts as the arc at `length`.
 fn speed(twist: &lissom_motion::Vector6, length: f64) -> f64 {
     let (velocity, angular) = split(twist);
     velocity.norm() + length * angular.norm()
 }
 
-/// Compares the given velocities with those that agree with the constraints.
+/// Compares the given velocities with those that satisfy the constraints.
 ///
 /// # Errors
 /// If nothing of the given velocities remains.
@@ -89,7 +90,8 @@ pub(crate) fn velocities(
     Ok(warnings)
 }
 
-/// The coordinate whose given rate is changed most, where that is significant beside the `largest` speed of a node.
+/// The coordinate whose given rate is changed most, if that is significant compared with the `largest` speed of a
+/// node.
 fn rates_of_coordinates(
     system: &System,
     (length, largest): (f64, f64),
@@ -117,14 +119,14 @@ fn rates_of_coordinates(
     Ok(Some(Warning::VelocityReplaced { part, given: words(given), used: words(used) }))
 }
 
-/// Velocity in inertial axes and angular velocity in body axes, as the model file has them.
+/// Velocity in inertial axes and angular velocity in body axes, as in the model file.
 fn words(node: &NodeMotion) -> String {
     let vector = |v: Vector3| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z);
     let (velocity, angular) = split(&node.twist);
     format!("{} m/s, {} rad/s", vector(node.frame.rotation.apply(&velocity)), vector(angular))
 }
 
-/// Fails where the rates of constraints cannot vanish together.
+/// Fails if the rates of constraints cannot all vanish.
 pub(crate) fn rates(
     system: &System,
     representative: &Representative,
@@ -160,7 +162,7 @@ pub(crate) fn rates(
 }
 
 impl Representative {
-    /// Speed of the fastest node, a turn counting as that of an arc at the representative length [m/s].
+    /// Speed of the fastest node; a rotation counts as the arc at the representative length [m/s].
     pub(crate) fn largest_speed(&self, system: &System, at: &Kinematics) -> f64 {
         let is_motion = |&(k, _): &(usize, _)| system.layout().coordinate_quantity(k) != Quantity::State;
         let coordinates = at.coordinates.iter().enumerate().filter(is_motion).map(|(_, own)| own.rate.abs());

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::diagnostics::diagnostics;
 use crate::kinematics::Subject;
 
-/// Error of the largest interface force of a blade that bends as far as superelements may: errors grow with the square [%].
+/// Error of the largest interface force of a blade at the deformation limit of superelements: errors grow with the square
+/// [%].
 const PERCENT_AT_LIMIT: f64 = 1.4;
 
 diagnostics! {
@@ -13,13 +14,13 @@ diagnostics! {
     #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
     #[non_exhaustive]
     Warning Warning {
-        /// Energy has grown by more than loads and drives have put in.
+        /// Energy has grown by more than the work of loads and drives.
         EnergySurplus {
             /// When the surplus was first significant [s].
             time: f64,
             /// The largest surplus [J].
             surplus: f64,
-            /// Energy turned over until then [J].
+            /// Energy exchanged until then [J].
             turned_over: f64,
         } => "energy-surplus" {
             time: *time,
@@ -36,7 +37,7 @@ diagnostics! {
             time: f64,
             /// Number of negative eigenvalues of the stiffness.
             directions: usize,
-            /// Words on what went before, may be empty.
+            /// Description of the onset, may be empty.
             onset: String,
         } => "unstable-equilibrium" {
             time: *time,
@@ -47,11 +48,11 @@ diagnostics! {
             advice: "A column beyond its buckling load or an inverted pendulum stays there only in a computation: disturb it, or hold what is \
                 free.",
         }
-        /// An equilibrium was found downhill, not along a path of equilibria.
+        /// An equilibrium was found by relaxation, not along a path of equilibria.
         Relaxed {
             /// Time, or load parameter [s].
             time: f64,
-            /// The longest way of a node [m].
+            /// The largest displacement of a node [m].
             distance: f64,
         } => "relaxed-equilibrium" {
             time: *time,
@@ -69,7 +70,7 @@ diagnostics! {
             start: f64,
             /// Load parameter after it [s].
             time: f64,
-            /// Work that nothing stored [J].
+            /// Work that was not stored [J].
             work: f64,
         } => "jump" {
             time: *time,
@@ -79,13 +80,13 @@ diagnostics! {
             meaning: "In one load step the loads did much more work than the model stored.",
             advice: "The step passed a limit point of the load: use more load steps, or follow the path.",
         }
-        /// Given initial velocities do not agree with the constraints.
+        /// Given initial velocities do not satisfy the constraints.
         VelocityReplaced {
             /// Name of the node.
             part: Subject,
-            /// Velocity and angular velocity as given, in words.
+            /// Given velocity and angular velocity, in words.
             given: String,
-            /// As used.
+            /// The velocities used.
             used: String,
         } => "velocity-replaced" {
             subject: part,
@@ -95,7 +96,7 @@ diagnostics! {
             meaning: "The given initial velocities violate joints or drives; they were changed as little as possible.",
             advice: "Give velocities that joints and drives allow; `[initial]` moves the whole model as a rigid body.",
         }
-        /// A drive sets a flexible part into motion by a jolt.
+        /// A drive sets a flexible part into motion by a jump in velocity.
         StartsWithJolt {
             /// Name of a node of the part.
             part: String,
@@ -108,11 +109,11 @@ diagnostics! {
             meaning: "Drives or joints set a beam into motion instantaneously, which bends it.",
             advice: "Give the beam its initial velocity, or start the drive from rest.",
         }
-        /// What meets a contact is stopped by it faster than steps resolve.
+        /// A contact stops an approach faster than steps resolve.
         ContactTooShort {
-            /// When it was seen first [s].
+            /// When it was first detected [s].
             time: f64,
-            /// What switches.
+            /// The switch.
             what: Subject,
         } => "contact-too-short" {
             time: *time,
@@ -126,13 +127,13 @@ diagnostics! {
             advice: "The contact is too short for the steps, and its energy may be lost: use steps of a fiftieth of its duration, or \
                 `relative_tolerance`.",
         }
-        /// A drive goes from one place to another at once.
+        /// A drive jumps from one position to another.
         DriveJumps {
-            /// End of the step in which it was seen first [s].
+            /// End of the step in which it was first detected [s].
             time: f64,
             /// Name of the drive.
             drive: String,
-            /// How far it goes [m or rad].
+            /// The jump [m or rad].
             way: f64,
         } => "drive-jumps" {
             time: *time,
@@ -148,7 +149,7 @@ diagnostics! {
         UnresolvedRates {
             /// When it was first significant [s].
             time: f64,
-            /// What rates of constraints miss, as a part of the largest speed.
+            /// Violation of velocity constraints, as a fraction of the largest speed.
             missed: f64,
         } => "unresolved-rates" {
             time: *time,
@@ -163,9 +164,9 @@ diagnostics! {
         Unresolved {
             /// When it was first significant [s].
             time: f64,
-            /// Estimated error over how far the model has moved.
+            /// Estimated error over the displacement of the model.
             error: f64,
-            /// Name of the unknown that errs most.
+            /// Name of the unknown with the largest error.
             unknown: Subject,
         } => "unresolved-motion" {
             time: *time,
@@ -177,9 +178,9 @@ diagnostics! {
                 the model.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
-        /// Constraints that repeat each other give way.
+        /// Redundant constraints are regularised.
         RegularizedConstraints {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Names of the constraints and their violations.
             violated: Subject,
@@ -194,13 +195,13 @@ diagnostics! {
             advice: "Redundant constraints are regularised and yield in proportion to the force that they carry: remove the redundant \
                 constraint, or check the units.",
         }
-        /// A wheel's point of contact runs round faster than steps of planned size resolve.
+        /// A wheel's point of contact travels faster than steps of planned size resolve.
         ContactRunsRound {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the joint.
             joint: String,
-            /// By how much it ran round in the first such step [rad].
+            /// Angle of its travel in the first such step [rad].
             angle: f64,
         } => "contact-runs-round" {
             time: *time,
@@ -213,7 +214,7 @@ diagnostics! {
             advice: "No part rotates as fast as that, but the error of every such step is 1 % of a radius or more: use steps of a fiftieth of \
                 a revolution, or `relative_tolerance`.",
         }
-        /// A function of time changes within a step of planned size in a way that its ends do not show.
+        /// A function of time changes within a step of planned size in a way that its ends do not determine.
         FunctionUnseen {
             /// Where it was first found [s].
             time: f64,
@@ -231,13 +232,13 @@ diagnostics! {
                 pulse, or an oscillation with fewer than about four steps per period.",
             advice: "The step misses or aliases it: use smaller steps, or `relative_tolerance`, which adapts the steps to such functions.",
         }
-        /// A wheel on a rail touches where its model means nothing.
+        /// A wheel on a rail touches outside the range of its model.
         RailContact {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the joint.
             joint: String,
-            /// What is in doubt.
+            /// The limit exceeded.
             doubt: String,
         } => "rail-contact" {
             time: *time,
@@ -251,11 +252,11 @@ diagnostics! {
         }
         /// A wheel that rolls is pulled by its plane.
         WheelLifts {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the joint.
             joint: String,
-            /// How strongly it is pulled [N].
+            /// Magnitude of the pull [N].
             force: f64,
         } => "wheel-lifts" {
             time: *time,
@@ -268,7 +269,7 @@ diagnostics! {
         }
         /// A wheel that rolls needs more friction than there is.
         WheelSlides {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the joint.
             joint: String,
@@ -285,11 +286,11 @@ diagnostics! {
             meaning: "A `rolling` joint needs more friction than its `friction_coefficient` gives.",
             advice: "A real wheel would slide: from then on the motion is that of a gear wheel on a rack.",
         }
-        /// A motion went through a position where constraints repeat each other.
+        /// A motion crossed a position at which constraints become redundant.
         SingularPosition {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
-            /// Joints whose equations repeat each other there, in words.
+            /// Joints whose equations become redundant there, in words.
             joints: Subject,
         } => "singular-position" {
             time: *time,
@@ -302,11 +303,11 @@ diagnostics! {
             advice: "The motion can continue in more than one way, and round-off decides: start elsewhere, change the lengths, or couple the \
                 bars that must keep their sense of rotation.",
         }
-        /// Reactions of constraints that repeat each other.
+        /// Reactions of redundant constraints.
         ReactionsNotUnique {
             /// Names of the columns, in words.
             columns: String,
-            /// The directions that repeat, in words.
+            /// The redundant directions, in words.
             repeated: String,
         } => "reactions-not-unique" {
             cause: ("{columns} not unique: constraints repeat each other there ({repeated}), and those reported are the least forces that \
@@ -316,13 +317,13 @@ diagnostics! {
             advice: "Real joints share the load according to their stiffness: replace rigid joints by bushings, or release the listed \
                 directions.",
         }
-        /// A superelement deforms by more than linear matrices allow.
+        /// A superelement deforms by more than its linear matrices allow.
         BeyondLinear {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the interface.
             interface: String,
-            /// The largest deformation over that up to which the matrices are believed.
+            /// The largest deformation over the limit up to which the matrices are valid.
             largest: f64,
         } => "beyond-linear" {
             time: *time,
@@ -335,13 +336,13 @@ diagnostics! {
                 interfaces, against its floating frame.",
             advice: "Linear matrices are not valid for such deformations: divide the part into several superelements, or model it by beams.",
         }
-        /// A superelement turns nearly as fast as it swings.
+        /// A superelement rotates nearly as fast as it oscillates.
         TurnsFast {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the interface that carries its floating frame.
             interface: String,
-            /// The largest rate of rotation over that up to which the matrices are believed.
+            /// The largest angular velocity over the limit up to which the matrices are valid.
             largest: f64,
         } => "turns-fast" {
             time: *time,
@@ -355,13 +356,13 @@ diagnostics! {
             advice: "Centrifugal forces stiffen it by more than a sixteenth, which its matrices do not contain, or by more than they can \
                 represent: compute them with `lissom reduce`, divide it into several superelements, or model it by beams.",
         }
-        /// Loads change the stiffness of a superelement, which its matrices do not know.
+        /// Loads change the stiffness of a superelement, which its matrices do not contain.
         LoadStiffness {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the interface that carries its floating frame.
             interface: String,
-            /// The largest share over that up to which the matrices are believed, 0.5 %.
+            /// The largest effect over the limit up to which the matrices are valid, 0.5 %.
             largest: f64,
         } => "load-stiffness" {
             time: *time,
@@ -375,13 +376,13 @@ diagnostics! {
             advice: "The error of its deflection is about half the estimate: compute its matrices with `lissom reduce`, which includes \
                 second-order terms, or model it by beams.",
         }
-        /// Moments couple bending and twist of a superelement, which no matrices know.
+        /// Moments couple bending and torsion of a superelement, which no matrices contain.
         MomentStiffness {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the interface that carries its floating frame.
             interface: String,
-            /// What is missed over that up to which the matrices are believed, 0.5 %.
+            /// The omitted effect over the limit up to which the matrices are valid, 0.5 %.
             largest: f64,
         } => "moment-stiffness" {
             time: *time,
@@ -394,11 +395,11 @@ diagnostics! {
         }
         /// A superelement is excited faster than its modes can follow.
         ModesLeftOut {
-            /// When it was first seen [s].
+            /// When it was first detected [s].
             time: f64,
             /// Name of the interface that carries its floating frame.
             interface: String,
-            /// The largest estimated error over that from which on a warning is given, 5 %.
+            /// The largest estimated error over the limit for a warning, 5 %.
             largest: f64,
         } => "modes-left-out" {
             time: *time,
@@ -410,7 +411,7 @@ diagnostics! {
                 interface forces have an estimated error of 5 % of its inertial forces or more.",
             advice: "Reduce the part with more modes, start and stop the motion smoothly, or model the part by beams.",
         }
-        /// An output that goes on along the motion could not go on.
+        /// An output that accumulates along the motion could not be continued.
         AccumulationLost {
             /// End of the first step over which it could not be determined [s].
             time: f64,
@@ -428,7 +429,7 @@ diagnostics! {
         }
         /// A warning from the model file.
         Model {
-            /// What it says.
+            /// Its text.
             message: String,
         } => "model" {
             cause: ("{message}"),

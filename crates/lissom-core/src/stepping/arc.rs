@@ -1,19 +1,20 @@
-//! How long the next step along an equilibrium path is: as long as Newton's method finds it with ease, no node turns too far,
+//! Length of the next step along an equilibrium path: as long as Newton's method converges easily, no node rotates too far,
 //! and the path does not bend too much.
 
-/// Iterations that a step of the right length takes.
+/// Iterations of a step of suitable length.
 const EASY: f64 = 7.0;
-/// Least and largest change from step to step.
+/// Smallest and largest ratio of consecutive steps.
 const CHANGE: (f64, f64) = (0.5, 1.7);
 /// Longest step: largest displacement over the model's length, and rotation, of any node [-, rad].
 const MAX_TURN: f64 = 0.2;
-/// Cosine of the angle by which the direction may turn in a step; below the second number the step is given up.
+/// Cosine of the angle by which the direction may turn in a step; below the second value the step is rejected.
 const BENT: (f64, f64) = (0.96, 0.8);
-/// Angle between the chord of a step and the mean of its tangents: part of the angle between these, and what is allowed besides [rad].
+/// Allowed angle between the chord of a step and the mean of its tangents: a fraction of the angle between these, plus a constant
+/// [rad].
 const OFF_THE_ARC: (f64, f64) = (0.3, 0.05);
-/// Steps longer than this part of the longest one so far are refined where much happens in them.
+/// Steps longer than this fraction of the longest one so far are refined if they contain several critical points.
 const WORTH_REFINING: f64 = 1e-3;
-/// Steps shorter than this part of the longest one so far are not tried.
+/// Steps shorter than this fraction of the longest one so far are not tried.
 const SHORTEST: f64 = 1e-9;
 
 /// The length of the next step [-].
@@ -29,7 +30,7 @@ impl ArcControl {
         Self { size, longest: size }
     }
 
-    /// Goes on with another step, on another path.
+    /// Continues with another step length, on another path.
     pub(crate) fn restart(&mut self, size: f64) {
         self.size = size;
     }
@@ -39,24 +40,24 @@ impl ArcControl {
         self.size.min(MAX_TURN / turn)
     }
 
-    /// Whether the path has turned so far in a step, by the cosine of the angle, that it may have gone over to another one.
+    /// Whether the path has turned in a step by an angle, given by its cosine, at which it may have changed to another one.
     pub(crate) fn is_too_bent(cosine: f64) -> bool {
         cosine < BENT.1
     }
 
-    /// Whether the chord of a step is farther from the mean of the tangents than the bend of a smooth path explains, by the cosine of
-    /// that angle and that of the angle between the tangents.
+    /// Whether the chord of a step deviates from the mean of the tangents by more than the curvature of a smooth path explains.
+    /// Given are the cosines of that angle and of the angle between the tangents.
     pub(crate) fn is_off_the_arc(of_chord: f64, of_tangents: f64) -> bool {
         let [chord, tangents] = [of_chord, of_tangents].map(|cosine| cosine.clamp(-1.0, 1.0).acos());
         chord > OFF_THE_ARC.0 * tangents + OFF_THE_ARC.1
     }
 
-    /// Whether a step is long enough to be worth refining where it passes several critical points.
+    /// Whether a step that contains several critical points is long enough to be refined.
     pub(crate) fn is_long(&self, size: f64) -> bool {
         size > WORTH_REFINING * self.longest
     }
 
-    /// A step of that length was found in so many iterations.
+    /// Records that a step of that length converged in this number of iterations.
     pub(crate) fn accept(&mut self, size: f64, iterations: usize, cosine: f64) {
         let ease = (EASY / iterations.max(1) as f64).sqrt();
         let factor = if cosine < BENT.0 { ease.min(CHANGE.0) } else { ease };
@@ -64,7 +65,7 @@ impl ArcControl {
         self.longest = self.longest.max(self.size);
     }
 
-    /// A step of that length was not found: whether a shorter one may be tried.
+    /// Records that a step of that length was not found. Whether a shorter one may be tried.
     pub(crate) fn reject(&mut self, size: f64) -> bool {
         self.size = 0.5 * size;
         self.size > SHORTEST * self.longest

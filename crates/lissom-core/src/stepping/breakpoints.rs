@@ -1,25 +1,26 @@
-//! Steps that end at kinks and jumps of functions of time: of loads, and of prescribed motions.
+//! Steps that end at breakpoints (kinks and jumps) of functions of time: of loads, and of prescribed motions.
 //!
-//! A step across a jump sees it at one of its stages, late or early by part of the step: an error of first order in every
-//! velocity. So a step ends as close before it as numbers allow, that its last stage does not see it either, and accelerations, with what a scheme remembers of them, jump as forces do. At a kink, which changes the slope
-//! alone, a step ends, and nothing jumps.
+//! A step across a jump sees it at one of its stages, late or early by a fraction of the step: an error of first order in every
+//! velocity. So a step ends as close before it as floating-point numbers allow, and its last stage does not see it either.
+//! Accelerations, and the scheme's memory of them, then jump as forces do. At a kink, which changes only the slope, a step ends,
+//! and nothing jumps.
 
 use crate::instants::SAME;
 use crate::registry::Function;
 use crate::round_off;
 use crate::system::System;
 
-/// A value that changes by more than this times what slopes on both sides let expect has jumped [-].
+/// A value jumps if it changes by more than this multiple of the change expected from the slopes on both sides [-].
 const STEEP: f64 = 10.0;
 /// A step ends this many roundings of the time before a jump.
 const ROUNDINGS: f64 = 8.0;
 
-/// When functions of time are not smooth.
+/// An instant at which a function of time is not smooth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Breakpoint {
     /// When [s].
     pub(crate) time: f64,
-    /// Whether a value jumps, not its slope alone.
+    /// Whether a value jumps, not only its slope.
     jumps: bool,
 }
 
@@ -30,18 +31,18 @@ impl Breakpoint {
     }
 }
 
-/// Where a step ends because of a breakpoint.
+/// End of a step at a breakpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StopTime {
     /// End of the step [s].
     pub(crate) end: f64,
-    /// What the clock is set to there [s].
+    /// Time to which the clock is then set [s].
     pub(crate) clock: f64,
-    /// The jump that lies between the two [s], if there is one.
+    /// The jump between the two [s], if there is one.
     pub(super) jump: Option<f64>,
 }
 
-/// All breakpoints of a system, in ascending order. Times closer than a part of the step, `step` [s], are one.
+/// All breakpoints of a system, in ascending order. Times closer than a fraction of the step, `step` [s], are merged.
 pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     let near = SAME * step;
     let mut jumps: Vec<f64> = Vec::new();
@@ -56,7 +57,7 @@ pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     let has = |times: &[f64], time: f64| times.binary_search_by(|probe| probe.total_cmp(&time)).is_ok();
     let mut breakpoints: Vec<Breakpoint> = Vec::new();
     for time in system.breakpoints() {
-        // Of a function without a name it is not known.
+        // For a function without a name this is unknown.
         let jumps = has(&jumps, time) || !has(&known, time);
         match breakpoints.last_mut() {
             Some(last) if time - last.time <= near => *last = Breakpoint { time, jumps: last.jumps || jumps },
@@ -75,9 +76,8 @@ fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
     change > STEEP * 2.0 * aside * slope + round_off::FUNCTION * size
 }
 
-/// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of one of these breakpoints between; a
-/// jump at its end counts where forces see it: an equilibrium before a jump knows nothing of it. `longest` is the longest step
-/// [s].
+/// The breakpoint at which a step from the time `now` [s] has to end before `limit` [s]. A jump at `limit` itself counts,
+/// because forces see it: an equilibrium before a jump is independent of it. `longest` is the longest step [s].
 pub(super) fn stop_time(
     breakpoints: &[Breakpoint],
     [now, limit]: [f64; 2],
@@ -97,7 +97,7 @@ pub(super) fn stop_time(
     }
     let aside = ROUNDINGS * f64::EPSILON * breakpoint.time.abs().max(now.abs());
     let is_end = (breakpoint.time - limit).abs() <= near;
-    // The work of the next step begins with the loads behind the jump.
+    // The work of the next step begins with the loads after the jump.
     let clock = if is_end { limit } else { breakpoint.time };
     Some(StopTime { end: breakpoint.time.min(limit) - aside, clock, jump: Some(breakpoint.time) })
 }

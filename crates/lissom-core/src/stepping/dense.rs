@@ -1,16 +1,17 @@
-//! Values between the ends of a step, to the order of the scheme: poses by the cubic through both places and twists.
+//! Values between the ends of a step, to the order of the scheme: poses by the cubic Hermite interpolation of both
+//! poses and twists.
 //!
 //! ```text
 //! H(x) = H₀ exp ψ(x),   ψ(0) = 0,  ψ'(0) = h V₀,  ψ(1) = log(H₀⁻¹ H₁),  ψ'(1) = T(ψ(1))⁻¹ h V₁
 //! ```
 //!
-//! x = 0 … 1 over the step. The error is of order h⁴. Multipliers and accelerations lie on a straight line.
+//! x = 0 … 1 over the step. The error is of order h⁴. Multipliers and accelerations are interpolated linearly.
 
 use lissom_motion::{Motion, Vector6, inverse_tangent_times, tangent_times};
 
 use crate::system::State;
 
-/// The state at `time` [s] between two states of one motion, written to `out`.
+/// Writes the state at `time` [s] between two states of one motion to `out`.
 pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) {
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;
@@ -19,7 +20,7 @@ pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) 
     out.kinematics.time = time;
 }
 
-/// The state at `x` of the step between two states, 1 at its end, and beyond: on the same curves.
+/// The state at the step fraction `x` between two states, 1 at its end, or beyond it by extrapolation.
 pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;
@@ -57,7 +58,7 @@ pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
     out.kinematics.show_multipliers(&out.multipliers);
 }
 
-/// Place and rate at x of the cubic from 0 to `whole` with these rates at its ends.
+/// Position and rate at x of the cubic from 0 to `whole` with these rates at its ends.
 fn hermite(x: f64, whole: &Vector6, first: &Vector6, last: &Vector6) -> (Vector6, Vector6) {
     let (square, cube) = (x * x, x * x * x);
     let place =

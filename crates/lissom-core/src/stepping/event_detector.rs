@@ -1,20 +1,20 @@
-//! Watches numbers that may change their sign within a step: roots of events, and switches of forces with kinks or
-//! jumps. A step across such an instant is taken anew, to end there.
+//! Monitors switching functions, which may change their sign within a step: those of events, and of forces with kinks
+//! or jumps. A step across such an instant is repeated, to end there.
 //!
 //! ```text
 //! g(t*) = 0:    t* on the cubics between the ends of the step by bisection, then
 //!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
 //! ```
 //!
-//! A number that jumps, as sign(x), has no slope there: the step to t* is asked by bisection on its own cubics, which go on
-//! beyond its end, whether the jump is where it ends.
+//! A function that jumps, such as sign(x), has no slope there. Bisection on the cubics of the step to t*, extrapolated
+//! beyond its end, then checks whether the jump is at its end.
 //!
-//! A root at the end of a step shows no change of sign there, or one that is lost in round-off: it is where the tangent at the end
-//! meets zero, if the step has come from a clear value. The step that begins there could take it only as late as its first
+//! A root at the end of a step shows no change of sign there, or one that is lost in round-off. It is found where the tangent at
+//! the end crosses zero, if the step started at a clearly nonzero value. The next step could detect it only after its first
 //! millionth.
 //!
-//! Between two steps each number has a side, 1 or -1. Functions and forces are continued from their side over the whole
-//! step, so that it is smooth; what was beyond the root is not used. At the root the side changes whatever round-off says, so
+//! Between two steps each function has a side, 1 or -1. Functions and forces are continued from their side over the whole
+//! step, so that it is smooth; results beyond the root are not used. At the root the side changes regardless of round-off, so
 //! that the same root is not found again.
 
 use serde::{Deserialize, Serialize};
@@ -25,72 +25,72 @@ use crate::round_off;
 use crate::signals::event::{Event, Occurrence};
 use crate::system::{State, System};
 
-/// Instants within a step at which signs are looked at, in parts of the step: numbers that pass through zero and back
-/// between two of them pass unseen.
+/// Step fractions at which signs are checked: functions that cross zero and return between two of them are not
+/// detected.
 const INSTANTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// The last of them before the end.
 const BEFORE_END: f64 = 0.75;
-/// Numbers smaller than this part of the largest seen have no sign.
+/// Values smaller than this fraction of the largest so far have no sign.
 const NOISE: f64 = 1e-9;
-/// Accuracy of a root, in parts of the step.
+/// Accuracy of a root, as a step fraction.
 const ACCURACY: f64 = 1e-10;
-/// Roots closer than this to an end of the step, in parts of the step, are at that end: accelerations that a shorter step
-/// leaves are round-off.
+/// Roots closer than this to an end of the step, as a step fraction, are at that end: the accelerations of a shorter step
+/// would be round-off.
 const CLOSE: f64 = 1e-6;
-/// How far from the end of a step the rate of what is watched is looked at, in parts of the step.
+/// Distance from the end of a step at which the rate of a switching function is evaluated, as a step fraction.
 const BESIDE: f64 = 1e-3;
-/// Steps solved anew for one root: three are usual.
+/// Maximum number of repeated steps for one root: three are usual.
 const MAX_REFINEMENTS: usize = 6;
-/// Changes of sign within a longest step above which the motion slides along the surface that is passed.
+/// Changes of sign within a longest step above which the motion slides along the switching surface.
 const MAX_CROSSINGS: usize = 1000;
 
-/// Sides that may turn out to be wrong at the start of one step: beyond, the motion slides along a switch.
+/// Maximum number of sides that are corrected at the start of one step: beyond it, the motion slides along a switch.
 const MAX_SWITCHES_AT_START: usize = 8;
 
-/// What is known of the watched numbers between two steps.
+/// State of the switching functions between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EventState {
-    /// 1 above zero, -1 below, 0 where it is not known yet.
+    /// 1 above zero, -1 below, 0 if unknown.
     sides: Vec<i8>,
-    /// The largest magnitude seen.
+    /// The largest magnitude so far.
     largest: Vec<f64>,
     /// Events that happened.
     pub(crate) occurrences: Vec<Occurrence>,
     /// The event that ends the run at the state, if one does.
     pub(crate) stopped_by: Option<usize>,
-    /// Whether a force has switched at the state: what follows may be much faster than what was before.
+    /// Whether a force has switched at the state: the motion may then be much faster than before.
     pub(crate) has_switched: bool,
-    /// Since when crossings are counted [s], and how many there were.
+    /// Time since which crossings are counted [s], and their number.
     recent: (f64, usize),
 }
 
-/// An instant within a step at which something passes through zero.
+/// An instant within a step at which switching functions cross zero.
 #[derive(Clone, Debug)]
 pub(crate) struct LocatedRoot {
-    /// Size of the step that ends there [s]; zero where the step begins there.
+    /// Size of the step that ends there [s]; zero if the step begins there.
     pub(crate) size: f64,
     /// Size of the step in which it was found [s].
     whole: f64,
-    /// What passes through zero.
+    /// Indices of the functions that cross zero.
     pub(crate) indices: Vec<usize>,
-    /// Whether it jumps there instead.
+    /// Whether they jump there instead.
     is_jump: bool,
     refinements: usize,
 }
 
-/// The watched numbers of one simulation: those of events, then the switches of signals, then those of elements.
+/// The switching functions of one simulation: those of events, then those of signals, then those of elements.
 pub(crate) struct EventDetector {
     pub(crate) known: EventState,
-    /// Whether kinks and jumps of forces are watched beside events.
+    /// Whether kinks and jumps of forces are monitored in addition to events.
     has_switches: bool,
-    /// How often sides were changed at the start of the present step.
+    /// Number of sides changed at the start of the present step.
     switched_at_start: usize,
     values: Vec<f64>,
     between: State,
 }
 
 impl EventDetector {
-    /// At the start of a motion; kinks and jumps of forces are watched with `has_switches`.
+    /// At the start of a motion; kinks and jumps of forces are monitored if `has_switches`.
     pub(crate) fn new(system: &System, start: &State, has_switches: bool) -> Self {
         let mut detector = Self::of_nothing(start);
         detector.has_switches = has_switches;
@@ -102,7 +102,7 @@ impl EventDetector {
         detector
     }
 
-    /// Where there is no motion.
+    /// Without motion.
     pub(crate) fn of_nothing(start: &State) -> Self {
         Self {
             known: EventState::default(),
@@ -113,26 +113,26 @@ impl EventDetector {
         }
     }
 
-    /// Whether there is anything to watch.
+    /// Whether there are switching functions.
     pub(crate) fn is_empty(&self) -> bool {
         self.known.sides.is_empty()
     }
 
-    /// The watched numbers that are switches.
+    /// The switching functions of forces.
     fn of_switches(&self, system: &System, at: &Kinematics) -> std::ops::Range<usize> {
         let events = system.signals().events().len();
         let count = if self.has_switches { at.held.len() - system.signals().first_side() } else { 0 };
         events..events + count
     }
 
-    /// Whether the sides of all switches are held as they are known.
+    /// Whether all switches are frozen on their known sides.
     pub(crate) fn has_frozen_switches(&self, system: &System, at: &Kinematics) -> bool {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &at.held[system.signals().first_side()..];
         sides.iter().zip(held).all(|(side, held)| f64::from(*side) == *held)
     }
 
-    /// Writes the sides of all switches to where they are held.
+    /// Freezes all switches on their known sides.
     pub(crate) fn freeze_switches(&self, system: &System, at: &mut Kinematics) {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &mut at.held[system.signals().first_side()..];
@@ -151,7 +151,7 @@ impl EventDetector {
         }
     }
 
-    /// Whether value `k` has passed through zero in a way that matters.
+    /// Whether value `k` has crossed zero in a direction that counts.
     fn has_passed(&self, events: &[Event], k: usize) -> bool {
         let (value, side) = (self.values[k], self.known.sides[k]);
         let is_clear = value.abs() > NOISE * self.known.largest[k];
@@ -177,7 +177,7 @@ impl EventDetector {
         values_at(system, &self.between, self.has_switches, &mut self.values);
     }
 
-    /// The first instant of the step of `size` [s] at which something passes through zero.
+    /// The first instant of the step of `size` [s] at which a function crosses zero.
     pub(crate) fn crossing(
         &mut self,
         system: &System,
@@ -203,20 +203,20 @@ impl EventDetector {
                 (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
             let are_switches = indices.iter().all(|k| *k >= events.len());
             let share = match after {
-                // The step begins where the force switches: another of no length would be no information.
+                // The step begins where the force switches: another of zero length would add nothing.
                 after if after < CLOSE && are_switches => 0.0,
                 after if after > 1.0 - ACCURACY => 1.0,
                 after => after.max(CLOSE),
             };
-            // A smooth number is not beyond its noise yet.
+            // A smooth function has not exceeded its noise yet.
             let is_jump = self.values[indices[0]].abs() > CLOSE * self.known.largest[indices[0]];
             return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
     }
 
-    /// An event whose root is at the end of the step of `size` [s], or so near before it that the sign of its number is not
-    /// clear there. The values at the end are those known.
+    /// An event whose root is at the end of the step of `size` [s], or so shortly before it that its sign is not clear
+    /// there. The values at the end are those known.
     fn root_at_end(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<LocatedRoot> {
         let events = system.signals().events();
         let is_doubtful = |detector: &Self, k: usize| {
@@ -237,7 +237,7 @@ impl EventDetector {
         for (k, end) in doubtful {
             let (side, noise) = (f64::from(self.known.sides[k]), NOISE * self.known.largest[k]);
             let rate = (end - beside[k]) / BESIDE;
-            // From the side that is known, clearly, towards zero.
+            // Moves clearly from the known side towards zero.
             if side * self.values[k] <= noise || side * rate >= 0.0 {
                 continue;
             }
@@ -253,7 +253,7 @@ impl EventDetector {
         Some(LocatedRoot { size: share * size, whole: size, indices, is_jump: false, refinements: 0 })
     }
 
-    /// Changes the sides of forces that switch at the start of the step. Returns false if they do so again and again: the
+    /// Changes the sides of forces that switch at the start of the step. Returns false if they switch repeatedly: the
     /// motion slides along the switch.
     pub(crate) fn switch_at_start(&mut self, indices: &[usize]) -> bool {
         for &k in indices {
@@ -296,7 +296,8 @@ impl EventDetector {
         !is_moved
     }
 
-    /// Where number `which` jumps near the end of a step, as a part of it: 1 if it does so within the accuracy before the end.
+    /// Step fraction at which function `which` jumps near the end of a step: 1 if it does so within the accuracy before the
+    /// end.
     fn jump(&mut self, system: &System, step: (&State, &State), which: usize, located: &LocatedRoot) -> f64 {
         let events = system.signals().events();
         let unit = located.whole / located.size;
@@ -306,7 +307,7 @@ impl EventDetector {
             detector.has_passed(events, which)
         };
         let is_early = !passes(self, 1.0);
-        // Doubles the distance from the end until the jump is between.
+        // Doubles the distance from the end until it contains the jump.
         let (mut near, mut far) = (0.0, accuracy);
         let share = |distance: f64| if is_early { 1.0 + distance } else { 1.0 - distance };
         let bound = if is_early { most } else { 1.0 };
@@ -321,15 +322,15 @@ impl EventDetector {
             let middle = 0.5 * (near + far);
             if passes(self, share(middle)) == is_early { far = middle } else { near = middle }
         }
-        // Where it has passed.
+        // On the far side of the jump.
         share(if is_early { far } else { near })
     }
 
-    /// Records the end of an accepted step, and what passed through zero there. Returns the events that
+    /// Records the end of an accepted step, and the functions that crossed zero there. Returns the events that
     /// happened.
     ///
     /// # Errors
-    /// The index of what passes through zero again and again.
+    /// If a function crosses zero again and again, its index.
     pub(crate) fn accept(
         &mut self,
         system: &System,
@@ -364,14 +365,14 @@ impl EventDetector {
         if known.recent.1 > MAX_CROSSINGS { Err(indices[0]) } else { Ok(happened) }
     }
 
-    /// After inputs have changed at the state: sides of events change with them, and nothing happens.
+    /// Updates the sides of events after inputs have changed at the state; no event happens.
     pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
         values_at(system, state, self.has_switches, &mut self.values);
         self.note(self.of_switches(system, &state.kinematics), happened);
     }
 }
 
-/// What is watched, at a state.
+/// Evaluates all switching functions at a state.
 fn values_at(system: &System, state: &State, has_switches: bool, out: &mut Vec<f64>) {
     out.clear();
     system.signals().event_values(&state.kinematics, out);

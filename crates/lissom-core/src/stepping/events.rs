@@ -5,13 +5,13 @@ use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
 use crate::kinematics::Subject;
 use crate::signals::event::Occurrence;
 
-/// What becomes of an attempt that has a solution.
+/// Result of checking an attempt that has a solution.
 pub(super) enum Verdict {
-    /// It can be accepted, and ends at the zero if there is one.
+    /// It can be accepted, and ends at the root if there is one.
     Accept(Option<LocatedRoot>),
     /// A force switched at the start of the step: the attempt is repeated.
     Repeat,
-    /// A shorter one is made.
+    /// A shorter one is required.
     Shorten,
 }
 
@@ -21,15 +21,15 @@ impl Simulation {
         &self.events.known.occurrences
     }
 
-    /// Name of the event at which the run is to end, if the last step ended at one.
+    /// Name of the event that ends the run, if the last step ended at one.
     pub fn stopped_by(&self) -> Option<&str> {
         let event = self.events.known.stopped_by?;
         Some(&self.system.signals().events()[event].name)
     }
 
     /// Checks an attempt of `size` [s] that was solved and can be accepted for zeros of switching functions. If one is within the
-    /// step, the step is solved anew to end there. If a force switches at the start of the step, its side is changed, and the
-    /// attempt has to be repeated, with its error estimate: it was made with the force of the other side.
+    /// step, the step is solved anew to end there. If a force switches at the start of the step, its side is changed. The attempt
+    /// and its error estimate then have to be repeated, because the force had the wrong side.
     ///
     /// # Errors
     /// If the shorter step has no solution, or the motion slides along a switch.
@@ -67,10 +67,10 @@ impl Simulation {
         Ok(Verdict::Accept(Some(located)))
     }
 
-    /// After a step was accepted: notes which events happened at its end, and does what they ask for.
+    /// Records which events happened at the end of an accepted step, and executes their actions.
     ///
     /// # Errors
-    /// If signals switch again and again, or there are no consistent accelerations with the values that events set.
+    /// If signals switch repeatedly, or there are no consistent accelerations with the values that events set.
     pub(super) fn after_events(
         &mut self,
         located: Option<&LocatedRoot>,
@@ -90,7 +90,7 @@ impl Simulation {
         let graph = self.system.signals();
         let mut at = self.state.kinematics.clone();
         for &event in &happened {
-            // All of them see the values before any of them.
+            // All of them are evaluated before any is set.
             for &(held, signal) in &graph.events()[event].sets {
                 at.held[held] = graph.value(signal, &self.state.kinematics);
             }
@@ -105,7 +105,7 @@ impl Simulation {
         self.freeze_switches()
     }
 
-    /// Lets signals be continued from the sides of their switches that are known: forces may jump with them.
+    /// Freezes signals on the known sides of their switches: forces may jump with them.
     pub(crate) fn freeze_switches(&mut self) -> Result<(), StepError> {
         if self.events.has_frozen_switches(&self.system, &self.state.kinematics) {
             return Ok(());
@@ -115,7 +115,7 @@ impl Simulation {
         self.events.freeze_switches(&self.system, &mut at);
         let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
         if pairs().all(|(side, held)| side == held || *held == 0.0) {
-            // Sides that become known change nothing.
+            // Sides that become known change nothing else.
             self.state.kinematics = at;
             return Ok(());
         }

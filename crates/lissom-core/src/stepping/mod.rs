@@ -1,4 +1,4 @@
-//! The sequence of a step: where it ends at the latest, attempts until one is accepted, and what happens at its end.
+//! The sequence of a step: its latest end, attempts until one is accepted, and the actions at its end.
 
 mod arc;
 pub(crate) mod breakpoints;
@@ -27,10 +27,10 @@ use breakpoints::StopTime;
 use event_detector::LocatedRoot;
 use events::Verdict;
 
-/// Attempts at a step that are given up before the step is.
+/// Maximum number of rejected attempts at a step.
 const MAX_REJECTED: usize = 60;
 
-/// A step under way.
+/// A step in progress.
 struct Progress<'p> {
     watch: &'p mut dyn Stopwatch,
     report: &'p mut StepReport,
@@ -38,15 +38,15 @@ struct Progress<'p> {
     first: Option<f64>,
     /// Why attempts failed.
     failure: Option<StepError>,
-    /// The start of the step, where a part of it was accepted.
+    /// The start of the step, if a part of it was accepted.
     start: Option<Box<(State, State, EnergyBalance, EventState)>>,
 }
 
-/// Where the next attempts lead.
+/// Target of the next attempts.
 struct Stop {
     /// From here [s].
     distance: f64,
-    /// What the clock is set to there [s]; none where it stays as it is.
+    /// Time to which the clock is set there [s]; none if it remains unchanged.
     clock: Option<f64>,
     /// The breakpoint that is crossed there.
     crossing: Option<StopTime>,
@@ -61,16 +61,17 @@ impl Simulation {
         self.control.set_planned(step_size);
     }
 
-    /// Takes one step. On failure the state stays where it was.
+    /// Takes one step. On failure the state remains unchanged.
     ///
     /// # Errors
-    /// If Newton's iterations do not converge or the tangent has no factorisation.
+    /// If Newton's iterations do not converge or the tangent cannot be factorised.
     pub fn step(&mut self) -> Result<StepReport, StepError> {
         self.step_watched(f64::INFINITY, &mut Unwatched)
     }
 
-    /// Takes one step as [`step`](Self::step) does, with step-size control not beyond the time `limit` [s], which is met
-    /// exactly where it is reached; a planned step that ends there up to round-off ends there exactly. Calls `watch` where a part of the work begins.
+    /// Takes one step as [`step`](Self::step) does, with step-size control not beyond the time `limit` [s]. It ends exactly at
+    /// `limit` if it reaches it, as does a planned step that ends there up to round-off. Calls `watch` at the beginning of each
+    /// part of the work.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -104,8 +105,8 @@ impl Simulation {
         dense::interpolate(&self.previous, &self.state, time, out);
     }
 
-    /// The sequence of a step: a planned one is taken to its end, through all stops within it; a chosen one ends with the first
-    /// attempt that is accepted.
+    /// The sequence of a step: a planned one is solved to its end, through all stops within it; an adaptive one ends with the
+    /// first attempt that is accepted.
     fn advance(&mut self, limit: f64, progress: &mut Progress<'_>) -> Result<(), StepError> {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
@@ -113,7 +114,7 @@ impl Simulation {
         let end = planned.map_or(limit, |size| self.now() + size);
         let same = instants::tolerance(self.now(), longest);
         let end = if (limit - end).abs() <= same { limit } else { end };
-        // The size of the first part is known to the last bit.
+        // The size of the first part is exact.
         let mut rest = planned.unwrap_or(limit - self.now());
         loop {
             let stop = self.next_stop(rest, planned.is_none().then_some(limit));
@@ -128,17 +129,17 @@ impl Simulation {
                 break;
             }
         }
-        // What led to the state is known of the last part alone.
+        // Only the last part's data of the integrator describe the present state.
         self.is_last_step_known &= progress.report.parts == 1;
-        // Sums of step sizes would drift away from the instants that are planned.
+        // Sums of step sizes would drift away from the planned instants.
         if planned.is_some() && self.is_at(limit, longest) {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
         }
         Ok(())
     }
 
-    /// The first of samples, breakpoints and the end of the step, which is `rest` [s] from here; `limit` [s] is the end of a chosen
-    /// step.
+    /// The first of samples, breakpoints and the end of the step, which is `rest` [s] from here; `limit` [s] is the end of an
+    /// adaptive step.
     fn next_stop(&self, rest: f64, limit: Option<f64>) -> Stop {
         let (now, longest) = (self.now(), self.control.longest());
         let mut stop = Stop { distance: rest, clock: limit, crossing: None, is_last: true };
@@ -155,7 +156,7 @@ impl Simulation {
         stop
     }
 
-    /// Takes accepted attempts, one or as many as a planned step needs, to a stop or to an event before it. Whether the stop is
+    /// Accepts attempts, one or as many as a planned step needs, up to a stop or to an event before it. Whether the stop is
     /// reached.
     fn advance_to(&mut self, stop: &Stop, progress: &mut Progress<'_>) -> Result<bool, StepError> {
         let (now, planned) = (self.now(), self.control.planned());
@@ -199,7 +200,7 @@ impl Simulation {
         }
     }
 
-    /// Makes attempts until one can be accepted, and leaves it in `attempt`; with the root at which it ends, if it ends at one.
+    /// Makes attempts until one can be accepted, and stores it in `attempt`. Returns the root at which it ends, if any.
     fn take_attempt(&mut self, progress: &mut Progress<'_>) -> Result<Option<LocatedRoot>, StepError> {
         loop {
             let size = self.control.propose();
@@ -230,7 +231,7 @@ impl Simulation {
         }
     }
 
-    /// An attempt of `size` [s], as control, events and switches see it.
+    /// Makes an attempt of `size` [s], and checks it by control, events and switches.
     fn try_size(&mut self, size: f64, progress: &mut Progress<'_>) -> Result<Verdict, StepError> {
         self.attempt(size, progress.watch)?;
         let review = Review {
@@ -249,7 +250,7 @@ impl Simulation {
         self.end_at_event(size, progress.watch, progress.report)
     }
 
-    /// Goes back to the start of a step that failed; a first load step may be found by relaxation.
+    /// Returns to the start of a step that failed; a first load step may be solved by relaxation.
     fn recover(&mut self, error: StepError, progress: Progress<'_>) -> Result<(), StepError> {
         if let Some(start) = progress.start {
             (self.previous, self.state, self.energy_balance, self.events.known) = *start;
@@ -260,13 +261,13 @@ impl Simulation {
         progress.report.rejected += 1;
         progress.report.parts = 1;
         self.accept_attempt();
-        // The integrator holds no step that led there.
+        // The integrator has no data of a step to this state.
         self.is_last_step_known = false;
         Ok(())
     }
 
-    /// The longest step over which functions of time are determined by its ends, and in which no node turns too far to be
-    /// believed, with a margin [s]; where steps are chosen by their error. The stop is at a `distance` [s].
+    /// The longest step over which functions of time are determined by its ends, and in which no node rotates too far to
+    /// be resolved, with a margin [s]; for adaptive steps. The stop is at a `distance` [s].
     fn longest_resolved(&mut self, now: f64, distance: f64) -> f64 {
         let Some(size) = self.control.by_error() else { return f64::INFINITY };
         let problem = Problem { system: &self.system, settings: &self.settings };
@@ -278,7 +279,7 @@ impl Simulation {
         if fastest > 0.0 { resolved.min(turn / fastest) } else { resolved }
     }
 
-    /// At the start: accelerations are those behind jumps of functions at that very instant.
+    /// At the start: accelerations are those after jumps of functions at that instant.
     ///
     /// # Errors
     /// If there are no consistent accelerations there.
@@ -290,7 +291,7 @@ impl Simulation {
         if jumps { self.jump_between(now, behind) } else { Ok(()) }
     }
 
-    /// After a step that ended at a breakpoint: sets the clock, and lets accelerations jump.
+    /// After a step that ended at a breakpoint: sets the clock, and recomputes accelerations across a jump.
     ///
     /// # Errors
     /// If there are no consistent accelerations on one of the sides.

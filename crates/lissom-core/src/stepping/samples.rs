@@ -1,10 +1,10 @@
-//! Samples of signals: steps end where they are taken.
+//! Samples of signals: steps end at the sampling instants.
 
 use crate::analysis::{Simulation, StepError};
 use crate::instants;
 
 impl Simulation {
-    /// Time of the state [s], with what rounding has cut off.
+    /// Time of the state [s], with the remainder of earlier roundings.
     pub(super) fn now(&self) -> f64 {
         self.state.kinematics.time + self.state.time_remainder
     }
@@ -20,17 +20,17 @@ impl Simulation {
         ((nearest - time).abs() <= distance).then_some(nearest)
     }
 
-    /// Whether `instant` [s] is that of the state up to round-off, where steps are `step` [s] long.
+    /// Whether `instant` [s] is equal to the time of the state up to round-off, with steps of `step` [s].
     pub(super) fn is_at(&self, instant: f64, step: f64) -> bool {
         (instant - self.now()).abs() <= instants::tolerance(self.now(), step)
     }
 
-    /// The next instant at which a signal is sampled [s], if one is.
+    /// The next sampling instant of a signal [s], if there is one.
     pub(super) fn next_sample(&self) -> Option<f64> {
         self.system.signals().next_sample(self.origin.kinematics.time, self.now())
     }
 
-    /// Samples what is due now.
+    /// Samples the signals that are due now.
     pub(super) fn take_samples(&mut self) -> Result<(), StepError> {
         let elapsed = self.now() - self.origin.kinematics.time;
         let graph = self.system.signals();

@@ -1,7 +1,8 @@
-//! A simulation between two steps, as plain numbers: enough to go on to the last bit. Holds the state, and all that is
-//! learned from step to step: the tangent in use, round-off seen, predictions, secants, the controller.
+//! A simulation between two steps, as plain numbers: enough to continue to the last bit. Contains the state, and all
+//! data that are reused from step to step: the tangent in use, estimates of round-off, predictions, secants, the
+//! controller.
 //!
-//! Factors are not kept: the tangent's values are, and they are factored again.
+//! Factors are not stored: the values of the tangent are, and they are factorised again.
 
 use std::sync::Arc;
 
@@ -18,14 +19,14 @@ use crate::newton::JacobianState;
 use crate::scaling::Scaled;
 use crate::system::State;
 
-/// Changes whenever what a snapshot holds does.
+/// Incremented whenever the contents of a snapshot change.
 const VERSION: u32 = 15;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     version: u32,
-    /// Scheme, unknowns, nodes and entries of the tangent: what it belongs to.
+    /// Scheme, unknowns, nodes and entries of the tangent, which identify the model.
     belongs_to: (String, usize, usize, usize),
     states: [StateNumbers; 2],
     origin: StateNumbers,
@@ -60,7 +61,7 @@ pub enum SnapshotError {
         /// What it belongs to.
         found: String,
     },
-    /// The tangent in use cannot be factored again.
+    /// The tangent in use cannot be factorised again.
     #[error("the tangent of the snapshot cannot be factored: it was damaged")]
     Damaged,
 }
@@ -75,7 +76,7 @@ struct StateNumbers {
     coordinates: Vec<[f64; 3]>,
     held: Vec<f64>,
     multipliers: Vec<f64>,
-    /// Whether elements see them.
+    /// Whether elements depend on them.
     shows_multipliers: bool,
     violations: Vec<f64>,
     algorithmic: Vec<f64>,
@@ -155,8 +156,8 @@ impl From<&StateNumbers> for State {
 }
 
 impl Simulation {
-    /// What the simulation is between two steps: a simulation of the same model to which it is given back goes on as
-    /// this one does, to the last bit.
+    /// The simulation between two steps: a simulation of the same model that restores it continues as this one does,
+    /// to the last bit.
     pub fn snapshot(&self) -> Snapshot {
         let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
         Snapshot {
@@ -179,10 +180,10 @@ impl Simulation {
         }
     }
 
-    /// Goes back, or on, to where a snapshot was taken.
+    /// Returns, or advances, to the state of a snapshot.
     ///
     /// # Errors
-    /// If it was taken of another model, or by another version of the program. The simulation is then as it was.
+    /// If it was taken of another model, or by another version of the program. The simulation is then unchanged.
     pub fn restore(&mut self, from: &Snapshot) -> Result<(), SnapshotError> {
         if from.version != VERSION {
             return Err(SnapshotError::Version { found: from.version });
@@ -221,10 +222,10 @@ impl Simulation {
         Ok(())
     }
 
-    /// A second simulation that stands where this one does, and goes on from there to the same bits. Both share the system.
+    /// A second simulation in the same state, which continues from there to the same bits. Both share the system.
     ///
     /// # Errors
-    /// If the tangent in use cannot be factored again.
+    /// If the tangent in use cannot be factorised again.
     pub fn try_clone(&self) -> Result<Self, SnapshotError> {
         let settings = Settings { from_equilibrium: false, ..self.settings.clone() };
         let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };

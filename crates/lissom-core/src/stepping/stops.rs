@@ -1,5 +1,5 @@
-//! Instants at which steps end that are known before the step: breakpoints of functions of time, those that the functions report
-//! and those that are found by looking at them.
+//! Instants at which steps end that are known before the step: breakpoints of functions of time, both those that the functions
+//! report and those that are found by sampling them.
 
 use super::breakpoints::{self, Breakpoint, StopTime};
 use super::time_functions::{BLOCK, DEPARTURE, TimeFunctions, WINDOW};
@@ -8,11 +8,11 @@ use crate::instants::SAME;
 use crate::judge::Warning;
 use crate::system::System;
 
-/// What ends steps before they are taken.
+/// Instants that end steps, known in advance.
 pub(crate) struct Stops {
-    /// When functions of time are not smooth: steps of motions, and load steps of chosen size, do not cross it.
+    /// Breakpoints of functions of time: steps of motions, and adaptive load steps, do not cross them.
     pub(super) breakpoints: Vec<Breakpoint>,
-    /// What is known of functions of time.
+    /// Properties of functions of time.
     functions: TimeFunctions,
     /// When the motion began [s].
     origin: f64,
@@ -26,8 +26,8 @@ impl Stops {
         Self { breakpoints, functions: TimeFunctions::default(), origin }
     }
 
-    /// Looks at functions of time before a step from the time `now` [s]: jumps that are found end steps. Steps are `longest` [s] or
-    /// shorter.
+    /// Samples functions of time before a step from the time `now` [s]: jumps that are found end steps. Steps are `longest` [s]
+    /// or shorter.
     pub(super) fn look_ahead(&mut self, problem: Problem<'_>, now: f64, longest: f64) {
         if problem.system.functions.is_empty() || !problem.settings.scheme.dynamic {
             return;
@@ -42,7 +42,7 @@ impl Stops {
         }
     }
 
-    /// Where a step from the time `now` [s] is to end before `limit` [s].
+    /// The stop of a step from the time `now` [s] before `limit` [s].
     pub(super) fn stop_time(
         &self,
         problem: Problem<'_>,
@@ -61,7 +61,7 @@ impl Stops {
         })
     }
 
-    /// The longest step of `size` [s] or less within which no function of time does what its ends do not determine.
+    /// The longest step of `size` [s] or less whose ends determine all functions of time within it.
     pub(super) fn longest_resolved(
         &mut self,
         problem: Problem<'_>,
@@ -69,27 +69,27 @@ impl Stops {
         longest: f64,
     ) -> f64 {
         let window = WINDOW * block(problem.settings, longest);
-        // The square root of what a step of third order may miss.
+        // The square root of the allowed error of a third-order step.
         let tolerance = problem.settings.control.map_or(1.0, |control| control.relative_tolerance);
         let part = tolerance.powf(2.0 / 3.0).min(DEPARTURE);
         self.functions.longest_resolved(problem.system, self.origin, (now, size), part, window)
     }
 
-    /// Reports, at the time `now` [s] after a step of planned size, that steps have passed something that their ends do not
-    /// determine.
+    /// Reports, at the time `now` [s] after a step of planned size, that a function within steps is not determined by their
+    /// ends.
     pub(super) fn passed_unseen(&self, system: &System, now: f64, step: f64) -> Option<Warning> {
         let (time, index) = self.functions.hidden?;
         let function = || system.functions[index].0.clone();
         (time < now).then(|| Warning::FunctionUnseen { time, function: function(), step })
     }
 
-    /// Goes back to the start of another motion.
+    /// Restarts at the beginning of another motion.
     pub(super) fn restart(&mut self, origin: f64) {
         self.origin = origin;
     }
 }
 
-/// Duration of the intervals in which functions are looked at together [s].
+/// Duration of the intervals in which functions are sampled together [s].
 fn block(settings: &Settings, longest: f64) -> f64 {
     BLOCK[usize::from(settings.control.is_some())] * longest
 }

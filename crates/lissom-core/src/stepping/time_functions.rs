@@ -1,6 +1,6 @@
-//! Whether steps see functions of time as they are. A pulse between the stages of a step, or an oscillation with the step as
-//! its period, is in no residual and in no estimate of what a step misses: it would be left out, or taken for something else,
-//! and nobody would know. Nor is a jump that no line of time under `step` or `sign` reports.
+//! Whether steps resolve functions of time. A pulse between the stages of a step, or an oscillation with the step as its
+//! period, appears in no residual and in no error estimate: it would be ignored or misinterpreted without notice. The same
+//! applies to a jump that no line of time under `step` or `sign` reports.
 //!
 //! A function is determined by the ends of an interval if the cubic through values and slopes there gives its values between:
 //!
@@ -8,8 +8,8 @@
 //! |f(t) - H(t)| ≤ DEPARTURE · max |f|
 //! ```
 //!
-//! It is looked at where an interval is halved, as often as its bounds leave room for more than is seen. What cannot be determined by
-//! the ends of any interval, however short, is a jump: a step ends there, as at those that are known, see `breakpoints`. Chosen steps
+//! It is sampled by halving an interval, as long as its bounds allow more than the samples show. A feature that is not determined
+//! by the ends of any interval, however short, is a jump: a step ends there, as at known ones, see `breakpoints`. Adaptive steps
 //! are so short that their ends determine the rest; a warning reports planned ones that are not.
 
 use std::sync::Arc;
@@ -18,53 +18,56 @@ use crate::instants::SAME;
 use crate::registry::TimeFunction;
 use crate::system::System;
 
-/// A function that departs by more than this part of its largest value from what the ends of a step determine is not resolved: a
-/// sine with 4.4 steps a period.
+/// A function that deviates by more than this fraction of its largest value from the interpolation of a step's ends is not
+/// resolved: a sine with 4.4 steps a period.
 pub(super) const DEPARTURE: f64 = 0.01;
-/// Where bounds are narrower than this part of the largest value, nothing hides between the instants looked at.
+/// If bounds are narrower than this fraction of the largest value, nothing is missed between the samples.
 const NARROW: f64 = 0.1;
-/// Intervals looked at within one step at most, and in the search for the largest value.
+/// Maximum number of intervals within one step, and in the search for the largest value.
 const MAX_INTERVALS: usize = 256;
-/// Of them so many wait at a time: an interval is halved no more often.
+/// Maximum number of pending intervals, which limits the halvings of an interval.
 const MAX_PENDING: usize = 64;
-/// Halvings of an interval after which what remains is a jump.
+/// Halvings of an interval after which the remaining feature is a jump.
 const MAX_HALVINGS: usize = 30;
-/// Halvings of a step in which jumps beside fast motions are looked for.
+/// Halvings of a step in which jumps beside fast motions are searched for.
 const FURTHER: i32 = 6;
-/// Intervals looked at in a block at most.
+/// Maximum number of intervals in a block.
 const MAX_INTERVALS_IN_BLOCK: usize = 16 * MAX_INTERVALS;
-/// Values and slopes at the ends are taken by this part of the interval inside: a jump at an end belongs to the neighbour.
+/// Values and slopes at the ends are evaluated by this fraction of the interval inside: a jump at an end belongs to the
+/// neighbour.
 const INSIDE: f64 = 1e-6;
-/// Blocks begin by this part of a step before one of them: the golden section, that no simple part of a step is.
+/// Blocks begin this fraction of a step before one of them: the golden section, which is no simple fraction of a
+/// step.
 const ASIDE: f64 = 0.381_966;
-/// Planned steps that are looked at together; chosen ones are as many of the longest.
+/// Number of planned steps that are sampled together; adaptive ones are as many of the longest.
 pub(super) const BLOCK: [f64; 2] = [64.0, 1.0];
-/// Blocks for which the largest value is found together.
+/// Number of blocks for which the largest value is found together.
 pub(super) const WINDOW: f64 = 64.0;
 
-/// What is known of the functions of a system. All of it follows from the time the motion began and the size of steps.
+/// Properties of the functions of a system. All of them follow from the start time of the motion and the size of
+/// steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TimeFunctions {
-    /// Largest size of each function since the beginning, up to the end of each window.
+    /// Largest magnitude of each function since the beginning, up to the end of each window.
     sizes: Vec<Vec<f64>>,
-    /// The block looked at last, from when to when [s].
+    /// Start and end of the last sampled block [s].
     block: Option<[f64; 2]>,
-    /// Where in it the first interval is that the ends of a step do not determine [s], with the function's index.
+    /// Start of its first interval that is not determined by the ends of a step [s], with the function's index.
     pub(super) hidden: Option<(f64, usize)>,
 }
 
-/// What is found within an interval.
+/// Result for an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Found {
-    /// Nothing except what its ends determine.
+    /// No feature except those that its ends determine.
     Nothing,
-    /// Something that the ends of shorter intervals determine.
+    /// A feature that the ends of shorter intervals determine.
     Hidden,
-    /// A jump, at the first number behind it [s].
+    /// A jump, at the first number after it [s].
     Jump(f64),
 }
 
-/// What is found within a block.
+/// Result for a block.
 #[derive(Debug, Default)]
 struct Scan {
     looks: usize,
@@ -73,7 +76,8 @@ struct Scan {
 }
 
 impl TimeFunctions {
-    /// Sizes of the functions of a motion that began at `origin` [s], as far as two windows of this length beyond `time`.
+    /// Magnitudes of the functions of a motion that began at `origin` [s], up to two windows of this length beyond
+    /// `time`.
     pub(super) fn sizes(&mut self, system: &System, origin: f64, time: f64, window: f64) -> &[f64] {
         let index = ((time - origin) / window).max(0.0) as usize;
         while self.sizes.len() < index + 2 {
@@ -88,7 +92,8 @@ impl TimeFunctions {
         &self.sizes[index + 1]
     }
 
-    /// Looks at the block around a step of `step` [s] from `from` on, unless it has been looked at last; gives the jumps in it.
+    /// Samples the block around a step of `step` [s] from `from` on, unless it was the last one sampled; returns the jumps in
+    /// it.
     pub(super) fn look_ahead(
         &mut self,
         system: &System,
@@ -102,8 +107,8 @@ impl TimeFunctions {
             return Vec::new();
         }
         let first = origin + ((from - origin) / length).floor() * length;
-        // Jumps often are at ends of steps, and are seen within the intervals looked at. A step that lies in two blocks is looked
-        // at in the earlier one.
+        // Jumps often are at ends of steps, and are then detected within the sampled intervals. A step in two blocks belongs to
+        // the earlier one.
         let block = [(first - ASIDE * step).max(origin), first + length + (1.0 + ASIDE) * step];
         let sizes = self.sizes(system, origin, from, WINDOW * length).to_vec();
         let (mut hidden, mut jumps) = (None, Vec::new());
@@ -112,7 +117,7 @@ impl TimeFunctions {
             scan.look(&**function, block, step, size);
             let sooner = |time: &f64| hidden.is_none_or(|(known, _)| *time < known);
             hidden = scan.hidden.filter(sooner).map(|time| (time, index)).or(hidden);
-            // A part that a drive takes to another place at once is reported, see `judge::drives`, not helped.
+            // A drive that jumps is reported, see `judge::drives`, and not treated here.
             if !system.drives().iter().any(|drive| Arc::ptr_eq(&drive.prescribed.value, function)) {
                 jumps.append(&mut scan.jumps);
             }
@@ -121,8 +126,8 @@ impl TimeFunctions {
         jumps
     }
 
-    /// The longest step of `size` [s] or less, halved, from `from` on whose ends determine the functions within it, except for
-    /// jumps.
+    /// The longest step of `size` [s] or less, obtained by halving, from `from` on whose ends determine the functions within
+    /// it, except for jumps.
     pub(super) fn longest_resolved(
         &mut self,
         system: &System,
@@ -146,7 +151,7 @@ impl TimeFunctions {
 }
 
 impl Scan {
-    /// Looks at a block of steps, between the known breakpoints.
+    /// Samples a block of steps, between the known breakpoints.
     fn look(&mut self, function: &dyn TimeFunction, [from, to]: [f64; 2], step: f64, size: f64) {
         if function.is_constant() || size == 0.0 {
             return;
@@ -179,7 +184,7 @@ impl Scan {
             match found(function, [from, to], size, DEPARTURE) {
                 Found::Nothing => return,
                 Found::Hidden => {
-                    // Between two breakpoints a step is shorter, and what it misses counts for less.
+                    // Between two breakpoints a step is shorter, and its error is less significant.
                     let part = DEPARTURE * (step / length).max(1.0);
                     if found(function, [from, to], size, part) == Found::Hidden {
                         self.hidden = Some(self.hidden.map_or(middle, |known| known.min(middle)));
@@ -189,7 +194,7 @@ impl Scan {
                     }
                 }
                 Found::Jump(time) => {
-                    // At an end it is a known one.
+                    // A jump at an end is a known one.
                     if (time - from).min(to - time) <= SAME * step {
                         return;
                     }
@@ -203,7 +208,7 @@ impl Scan {
     }
 }
 
-/// The largest size of a function between two times, within a factor of two where it has bounds.
+/// The largest magnitude of a function between two times, within a factor of two if it has bounds.
 fn largest(function: &dyn TimeFunction, from: f64, to: f64) -> f64 {
     if function.is_constant() {
         return 0.0;
@@ -234,13 +239,14 @@ fn largest(function: &dyn TimeFunction, from: f64, to: f64) -> f64 {
     found
 }
 
-/// Whether bounds show that a function does not leave a narrow range between two times; also where it has none.
+/// Whether bounds show that a function remains in a narrow range between two times; also if it has none.
 fn is_narrow(function: &dyn TimeFunction, [from, to]: [f64; 2], size: f64) -> bool {
     let inside = INSIDE * (to - from);
     function.bounds(from + inside, to - inside).is_none_or(|[low, high]| high - low <= NARROW * size)
 }
 
-/// What a function does between two times that its values and slopes there do not determine to `part` of its largest value.
+/// Features of a function between two times that its values and slopes there do not determine to `part` of its largest
+/// value.
 fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> Found {
     if function.is_constant() || size == 0.0 {
         return Found::Nothing;
@@ -263,7 +269,7 @@ fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> 
     Found::Nothing
 }
 
-/// The first number behind a jump: where some part of an interval is determined by the ends of no interval, however short.
+/// The first number after a jump: where part of an interval is determined by the ends of no interval, however short.
 fn jump(function: &dyn TimeFunction, [mut from, mut to]: [f64; 2], size: f64) -> Option<f64> {
     for _ in 0..MAX_HALVINGS {
         let middle = 0.5 * (from + to);
@@ -288,7 +294,7 @@ fn jump(function: &dyn TimeFunction, [mut from, mut to]: [f64; 2], size: f64) ->
     Some(to)
 }
 
-/// By how much a function departs, at three instants of `part`, from the cubic through its values and slopes at the ends of
+/// Deviation of a function, at three instants of `part`, from the cubic through its values and slopes at the ends of
 /// `whole`.
 fn departure(function: &dyn TimeFunction, [from, to]: [f64; 2], part: [f64; 2]) -> f64 {
     let inside = INSIDE * (to - from);
@@ -305,7 +311,7 @@ fn departure(function: &dyn TimeFunction, [from, to]: [f64; 2], part: [f64; 2]) 
             + x * y * (y * one.1 - x * other.1);
         (function.value(time) - cubic).abs()
     };
-    // A value that is no number is reported elsewhere.
+    // A value that is not finite is reported elsewhere.
     [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
 }
 
@@ -313,7 +319,7 @@ fn departure(function: &dyn TimeFunction, [from, to]: [f64; 2], part: [f64; 2]) 
 mod tests {
     use super::*;
 
-    /// A function by its value and slope, with bounds if `wide` gives half their width about nothing.
+    /// A function by its value and slope, with bounds of half width `wide` about zero, if given.
     #[derive(Debug)]
     struct By {
         value: fn(f64) -> f64,
