@@ -1,10 +1,10 @@
-//! Residual and linearisation of the whole system in SI. Knows no time step, scheme or scaling.
+//! Residual and linearisation of the whole system in SI. Independent of time step, scheme and scaling.
 //!
 //! ```text
 //! coordinates:  M(q) a + f(q, v, t) + Bᵀ μ,   μ = λ + w c        multipliers:  c(q, t)
 //! ```
 //!
-//! where the weight w of the augmented Lagrangian term is somebody else's choice.
+//! where the caller chooses the weight w of the augmented Lagrangian term.
 
 use lissom_motion::WIDTH;
 
@@ -42,8 +42,8 @@ impl System {
         linearization
     }
 
-    /// Residual at `point`: left-hand sides of the equations of motion in the rows of the coordinates,
-    /// violations in the rows of the multipliers.
+    /// Residual at `point`: left-hand sides of the equations of motion in the rows of the coordinates, violations in
+    /// the rows of the multipliers.
     pub fn residual(&self, point: &Point<'_>, out: &mut [f64]) {
         out.fill(0.0);
         for batch in &self.batches {
@@ -93,7 +93,7 @@ impl System {
         &self.joint_rows[self.joint_starts[joint]..self.joint_starts[joint + 1]]
     }
 
-    /// Violations at `point` alone, by multiplier.
+    /// Only the violations at `point`, by multiplier.
     pub fn stage_violations(&self, point: &Point<'_>, out: &mut [f64]) {
         for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
             let blocks = 0..batch.indices().len().div_ceil(WIDTH);
@@ -117,7 +117,7 @@ impl System {
         out.scratch = Some(scratch);
     }
 
-    /// The same of constraints and of those kinds of elements alone that `kinds` chooses.
+    /// The same for constraints, and for those kinds of elements only that `kinds` selects.
     pub fn linearize_kinds(
         &self,
         kinds: &[bool],
@@ -135,12 +135,12 @@ impl System {
         out.scratch = Some(scratch);
     }
 
-    /// Number of kinds of elements, as they are evaluated together.
+    /// Number of kinds of elements, each of which is evaluated together.
     pub fn kind_count(&self) -> usize {
         self.batches.len()
     }
 
-    /// Hands the derivatives at `point` with respect to the unknowns of `chart` to `out`.
+    /// Passes the derivatives at `point` with respect to the unknowns of `chart` to `out`.
     pub fn assemble_tangent(
         &self,
         point: &Point<'_>,
@@ -155,7 +155,7 @@ impl System {
         self.linearize_constraints(point, chart, &mut scratch.joint, out);
     }
 
-    /// Adds what constraints do.
+    /// Adds the derivatives of constraints.
     pub(crate) fn linearize_constraints(
         &self,
         point: &Point<'_>,
@@ -188,7 +188,7 @@ fn scatter_joint(rows: &[u32], results: &Results, lane: usize, out: &mut [f64]) 
     for (&row, force) in rows[OWN..LOCAL].iter().zip(&results[OWN..]).filter(|&(&row, _)| row != LOCKED) {
         out[row as usize] += force[lane];
     }
-    // A joint's multipliers follow each other.
+    // A joint's multipliers are consecutive.
     if let Some(&first) = rows.get(LOCAL) {
         let violations = &mut out[first as usize..][..rows.len() - LOCAL];
         for (value, violation) in violations.iter_mut().zip(&results[LOCAL..]) {

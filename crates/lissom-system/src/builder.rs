@@ -1,5 +1,5 @@
-//! Puts a system together: nodes, elements, joints; then numbers the unknowns and checks what can be
-//! checked without solving.
+//! Builds a system from nodes, elements and joints; then numbers the unknowns and checks what can be checked without
+//! solving.
 
 mod coupling;
 mod drawn;
@@ -45,7 +45,7 @@ pub enum BuildError {
     /// Nothing can move.
     #[error("the model has no unknowns: nothing in it can move")]
     Empty,
-    /// A coordinate that no constraint or spring sees, or a structure that cannot be ordered.
+    /// A coordinate without constraint or spring, or a structure that cannot be ordered.
     #[error("the equations cannot be ordered: {0}")]
     Structure(String),
     /// A signal depends on too many parts of the model.
@@ -53,18 +53,18 @@ pub enum BuildError {
     SignalTouchesTooMuch(String),
 }
 
-/// Where a joint lies at the start, in inertial axes.
+/// Initial location of a joint, in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Base and tip node.
     pub nodes: [NodeId; 2],
-    /// The joint's point, on the base [m].
+    /// The joint's point on the base [m].
     pub at: Vector3,
-    /// The tip's point, for kinds that span a distance; the tip node's position where not given [m].
+    /// The point on the tip, for kinds that span a distance; by default the tip node's position [m].
     pub at_tip: Option<Vector3>,
-    /// Direction of the joint's axis, for kinds that have one.
+    /// Direction of the joint's axis, for kinds with an axis.
     pub axis: Option<Vector3>,
-    /// Direction of the second axis, for kinds that have two.
+    /// Direction of the second axis, for kinds with two.
     pub second_axis: Option<Vector3>,
 }
 
@@ -84,7 +84,7 @@ pub struct Builder {
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
-    /// Where parts are given approximately: the values of coordinates at the start that joints are given.
+    /// If parts are given approximately: the given initial values of joint coordinates.
     start_values: Option<Vec<(CoordinateId, f64)>>,
 }
 
@@ -95,7 +95,7 @@ impl Default for Builder {
 }
 
 impl Builder {
-    /// A system with nothing but the ground.
+    /// A system that contains only the ground.
     pub fn new() -> Self {
         let ground = Node {
             name: "ground".to_owned(),
@@ -130,32 +130,32 @@ impl Builder {
         self.model.gravity.acceleration = gravity;
     }
 
-    /// Lets gravity act by a factor that is a function of time.
+    /// Multiplies gravity by a function of time.
     pub fn set_gravity_factor(&mut self, factor: Function) {
         self.model.gravity.factor = Some(factor);
     }
 
-    /// Adds a node with its position at the start.
+    /// Adds a node with its initial frame.
     pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
         let motion = NodeMotion::at_rest(frame);
         self.model.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
         self.model.nodes.len() - 1
     }
 
-    /// Sets a node's twist at the start, in its body frame [m/s, rad/s]; locked degrees of freedom stay at rest.
+    /// Sets a node's initial twist, in its body frame [m/s, rad/s]; locked degrees of freedom have zero rates.
     pub fn set_twist(&mut self, node: NodeId, twist: Vector6) {
         let freedoms = self.model.nodes[node].freedoms;
         self.model.nodes[node].motion.twist =
             Vector6::from_fn(|k, _| if freedoms.is_free(k) { twist[k] } else { 0.0 });
     }
 
-    /// Locks all degrees of freedom of a node: it stays where it is.
+    /// Locks all degrees of freedom of a node: it cannot move.
     pub fn lock(&mut self, node: NodeId) {
         self.model.nodes[node].freedoms = Freedoms::Fixed;
         self.model.nodes[node].motion.twist.fill(0.0);
     }
 
-    /// Slot of a node at the start.
+    /// Initial frame of a node.
     pub fn initial_frame(&self, node: NodeId) -> Motion {
         self.model.frame(node)
     }
@@ -165,7 +165,7 @@ impl Builder {
         self.model.nodes[node].freedoms
     }
 
-    /// Nodes, coordinates and gravity as they are so far.
+    /// The nodes, coordinates and gravity added so far.
     pub fn model(&self) -> &InitialModel {
         &self.model
     }
@@ -180,19 +180,19 @@ impl Builder {
         self.add(Contribution::of(&self.model, element));
     }
 
-    /// Adds what an entry of the model consists of; returns the element that its outputs refer to.
+    /// Adds the parts of a model entry; returns the element to which its outputs refer.
     ///
     /// # Panics
-    /// If it was made for another model, or for this one before other nodes or coordinates were added.
+    /// If it was built for another model, or for this one before other nodes or coordinates were added.
     pub fn add(&mut self, contribution: Contribution) -> Option<ElementId> {
         let batches = |builder: &mut Self, element: Box<dyn AnyElement>| element.join(&mut builder.batches);
         self.add_each(contribution, batches)
     }
 
-    /// Adds an entry of a kind of springs or loads; returns the element that its outputs refer to.
+    /// Adds an entry of a kind of springs or loads; returns the element to which its outputs refer.
     ///
     /// # Errors
-    /// If a parameter is missing or makes no sense.
+    /// If a parameter is missing or invalid.
     pub fn add_of_kind(
         &mut self,
         kind: &ElementKind,
@@ -202,7 +202,7 @@ impl Builder {
         (kind.build)(&self.model, attached, parameters).map(|contribution| self.add(contribution))
     }
 
-    /// Adds an entry whose elements are loads of size one, and multiplies them by a signal.
+    /// Adds an entry whose elements are unit loads, multiplied by a signal.
     ///
     /// # Panics
     /// As [`Self::add`].
@@ -233,10 +233,10 @@ impl Builder {
         last.filter(|_| contribution.has_outputs)
     }
 
-    /// Adds a joint of a kind that is between two nodes; gives its algebraic coordinates.
+    /// Adds a joint between two nodes; returns its algebraic coordinates.
     ///
     /// # Errors
-    /// If a parameter or an axis is missing or makes no sense.
+    /// If a parameter or an axis is missing or invalid.
     pub fn add_joint(
         &mut self,
         name: &str,
@@ -247,11 +247,11 @@ impl Builder {
         self.add_joint_apart(name, kind, (placement, None), parameters)
     }
 
-    /// Adds a joint whose frame on the tip lies elsewhere than its frame on the base, for parts that are given
-    /// approximately and assembled.
+    /// Adds a joint whose frame on the tip differs from its frame on the base, for parts that are given approximately
+    /// and assembled.
     ///
     /// # Errors
-    /// If a parameter or an axis is missing or makes no sense.
+    /// If a parameter or an axis is missing or invalid.
     pub fn add_joint_apart(
         &mut self,
         name: &str,
@@ -277,7 +277,7 @@ impl Builder {
             if self.start_values.is_some() {
                 joint = unset;
             } else {
-                // Values at the start choose from where coordinates are counted: the tip's point stays at the joint's
+                // Initial values determine the zero of the coordinates: the tip's point stays at the joint's
                 // location, and the base's frame moves back.
                 let back = unset.initial().1.position - joint.initial().1.position;
                 base = base * Motion::translation(back);
@@ -329,7 +329,7 @@ impl Builder {
         Ok(coordinates)
     }
 
-    /// Whether the tip can only move in the plane of the joint frame's first two axes.
+    /// Whether the tip can move only in the plane of the joint frame's first two axes.
     fn moves_in_plane(&self, placement: &Placement, base: &Motion) -> bool {
         let Freedoms::Planar(a, b) = self.model.nodes[placement.nodes[1]].freedoms else { return false };
         let frame = self.model.nodes[placement.nodes[1]].motion.frame;
@@ -343,13 +343,13 @@ impl Builder {
         self.model.coordinate_name(coordinate)
     }
 
-    /// Quantity that a coordinate measures.
+    /// Quantity of a coordinate.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.model.coordinate_quantity(coordinate)
     }
 
-    /// Numbers the unknowns and gives the system with its state at `time` [s]: positions and twists as
-    /// given, accelerations and multipliers zero.
+    /// Numbers the unknowns and returns the system with its state at `time` [s]: positions and twists as given,
+    /// accelerations and multipliers zero.
     ///
     /// # Errors
     /// If nothing can move.
@@ -500,7 +500,7 @@ impl Builder {
         }
     }
 
-    /// Lets a failure name a function of time, in words such as "`scale` of load `push`".
+    /// Names a function of time for messages about failures, in words such as "`scale` of load `push`".
     pub fn name_function(&mut self, subject: Subject, function: Function) {
         self.functions.push((subject, function));
     }
@@ -511,7 +511,7 @@ impl Builder {
     }
 }
 
-/// Rows of a joint's local unknowns, locked where there are none, and of its multipliers.
+/// Rows of a joint's local unknowns, or the locked row, and of its multipliers.
 fn rows_of(joint: &AttachedJoint, layout: &Layout) -> Vec<u32> {
     let mut rows = vec![LOCKED; LOCAL];
     for (frame, first) in joint.frames.iter().zip([0, TIP]) {
@@ -525,7 +525,7 @@ fn rows_of(joint: &AttachedJoint, layout: &Layout) -> Vec<u32> {
     rows
 }
 
-/// Where each of several lengths begins when they are laid in a row, and where the last one ends.
+/// Offsets of consecutive ranges of these lengths, and the end of the last one.
 fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
     let ends = lengths.scan(0, |end, length| {
         *end += length;
@@ -538,7 +538,7 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// A contribution that was made before other coordinates were added would act on coordinates of others.
+    /// A contribution that was built before other coordinates were added would act on the wrong coordinates.
     #[test]
     #[should_panic(expected = "the model that it was made for")]
     fn contributions_are_added_to_the_model_they_were_made_for() {

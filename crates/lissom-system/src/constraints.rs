@@ -1,4 +1,4 @@
-//! All constraints of a system behind one interface, and what those that are not evaluated in lanes add to its equations.
+//! One interface to all constraints of a system, and the contributions of those that are not evaluated in lanes.
 
 use lissom_solver::{Group, Pattern};
 
@@ -14,7 +14,7 @@ use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 
-/// The constraints, family by family: outputs know what they are of.
+/// The constraints by family, because outputs depend on the type.
 #[derive(Debug, Default)]
 pub struct Constraints {
     pub joints: Vec<AttachedJoint>,
@@ -40,17 +40,17 @@ impl<C: Constraint> Family for Vec<C> {
 }
 
 impl Constraints {
-    /// All families. What is not in this list is no constraint: nothing else enumerates them.
+    /// All families, enumerated only here.
     fn families(&self) -> [&dyn Family; 4] {
         [&self.joints, &self.drives, &self.couplings, &self.sliders]
     }
 
-    /// Number of constraints of each family, to compare models by.
+    /// Number of constraints of each family, for comparing models.
     pub fn counts(&self) -> [usize; 4] {
         self.families().map(Family::count)
     }
 
-    /// A constraint by its position among all: joints come first.
+    /// A constraint by its index among all: joints are first.
     pub fn get(&self, index: usize) -> &dyn Constraint {
         let mut own = index;
         for family in self.families() {
@@ -75,7 +75,7 @@ impl Constraints {
     }
 }
 
-/// Rows of a port's unknowns, [`LOCKED`] where there are none.
+/// Rows of a port's unknowns, [`LOCKED`] for those that do not exist.
 pub fn rows_of_port(port: Port, layout: &Layout) -> impl Iterator<Item = u32> {
     let rows = match port {
         Port::Node(node) => *layout.rows_of_node(node),
@@ -85,7 +85,7 @@ pub fn rows_of_port(port: Port, layout: &Layout) -> impl Iterator<Item = u32> {
     rows.into_iter().take(port.width())
 }
 
-/// The group of a constraint's multipliers, behind those of all that it acts on.
+/// The group of a constraint's multipliers, after those of all on which it acts.
 pub(crate) fn group_of(
     constraint: &dyn Constraint,
     layout: &Layout,
@@ -103,7 +103,7 @@ pub(crate) fn group_of(
     Group { unknowns: (first..first + constraint.equations()).collect(), hosts }
 }
 
-/// Where a constraint acts in the system: by arrangement.
+/// Location of a constraint in the system: by arrangement.
 #[derive(Debug)]
 pub struct Placed {
     arrangements: Vec<Arrangement>,
@@ -111,12 +111,12 @@ pub struct Placed {
 
 #[derive(Debug, Default)]
 struct Arrangement {
-    /// Of each local unknown, [`LOCKED`] where there is none.
+    /// Of each local unknown, [`LOCKED`] if it does not exist.
     rows: Vec<u32>,
     /// First local unknown of each node.
     nodes: Vec<(usize, NodeId)>,
-    /// Local row, local column and position in the tangent's pattern of every entry that is there; equations follow the
-    /// local unknowns, and what two of them share stays zero.
+    /// Local row, local column and position in the tangent's pattern of every existing entry. Equations follow the
+    /// local unknowns, and the block of two equations is zero.
     entries: Vec<(u32, u32, u32)>,
 }
 
@@ -136,7 +136,7 @@ impl Placed {
         Self { arrangements: (0..constraint.arrangements()).map(of).collect() }
     }
 
-    /// Local unknown or equation, and row, of all that are there, by arrangement.
+    /// Local unknown or equation, and row, of all that exist, by arrangement.
     fn unknowns(&self, constraint: &dyn Constraint, layout: &Layout) -> Vec<Vec<(usize, usize)>> {
         let first = layout.coordinate_count + constraint.first_multiplier();
         let of = |own: &Arrangement| {
@@ -147,7 +147,7 @@ impl Placed {
         self.arrangements.iter().map(of).collect()
     }
 
-    /// What the constraint fills of the tangent, by arrangement.
+    /// Tangent entries of the constraint, by arrangement.
     pub(crate) fn cliques(&self, constraint: &dyn Constraint, layout: &Layout) -> Vec<Vec<usize>> {
         let rows = |unknowns: Vec<(usize, usize)>| {
             let mut rows: Vec<usize> = unknowns.into_iter().map(|(_, row)| row).collect();
@@ -158,7 +158,7 @@ impl Placed {
         self.unknowns(constraint, layout).into_iter().map(rows).collect()
     }
 
-    /// Finds where the local matrix lies in the tangent's pattern.
+    /// Determines the positions of the local matrix in the tangent's pattern.
     pub(crate) fn locate(&mut self, constraint: &dyn Constraint, layout: &Layout, pattern: &Pattern) {
         let unknowns = self.unknowns(constraint, layout);
         for (own, unknowns) in self.arrangements.iter_mut().zip(unknowns) {
@@ -174,7 +174,7 @@ impl Placed {
 }
 
 impl Arrangement {
-    /// Adds Bᵀ μ to the rows that are free.
+    /// Adds Bᵀ μ to the free rows.
     fn add_forces(&self, gradient: &[f64], mu: &[f64], out: &mut [f64]) {
         for (row, mu) in gradient.chunks_exact(self.rows.len()).zip(mu) {
             for (by, &row) in row.iter().zip(&self.rows).filter(|&(_, &row)| row != LOCKED) {
@@ -207,19 +207,19 @@ impl System {
         self.constraints.iter()
     }
 
-    /// A constraint by its position among all.
+    /// A constraint by its index among all.
     pub fn constraint(&self, index: usize) -> &dyn Constraint {
         self.constraints.get(index)
     }
 
-    /// Constraints that are not evaluated in lanes, each with where it acts.
+    /// Constraints that are not evaluated in lanes, each with its location.
     fn others(&self) -> impl Iterator<Item = (&dyn Constraint, &Placed)> {
         self.constraints.others().zip(&self.placed)
     }
 
     /// Adds their forces and violations to a residual.
     pub(crate) fn add_others(&self, point: &Point<'_>, out: &mut [f64]) {
-        // Most models have none, and this is asked in every iteration.
+        // Most models have none, and this is checked in every iteration.
         if self.placed.is_empty() {
             return;
         }
@@ -255,7 +255,7 @@ impl System {
         }
     }
 
-    /// Hands their derivatives to `out`.
+    /// Passes their derivatives to `out`.
     pub(crate) fn linearize_others(
         &self,
         point: &Point<'_>,
@@ -356,7 +356,7 @@ impl System {
         self.each_equation(out, |constraint, own| constraint.violation(at, own));
     }
 
-    /// Ḃ v + d/dt ∂c/∂t by multiplier: what the constraints' second time derivative holds besides B v̇.
+    /// Ḃ v + d/dt ∂c/∂t by multiplier: the constraints' second time derivative without B v̇.
     pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
         self.each_equation(out, |constraint, own| constraint.acceleration(at, own));
     }
@@ -376,12 +376,12 @@ impl System {
         }
     }
 
-    /// Whether a constraint depends on the time itself at a configuration.
+    /// Whether a constraint depends explicitly on time at a configuration.
     pub fn has_driven_constraint(&self, at: &Kinematics) -> bool {
         !self.placed.is_empty() && self.constraints.others().any(|constraint| constraint.depends_on_time(at))
     }
 
-    /// Whether a constraint may depend on the time itself, at one instant or another.
+    /// Whether a constraint may depend explicitly on time at any instant.
     pub fn may_have_driven_constraint(&self) -> bool {
         self.constraints.others().any(Constraint::may_depend_on_time)
     }

@@ -1,7 +1,7 @@
-//! What signals act on: loads whose size is a signal, and first-order states whose derivative is one. Laid beside the
-//! batches of elements, so that a system without signals pays nothing.
+//! Loads scaled by signals, and first-order states whose derivatives are signals. They are separate from the batches
+//! of elements, so that a system without signals has no overhead.
 //!
-//! Legend: e forces of the load of size one, s its signal, x a state.
+//! Legend: e forces of the unit load, s its signal, x a state.
 //!
 //! ```text
 //! load:   f = s e,      ∂f/∂q = s ∂e/∂q + e ∂s/∂q            state:   x' - s = 0
@@ -26,12 +26,12 @@ use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Sub
 use lissom_mechanics::signals::measurement::Measurement;
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
-/// Most local unknowns of a load or state with all that its signal touches.
+/// Maximum number of local unknowns of a load or state and its signal.
 const MAX_LOCAL: usize = 255;
 
-/// What a signal acts on.
+/// Target of a signal.
 pub enum Target {
-    /// A load of size one.
+    /// A unit load.
     Load(Box<dyn Element>),
     /// A first-order state.
     State([CoordinateId; 1]),
@@ -53,7 +53,8 @@ impl Target {
     }
 }
 
-/// A load or state, and the unknowns it and its signal touch: its own first, as its element counts them, then others.
+/// A load or state, and the unknowns on which it and its signal depend: its own first, in the order of its element,
+/// then others.
 struct Driven {
     target: Target,
     signal: SignalId,
@@ -152,7 +153,7 @@ impl Driven {
     }
 }
 
-/// The graph of signals and what they act on.
+/// The graph of signals and their targets.
 #[derive(Default)]
 pub struct Feedback {
     /// The signals.
@@ -161,14 +162,14 @@ pub struct Feedback {
     places: ScatterMap,
 }
 
-/// Too many unknowns are touched by one signal, of this name.
+/// The signal of this name depends on too many unknowns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TouchesTooMuch {
     pub name: String,
 }
 
 impl Feedback {
-    /// Signals with what they drive.
+    /// Signals with their targets.
     ///
     /// # Errors
     /// If a signal depends on more unknowns than a local matrix has.
@@ -185,18 +186,18 @@ impl Feedback {
         Ok(Self { graph, driven, places: ScatterMap::new() })
     }
 
-    /// Whether signals drive nothing.
+    /// Whether signals have no targets.
     pub fn is_empty(&self) -> bool {
         self.driven.is_empty()
     }
 
-    /// Whether any signal that acts on something depends on the motion or a state, between samples or at them, or
-    /// there is a state.
+    /// Whether any signal with a target depends on the motion or a state, continuously or at samples, or there is a
+    /// state.
     pub fn depends_on_motion(&self) -> bool {
         !self.is_empty() && !self.graph.measurements.is_empty()
     }
 
-    /// Own rows of each load or state with those of each node and coordinate it is touched by: what its tangent fills.
+    /// Rows of each load or state with those of each node and coordinate on which it depends: its tangent entries.
     pub fn cliques(&self) -> Vec<Vec<usize>> {
         let mut cliques = Vec::new();
         for driven in &self.driven {
@@ -241,7 +242,7 @@ impl Feedback {
         });
     }
 
-    /// Adds the derivative of the residual by a held value.
+    /// Adds the derivative of the residual with respect to a held value.
     fn add_input(&self, held: HeldId, at: &Kinematics, out: &mut [f64]) {
         self.graph.evaluate(at, |values| {
             for driven in &self.driven {
@@ -285,8 +286,8 @@ impl Feedback {
 }
 
 impl System {
-    /// Derivative of the equations of motion and of states by a held value, by row: what a unit of an input adds to the
-    /// left-hand sides.
+    /// Derivative of the equations of motion and of states with respect to a held value, by row: the change of the
+    /// left-hand sides for a unit of an input.
     pub fn input_derivative(&self, held: HeldId, at: &Kinematics) -> Vec<f64> {
         let mut out = vec![0.0; self.layout.size()];
         self.feedback.add_input(held, at, &mut out);
@@ -294,7 +295,7 @@ impl System {
     }
 }
 
-/// Loads and states that signals drive, as a batch among those of elements.
+/// Loads and states with signals, as a batch among those of elements.
 #[derive(Clone)]
 pub struct DrivenBatch(pub Arc<Feedback>);
 
@@ -394,7 +395,7 @@ impl AnyBatch for DrivenBatch {
     }
 
     fn switches(&self, _: &Kinematics, _: &mut Vec<f64>) {
-        // Those of signals are watched with their sides.
+        // Those of signals are monitored with their sides.
     }
 
     fn name_switches(&self, _: &Layout, _: &mut Vec<Subject>) {}

@@ -1,4 +1,4 @@
-//! What is simulated: an immutable system, and the state that changes.
+//! The simulated model: an immutable system, and the state that changes.
 
 mod assembly;
 mod builder;
@@ -41,40 +41,39 @@ use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layou
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
 
-/// Nodes, elements and joints with their numbering. Does not change during a simulation and knows
-/// neither time nor state.
+/// Nodes, elements and joints with their numbering. Constant during a simulation, and independent of time and state.
 pub struct System {
     /// Numbering of the unknowns.
     pub layout: Layout,
-    /// Elements by kind, then what signals drive.
+    /// Elements by kind, then the targets of signals.
     pub batches: Vec<Box<dyn AnyBatch>>,
     /// Joints, drives, couplings and sliders.
     pub constraints: Constraints,
     /// The joints by kind, in lanes.
     pub joint_batches: Batches,
-    /// Where constraints act that are not evaluated in lanes.
+    /// Location of constraints that are not evaluated in lanes.
     pub placed: Vec<Placed>,
-    /// Mass matrices of coordinates that elements contain.
+    /// Mass matrices of coordinates within elements.
     pub coordinate_masses: Vec<CoordinateMass>,
-    /// Coordinates that no joint between nodes has.
+    /// Coordinates of no joint between nodes.
     pub free_coordinates: Vec<CoordinateId>,
     /// Inputs that engage latches.
     pub latches: Vec<HeldId>,
-    /// Functions of time, in words, by which loads, springs and drives are given.
+    /// Functions of time of loads, springs and drives, with their description.
     pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.
     pub structure: Structure,
-    /// Where every joint's local matrix lies in the pattern.
+    /// Positions of every joint's local matrix in the pattern.
     pub joint_places: ScatterMap,
-    /// Rows of every joint's local unknowns and equations, all joints in a row, and where each joint's begin.
+    /// Rows of every joint's local unknowns and equations, concatenated.
     pub joint_rows: Vec<u32>,
-    /// Where each joint's rows begin.
+    /// Offset of each joint's rows.
     pub joint_starts: Vec<usize>,
     /// Inertia of bodies and lumped masses of beams.
     pub inertias: Vec<Inertia>,
     /// Gravity.
     pub gravity: Gravity,
-    /// Signals and what they act on.
+    /// Signals and their targets.
     pub feedback: DrivenBatch,
 }
 
@@ -90,7 +89,7 @@ impl System {
         &self.structure
     }
 
-    /// A shared handle on the tangent's pattern.
+    /// A shared handle to the tangent's pattern.
     pub fn pattern(&self) -> Arc<lissom_solver::Pattern> {
         Arc::clone(&self.structure.pattern)
     }
@@ -100,7 +99,7 @@ impl System {
         &self.constraints.joints
     }
 
-    /// Records what joints see at the start of a step.
+    /// Stores data of joints at the start of a step.
     #[inline]
     pub fn begin_step(&self, start: &Kinematics, out: &mut JointStarts) {
         self.joint_batches.begin(start, out);
@@ -141,12 +140,12 @@ impl System {
         self.feedback.depends_on_motion() || self.layout.state_count() > 0
     }
 
-    /// Gravity in full [m/s²].
+    /// Full gravity [m/s²].
     pub fn gravity(&self) -> &Vector3 {
         &self.gravity.acceleration
     }
 
-    /// The part of gravity that acts at `time` [s].
+    /// The fraction of gravity that acts at `time` [s].
     pub fn gravity_factor(&self, time: f64) -> f64 {
         self.gravity.factor.as_ref().map_or(1.0, |factor| factor.value(time))
     }
@@ -160,12 +159,12 @@ impl System {
         sum
     }
 
-    /// Elongation, its rate and the force against it [SI] of a spring or what is like one.
+    /// Elongation, its rate and the opposing force [SI] of a spring or similar element.
     pub fn spring_motion(&self, element: ElementId, at: &Kinematics) -> Option<[f64; 3]> {
         self.batches.get(element.batch?)?.spring_motion(element.item, at)
     }
 
-    /// Power that an element puts into the rest of the model [W]; of what stores or takes away energy, negative while it does.
+    /// Power that an element supplies to the rest of the model [W]: negative while it stores or dissipates energy.
     pub fn power(&self, element: ElementId, at: &Kinematics) -> f64 {
         match element.batch {
             None => self.feedback.power(element.item, at),
@@ -173,8 +172,8 @@ impl System {
         }
     }
 
-    /// Work of an element's forces on the rest of the model between two configurations [J], as if forces changed linearly
-    /// along the way.
+    /// Work of an element's forces on the rest of the model between two configurations [J], for forces that change
+    /// linearly along the path.
     pub fn work_of(&self, element: ElementId, from: &Kinematics, to: &Kinematics) -> f64 {
         match element.batch {
             None => self.feedback.work(element.item, from, to),
@@ -182,14 +181,14 @@ impl System {
         }
     }
 
-    /// Where the local numbers of each item begin, for every batch of elements and of joints.
+    /// Offsets of the local values of each item, for every batch of elements and of joints.
     pub fn starts_of_batches(&self) -> impl Iterator<Item = &[usize]> {
         let elements = self.batches.iter().map(|batch| batch.starts());
         elements.chain(self.joint_batches.iter().map(JointBatch::starts))
     }
 
-    /// Work of loads between two configurations [J], as if forces changed linearly in time between them and positions as
-    /// cubic polynomials.
+    /// Work of loads between two configurations [J], for forces that change linearly in time between them and positions
+    /// that are cubic polynomials.
     #[inline]
     pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
         self.batches.iter().map(|batch| batch.work_of_loads(from, to)).sum()
@@ -203,8 +202,8 @@ impl System {
         self.constraints.others().map(|constraint| constraint.work(from, to)).sum()
     }
 
-    /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its words and the
-    /// value.
+    /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its description
+    /// and the value.
     pub fn function_without_value(&self, time: f64) -> Option<(&Subject, f64)> {
         self.functions.iter().find_map(|(words, function)| {
             let values =
@@ -213,8 +212,7 @@ impl System {
         })
     }
 
-    /// Times at which loads, prescribed motions, states and the numbers whose zeros are events are known not to be smooth
-    /// [s], in ascending order.
+    /// Known breakpoints of loads, prescribed motions, states and event functions [s], in ascending order.
     pub fn breakpoints(&self) -> Vec<f64> {
         let of_constraints = self.constraints.others().flat_map(Constraint::breakpoints);
         let of_events = self.signals().breakpoints_of(self.signals().events().iter().map(|event| event.root));
@@ -225,26 +223,26 @@ impl System {
         breakpoints
     }
 
-    /// Appends numbers that change their sign where forces of elements have a kink or a jump: as many at every
-    /// configuration.
+    /// Appends switching functions, which change their sign where forces of elements have a kink or a jump: the same
+    /// number at every configuration.
     pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         self.batches.iter().for_each(|batch| batch.switches(at, out));
     }
 
-    /// What changes where the switch of this index has its zero, in words: those of signals come first.
+    /// Description of the switch of this index: those of signals are first.
     pub fn name_of_switch(&self, which: usize) -> Subject {
         let mut names = self.signals().names_of_switches();
         self.batches.iter().for_each(|batch| batch.name_switches(self.layout(), &mut names));
         names.get(which).cloned().unwrap_or_else(|| Subject::nameless("a force with a kink or a jump"))
     }
 
-    /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.
+    /// The largest deformation rate of an element [1/s], with one of its nodes; none if no element is deformable.
     pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
         let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));
         rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
-    /// What goes furthest beyond the range of an element's linear law; none where no element is linear in a frame of its own.
+    /// The element that exceeds the range of its linear law most; none if no element is linear in a frame of its own.
     #[inline]
     pub fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
         let parts = self.batches.iter().filter_map(|batch| batch.linear_range(limit, at));
@@ -257,13 +255,13 @@ impl System {
         self.batches.iter().find_map(|batch| batch.without_positive_mass(at))
     }
 
-    /// Hands on the mass matrix of every element that has one, besides [`inertias`](Self::inertias).
+    /// Passes the mass matrix of every element that has one, besides [`inertias`](Self::inertias), to `each`.
     pub fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {
         self.batches.iter().for_each(|batch| batch.masses(at, each));
     }
 
-    /// The two nodes of an element that are turned most against each other, and the cosine of half the angle between
-    /// them; none where no element turns with two nodes.
+    /// The two nodes of an element with the largest relative rotation, and the cosine of half its angle; none if no
+    /// element connects two nodes that rotate.
     pub fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         let pairs = self.batches.iter().filter_map(|batch| batch.max_relative_rotation(at));
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })

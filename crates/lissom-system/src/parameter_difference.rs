@@ -1,14 +1,15 @@
-//! What a number of the model changes in its equations where nothing moves otherwise: the derivative of residuals by the
-//! number at given motion and multipliers. Knows no scheme and no scaling.
+//! Derivative of the equations with respect to a model parameter, at given motion and multipliers. Independent of scheme
+//! and scaling.
 //!
-//! Legend: θ the number, f forces of elements and joints, c violations.
+//! Legend: θ the parameter, f forces of elements and joints, c violations.
 //!
 //! ```text
 //! ∂f/∂θ = Σ w_i f(θ_i),      ∂c/∂θ likewise
 //! ```
 //!
-//! with the weights w_i of a difference over neighbouring models, of those parts alone that differ between them. Where forces are proportional to what differs, as to a stiffness
-//! or a mass, the difference is taken of that once, and not of the forces at every instant.
+//! with the weights w_i of a difference over neighbouring models, of those parts only that differ between them. If forces are
+//! proportional to the parameter, such as a stiffness or a mass, the difference is computed once for the parameter, instead of
+//! for the forces at every instant.
 
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ use lissom_mechanics::elements::is_same;
 use lissom_mechanics::evaluation::batch::{AnyBatch, Changed};
 use lissom_mechanics::kinematics::Kinematics;
 
-/// What differs between models of the same unknowns.
+/// Difference between models with the same unknowns.
 pub struct ParameterDifference {
     /// The models, each with its weight.
     systems: Vec<(Arc<System>, f64)>,
@@ -29,7 +30,7 @@ pub struct ParameterDifference {
 }
 
 impl ParameterDifference {
-    /// Of neighbouring models with the weights of a difference. None where it cannot be determined what differs.
+    /// From neighbouring models with the weights of a difference. None if the difference cannot be determined.
     pub fn of(systems: Vec<(Arc<System>, f64)>) -> Option<Self> {
         let (first, _) = systems.first()?;
         let is_alike = |other: &System| {
@@ -57,7 +58,7 @@ impl ParameterDifference {
         Some(Self { systems, derivatives, elements, constraints })
     }
 
-    /// Adds the derivatives of forces and violations by the number, by row.
+    /// Adds the derivatives of forces and violations with respect to the parameter, by row.
     pub fn add(&self, at: &Kinematics, multipliers: &[f64], scratch: &mut [f64], out: &mut [f64]) {
         for batch in &self.derivatives {
             batch.forces(at, out);

@@ -11,15 +11,15 @@ pub struct State {
     pub kinematics: Kinematics,
     /// Multipliers: constraint forces and moments [N, N m].
     pub multipliers: Vec<f64>,
-    /// Violations of the constraints, carried from step to step: they are evaluated from the
-    /// increments of a step, so that the round-off of absolute positions does not enter them.
+    /// Violations of the constraints, accumulated from step to step: they are evaluated from the increments of a
+    /// step, so that the round-off of absolute positions does not affect them.
     pub violations: Vec<f64>,
-    /// The scheme's own acceleration-like memory, one entry per coordinate row [m/s², rad/s²].
+    /// The scheme's algorithmic acceleration, one entry per coordinate row [m/s², rad/s²].
     pub algorithmic: Vec<f64>,
-    /// What rounding has cut off the time so far [s].
+    /// Accumulated rounding remainder of the time [s].
     pub time_remainder: f64,
-    /// What rounding has cut off each node's position so far [m].
+    /// Accumulated rounding remainder of each node's position [m].
     pub position_remainders: Vec<Vector3>,
-    /// Numbers that a simulation accumulates along its way, see `analysis::accumulated`.
+    /// Values that a simulation accumulates along the motion, see `analysis::accumulated`.
     pub accumulated: Vec<f64>,
 }

@@ -1,5 +1,5 @@
 //! Residual of the whole system at both stages of a step, for schemes that integrate strains and violations.
-//! Knows no scheme and no scaling.
+//! Independent of scheme and scaling.
 
 use nalgebra::SVector;
 
@@ -11,12 +11,12 @@ use lissom_mechanics::joints::{Equations, MAX_EQUATIONS};
 use lissom_mechanics::kinematics::LOCKED;
 use lissom_mechanics::kinematics::step_stages::{STAGES, StepStages};
 
-/// Where the residuals of a step are evaluated.
+/// Evaluation point of the residuals of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct StepPoint<'a> {
     /// The motion.
     pub step: StepStages<'a>,
-    /// What has changed since the start, at the stages and at the end.
+    /// Changes since the start, at the stages and at the end.
     pub increments: [Increments<'a>; STAGES + 1],
     /// Multipliers by stage [N, N m].
     pub multipliers: [&'a [f64]; STAGES],

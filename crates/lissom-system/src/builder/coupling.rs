@@ -9,7 +9,7 @@ use lissom_mechanics::kinematics::{CoordinateId, Quantity};
 use lissom_mechanics::registry::{ParameterError, Parameters};
 
 impl Builder {
-    /// Prescribes a coordinate, with a drive of a kind that acts on one.
+    /// Prescribes a coordinate with a drive of the given kind.
     ///
     /// # Errors
     /// If a parameter is missing, or the drive is for another kind of coordinate.
@@ -36,10 +36,10 @@ impl Builder {
         Ok(())
     }
 
-    /// Adds coordinates that are not between nodes, of a kind that has such.
+    /// Adds coordinates that are not between nodes, of the given kind.
     ///
     /// # Errors
-    /// If a parameter is missing or makes no sense.
+    /// If a parameter is missing or invalid.
     pub fn add_free_coordinates(
         &mut self,
         name: &str,
@@ -63,7 +63,7 @@ impl Builder {
         Ok(added.collect())
     }
 
-    /// Relates coordinates, with a relation of a kind that does; they are those of the relation, in its order.
+    /// Relates coordinates by a relation of the given kind, in the order of its arguments.
     ///
     /// # Errors
     /// If a parameter is missing, a coordinate is named twice, or the relation does not depend on its coordinates.

@@ -1,4 +1,4 @@
-//! Where the frames of a joint are drawn: on base and tip at one place, or apart, for parts that are assembled.
+//! Frames of a joint as modelled: on base and tip at one location, or apart, for parts that are assembled.
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
@@ -7,19 +7,19 @@ use lissom_mechanics::joints::{AnyJoint, Frames};
 use lissom_mechanics::kinematics::CoordinateId;
 use lissom_mechanics::registry::{ParameterError, Parameters};
 
-/// Where the joint frame of the tip lies, on the tip as it is drawn, in inertial axes.
+/// Joint frame on the tip as modelled, in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceOnTip {
     /// The joint's point on the tip [m].
     pub at: Vector3,
-    /// Direction of the axis on the tip; that on the base where not given.
+    /// Direction of the axis on the tip; by default that on the base.
     pub axis: Option<Vector3>,
-    /// Direction of the second axis on the tip; turned with the axis where not given.
+    /// Direction of the second axis on the tip; by default rotated with the axis.
     pub second_axis: Option<Vector3>,
 }
 
 impl PlaceOnTip {
-    /// What the base's joint frame `base` is on the tip.
+    /// The frame on the tip that corresponds to the base's joint frame `base`.
     pub(super) fn frame(&self, base: &Motion, placement: &Placement) -> Result<Motion, ParameterError> {
         let Some(axis) = self.axis else { return Ok(Motion::new(base.rotation, self.at)) };
         let unusable = |why: &str| ParameterError::new("axis_at_tip", why);
@@ -33,7 +33,7 @@ impl PlaceOnTip {
                 "is at 90 degrees or more to `axis`: turn one of them round, or draw the parts nearer",
             ));
         }
-        // The shortest turn that leads from one axis to the other.
+        // The smallest rotation from one axis to the other.
         let across = on_base.cross(&on_tip);
         let turn = match across.try_normalize(0.0) {
             Some(about) => Rotation::about_axis(&about, across.norm().atan2(on_base.dot(&on_tip))),
@@ -58,19 +58,19 @@ impl PlaceOnTip {
 }
 
 impl Builder {
-    /// Says that parts are given approximately, where all coordinates of joints are zero: values at the start that joints
-    /// are given afterwards are where an assembly shall bring them, see [`start_values`](Self::start_values).
+    /// Declares that parts are given approximately, with all coordinates of joints zero. Initial values that joints then
+    /// have are the targets of the assembly, see [`start_values`](Self::start_values).
     pub fn assemble_later(&mut self) {
         self.start_values.get_or_insert_with(Vec::new);
     }
 
-    /// Coordinates that an assembly shall bring to the values that their joints were given [rad, m].
+    /// Coordinates with the values that the assembly has to reach [rad, m].
     pub fn start_values(&self) -> &[(CoordinateId, f64)] {
         self.start_values.as_deref().unwrap_or_default()
     }
 }
 
-/// The coordinates of a joint that are given a value at the start, by a parameter of their name.
+/// The coordinates of a joint with a given initial value, by a parameter of their name.
 pub(super) fn start_values(
     joint: &dyn AnyJoint,
     parameters: &Parameters,
@@ -93,7 +93,7 @@ pub(super) fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Ro
             let third = third
                 .try_normalize(0.0)
                 .ok_or_else(|| unusable("axis", "has no direction: all its numbers are zero"))?;
-            // Any first axis across the third; the one nearest to a global axis, for readable results.
+            // Any first axis perpendicular to the third; the one nearest to a global axis, for readable results.
             let smallest = third.iamin();
             let mut across = Vector3::zeros();
             across[smallest] = 1.0;

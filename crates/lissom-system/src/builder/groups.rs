@@ -1,4 +1,4 @@
-//! Groups of unknowns that are eliminated together, and what they hang on.
+//! Groups of unknowns that are eliminated together, and their dependencies.
 
 use lissom_solver::Group;
 
@@ -9,7 +9,7 @@ use lissom_mechanics::evaluation::scatter_map::free_rows;
 use lissom_mechanics::kinematics::Layout;
 
 impl Builder {
-    /// One group per node and per coordinate, then one per constraint, after all that it acts on.
+    /// One group per node and per coordinate, then one per constraint, after all on which it acts.
     pub(super) fn groups(&self, layout: &Layout) -> Vec<Group> {
         let mut groups = Vec::new();
         let mut of_node = vec![None; self.model.nodes.len()];

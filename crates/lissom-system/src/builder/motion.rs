@@ -1,4 +1,4 @@
-//! Adds a prescribed motion: a chain of slides and hinges with a drive each.
+//! Adds a prescribed motion: a chain of prismatic and revolute joints with a drive each.
 
 use lissom_motion::{Motion, Vector3};
 
@@ -9,11 +9,11 @@ use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, Freedoms, Quantit
 use lissom_mechanics::registry::{ParameterError, Parameters, Value};
 
 impl Builder {
-    /// Prescribes the motion of the tip relative to the base; gives the coordinates that are driven. The last joint of the
-    /// chain has the name; the other joints and the drives have the component behind it, as `name, x`.
+    /// Prescribes the motion of the tip relative to the base; returns the driven coordinates. The last joint of the chain
+    /// has the name; the other joints and the drives are named with the component, such as `name, x`.
     ///
     /// # Errors
-    /// If no component is given or the axes make no sense.
+    /// If no component is given or the axes are invalid.
     pub fn add_motion(
         &mut self,
         name: &str,

@@ -1,4 +1,4 @@
-//! Joints that roll: impulses, and the element with the constraint between velocities.
+//! Rolling joints: impulses, and the element with the velocity constraint.
 
 use super::Builder;
 use lissom_mechanics::contact::wheel_on_plane::Contact;
@@ -7,7 +7,7 @@ use lissom_mechanics::elements::rolling::Rolling;
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId};
 
 impl Builder {
-    /// Adds the element that keeps a contact from sliding, and impulses where it does not creep.
+    /// Adds the element that prevents sliding of a contact, and impulses if it does not creep.
     pub(super) fn add_rolling(
         &mut self,
         joint: &str,

@@ -1,4 +1,4 @@
-//! Adds held values, first-order states, measurements, signals and events, and loads whose size is a signal.
+//! Adds held values, first-order states, measurements, signals and events, and loads scaled by a signal.
 
 use super::Builder;
 use crate::feedback::Target;
@@ -10,13 +10,13 @@ use lissom_mechanics::signals::measurement::Measurement;
 use lissom_mechanics::signals::{Argument, HeldId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
 
 impl Builder {
-    /// Adds a held value, an input or the last sample of a signal, with its value at the start.
+    /// Adds a held value, an input or the last sample of a signal, with its initial value.
     pub fn add_held(&mut self, name: &str, start: f64) -> HeldId {
         self.graph.held.push((name.to_owned(), start));
         self.graph.held.len() - 1
     }
 
-    /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
+    /// Adds a first-order state with its initial value and its usual magnitude. Its derivative is set by
     /// [`drive_state`](Self::drive_state).
     pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
         let mut contribution = Contribution::to(&self.model);
@@ -31,10 +31,10 @@ impl Builder {
         self.graph.measurements.len() - 1
     }
 
-    /// Adds a signal, after those that it names.
+    /// Adds a signal, after those to which it refers.
     ///
     /// # Errors
-    /// If it names a later signal, or has too many arguments.
+    /// If it refers to a later signal, or has too many arguments.
     pub fn add_signal(&mut self, signal: Signal) -> Result<SignalId, ParameterError> {
         let next = self.graph.signals.len();
         let is_there = |argument: &Argument| match *argument {
@@ -61,7 +61,7 @@ impl Builder {
     /// Adds an event.
     ///
     /// # Errors
-    /// If it names signals or held values that are not there.
+    /// If it refers to signals or held values that do not exist.
     pub fn add_event(&mut self, event: Event) -> Result<(), ParameterError> {
         let is_there = |&(held, signal): &(HeldId, SignalId)| {
             held < self.graph.held.len() && signal < self.graph.signals.len()

@@ -10,16 +10,17 @@ use lissom_mechanics::joints::slider::{CarriedPoint, Orientation, Slider};
 use lissom_mechanics::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use lissom_mechanics::registry::ParameterError;
 
-/// A point may be that far from the line at the start, relative to the length of the line: digits of a text, and what the
-/// smooth line through the nodes leaves of a curved one.
+/// Allowed initial distance of a point from the line, relative to the length of the line. It covers the digits of a text,
+/// and the deviation of the smooth line through the nodes from a curved one.
 const BESIDE: f64 = 1e-4;
 
 impl Builder {
-    /// Adds a slider: a point of the node `tip` that is at `place` at the start slides along the line through `nodes`, which
-    /// are at the arc lengths `knots` [m]. Returns its coordinate, the arc length. `orientation` says what the tip turns with.
+    /// Adds a slider: a point of the node `tip`, initially at `place`, slides along the line through `nodes` at the arc
+    /// lengths `knots` [m]. Returns its coordinate, the arc length. `orientation` determines how the tip rotates.
     ///
     /// # Errors
-    /// If there are too few nodes, the tip is one of them, the point is not on the line, or the tip should turn and cannot.
+    /// If there are too few nodes, the tip is one of them, the point is not on the line, or the tip cannot rotate as
+    /// required.
     pub fn add_slider(
         &mut self,
         name: &str,
@@ -42,7 +43,7 @@ impl Builder {
         let value = line.nearest(&place, at);
         let on_line = line.at(value).sum(0, at);
         let distance = (on_line - place).norm();
-        // Parts that are given approximately are brought together afterwards.
+        // Parts that are given approximately are assembled afterwards.
         let is_drawn = self.start_values.is_some();
         if distance.is_nan() || (!is_drawn && distance > BESIDE * line.length()) {
             let problem = format!(
@@ -84,7 +85,7 @@ impl Builder {
         Ok(coordinate)
     }
 
-    /// Directions of the tip that stay across the tangent at the start, and across an axis of the sections.
+    /// Directions of the tip that remain perpendicular to the initial tangent, and to an axis of the sections.
     fn alignments(
         &self,
         (nodes, support): (&[CarriedPoint], &Support),
@@ -111,7 +112,7 @@ impl Builder {
             Orientation::Section(axes) => Some(axes),
             Orientation::Free | Orientation::Tangent => None,
         };
-        // Any direction across the tangent will do, but that of the sections where they count.
+        // Any direction perpendicular to the tangent is valid, unless the sections determine one.
         let beside = sections.map_or_else(
             || Vector3::ith(tangent.iamin(), 1.0),
             |axes| support.sum(0, |k| frame(nodes[k].node).rotation.apply(&axes[k])),
