@@ -1,5 +1,5 @@
-//! Numbers with their first derivatives along several directions [Clifford 1873]: formulas written over [`Number`] give
-//! values, or values and exact derivatives.
+//! Numbers with their first derivatives along several directions [Clifford 1873]: formulas written over [`Number`]
+//! return values, or values and exact derivatives.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -13,7 +13,7 @@ pub trait Number:
     /// The value alone.
     fn value(self) -> f64;
 
-    /// A function of it, which has this value and this derivative there.
+    /// A function of it, from its value and derivative there.
     #[must_use]
     fn composed(self, value: f64, derivative: f64) -> Self;
 
@@ -56,7 +56,7 @@ pub trait Number:
         (self.composed(sine, cosine), self.composed(cosine, -sine))
     }
 
-    /// The angle whose tangent it is.
+    /// The arc tangent.
     #[must_use]
     fn arc_tangent(self) -> Self {
         let value = self.value();
@@ -95,7 +95,7 @@ impl<const N: usize> Dual<N> {
         Self { value, by }
     }
 
-    /// A function of two numbers, which has this value and these derivatives by them.
+    /// A function of two numbers, from its value and its derivatives with respect to both.
     fn combined(self, value: f64, by_this: f64, (other, by_other): (&Self, f64)) -> Self {
         Self { value, by: std::array::from_fn(|k| by_this * self.by[k] + by_other * other.by[k]) }
     }

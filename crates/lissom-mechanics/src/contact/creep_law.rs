@@ -1,4 +1,4 @@
-//! Forces of rolling contact between wheel and rail: Kalker's linear theory with a limit by friction.
+//! Forces of rolling contact between wheel and rail: Kalker's linear theory with saturation by friction.
 //!
 //! Legend: N normal force, A and B half the sums of curvatures along and across the rail, E elliptic integral and g ratio of the
 //! half axes of Hertz's ellipse, C = (a b)^½, G shear modulus, σ Poisson's number, s sliding velocity, c velocity of the wheel's centre,
@@ -10,17 +10,17 @@
 //! ```
 //!
 //! [Kalker 1967; saturation after Simeon, Führer and Rentrop 1991]. N is the multiplier of the joint that keeps wheel and rail
-//! together. t₁ lies in the common tangent plane across the wheel's axis. With small angles, as in the problem of 1991, it is
-//! turned from the rail about the vertical by θ/cos δ instead, ω and the arm to the contact are turned so for s, and
-//! φ v_r = cos δ θ' - sin δ ω_a, θ yaw angle, δ angle of contact.
+//! in contact. t₁ is in the common tangent plane, perpendicular to the wheel's axis. With small angles, as in the problem of
+//! 1991, it is the rail's direction rotated about the vertical by θ/cos δ instead. For s, ω and the arm to the contact are
+//! rotated likewise, and φ v_r = cos δ θ' - sin δ ω_a, θ yaw angle, δ contact angle.
 
 use super::wheel_on_rail::{Place, Pose, RailContact};
 use crate::dual::{Number, Three, cross, dot, sum, times};
 
-/// Velocity of rolling that is added to the real one, as the hypotenuse, so that a wheel at rest has finite creepages [m/s].
+/// Rolling velocity that is added to the actual one, as the hypotenuse, so that a wheel at rest has finite creepages [m/s].
 const AT_REST: f64 = 1e-3;
 
-/// What creep forces follow from.
+/// Parameters of the creep forces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CreepLaw {
     /// G [N/m²].
@@ -41,7 +41,7 @@ pub struct CreepLaw {
     pub small_angles: bool,
 }
 
-/// What acts in a contact.
+/// Quantities of a contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Creep<T> {
     /// On the wheel, along and across the direction of rolling [N].
@@ -53,7 +53,7 @@ pub struct Creep<T> {
 }
 
 impl CreepLaw {
-    /// Of a contact with this pose, relative twist in the tip's axes and normal force.
+    /// For a contact with this pose, relative twist in the tip's axes and normal force.
     pub fn creep<T: Number>(
         &self,
         contact: &RailContact,
@@ -81,7 +81,7 @@ impl CreepLaw {
             let along = times(along, T::constant(1.0) / dot(along, along).square_root());
             (along, cross(normal, along), dot(turning, normal))
         };
-        // The force of spin is across the direction of rolling, whichever that is.
+        // The force of spin is perpendicular to the direction of rolling, for either sign of it.
         let sign = if dot(rolling, along).value() < 0.0 { -1.0 } else { 1.0 };
         let [along, across] = [along, across].map(|axis| axis.map(|value| value.scaled(sign)));
         let creepages = [dot(along, sliding) / speed, dot(across, sliding) / speed, spin / speed];
@@ -118,12 +118,13 @@ impl CreepLaw {
     }
 }
 
-/// Angle by which the axle is turned about the vertical.
+/// Angle of rotation of the axle about the vertical.
 fn yaw<T: Number>(axis: Three<T>) -> T {
     (-axis[2] / axis[0]).arc_tangent()
 }
 
-/// A vector turned about the vertical by what the yaw angle for small angles, θ/cos δ, is larger.
+/// A vector rotated about the vertical by the difference between the yaw angle for small angles, θ/cos δ, and the
+/// actual one.
 fn turned_further<T: Number>(side: f64, axis: Three<T>, normal: Three<T>, v: Three<T>) -> Three<T> {
     let yaw = yaw(axis);
     let (s, c) = (yaw / normal[1].scaled(side) - yaw).sine_cosine();

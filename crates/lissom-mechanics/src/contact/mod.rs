@@ -1,4 +1,4 @@
-//! Geometry and laws of contact between wheels, planes and rails. Knows no element, joint or system.
+//! Geometry and laws of contact between wheels, planes and rails. Independent of elements, joints and systems.
 
 pub mod creep_law;
 pub mod profile;

@@ -1,19 +1,19 @@
-//! Profiles of wheels and rails: lines in the plane across the track.
+//! Profiles of wheels and rails: curves in the plane across the track.
 
 use crate::dual::Number;
 use crate::registry::Function;
 
-/// Part of an argument over which a second derivative is compared for a third one.
+/// Relative step of the argument for the difference of second derivatives that gives a third one.
 const APART: f64 = 1e-4;
 
-/// Value and three derivatives of a function that is given; its third derivative is a difference of the second.
+/// Value and three derivatives of a given function; its third derivative is a difference of the second.
 fn given(function: &Function, at: f64, length: f64) -> [f64; 4] {
     let step = APART * length;
     let third = function.second_derivative(at + step) - function.second_derivative(at - step);
     [function.value(at), function.first_derivative(at), function.second_derivative(at), third / (2.0 * step)]
 }
 
-/// The radius of a wheel beyond its nominal one, over the position along its axis from the nominal circle on.
+/// The radius of a wheel minus its nominal one, over the position along its axis from the nominal circle.
 #[derive(Clone, Debug)]
 pub enum WheelProfile {
     /// A cone, by its slope.
@@ -98,7 +98,7 @@ impl RailProfile {
         }
     }
 
-    /// How far a point (outwards, upwards) is over the head, roughly, and the position u below it.
+    /// Approximate height of a point (outwards, upwards) above the head, and the position u below it.
     pub(super) fn clearance(&self, [outwards, upwards]: [f64; 2]) -> (f64, f64) {
         match self {
             Self::Circle { radius, cant } => {
@@ -137,7 +137,7 @@ mod tests {
         }
     }
 
-    /// A point that stands off a place along the normal is so far over it, and under it where it stands in.
+    /// A point at a given distance along the normal has that clearance, negative if it is inside.
     #[test]
     fn clearances_are_distances_along_the_normal() {
         let circle = RailProfile::Circle { radius: 0.3, cant: 0.05 };

@@ -30,19 +30,19 @@ pub(crate) fn upright<R: Real>(cosine: R) -> R {
 pub struct Contact {
     /// Axis of the wheel in the tip's joint frame.
     pub axis: Vector3,
-    /// 1 where the wheel is on the side of the plane to which the base's third axis points, else -1.
+    /// 1 if the wheel is on the side of the plane to which the base's third axis points, otherwise -1.
     pub side: f64,
     /// Radius [m].
     pub radius: f64,
     /// Radius of the rounding of the rim [m].
     pub rim: f64,
-    /// Coefficient of friction; infinite where there is no limit.
+    /// Coefficient of friction; infinite if there is no limit.
     pub friction: f64,
-    /// Sliding velocity per force [m/(N s)]; 0 where nothing slides.
+    /// Sliding velocity per force [m/(N s)]; 0 without sliding.
     pub creep: f64,
 }
 
-/// What the contact is at a relative rotation, in the tip's axes.
+/// The contact at a relative rotation, in the tip's axes.
 struct Touch {
     /// N.
     normal: Vector3,
@@ -71,7 +71,7 @@ impl Contact {
         rotation * ((cosine * self.axis - normal) / upright)
     }
 
-    /// b_k: derivatives of the sliding velocities by the relative twist, in the tip's joint frame.
+    /// b_k: derivatives of the sliding velocities with respect to the relative twist, in the tip's joint frame.
     pub fn rows(&self, rotation: &Matrix3) -> [Vector6; DIRECTIONS] {
         let touch = self.touch(rotation);
         touch.along.map(|along| screw(&along, &touch.point.cross(&along)))
@@ -101,7 +101,7 @@ impl Contact {
         (wrench, rows)
     }
 
-    /// Gap between wheel and plane [m], and its derivative by η.
+    /// Gap between wheel and plane [m], and its derivative with respect to η.
     pub fn gap(&self, rotation: &Matrix3, position: &Vector3) -> (f64, Vector6) {
         let touch = self.touch(rotation);
         let gap = self.side * position.z - self.radius * touch.upright - self.rim;
@@ -109,11 +109,11 @@ impl Contact {
         (gap, screw(&touch.normal, &(lever * self.axis.cross(&touch.normal))))
     }
 
-    /// Second derivative of the gap by η.
+    /// Second derivative of the gap with respect to η.
     pub(crate) fn gap_hessian(&self, rotation: &Matrix3) -> Matrix6 {
         let Touch { normal, cosine, upright, .. } = self.touch(rotation);
         let turned = skew(&normal);
-        // d(u/S)/du = 1/S³ except for the round-off that S is kept away from zero with.
+        // d(u/S)/du = 1/S³, apart from the round-off that keeps S from vanishing.
         let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
         let tilting = slope * self.axis.cross(&normal) * (self.axis.transpose() * turned)
             + cosine / upright * skew(&self.axis) * turned;
@@ -145,7 +145,8 @@ mod tests {
     /// Rims as many spheres, at so many angles about the axis.
     const SPHERES: usize = 20_000;
 
-    /// Least height of the rim over the plane, and the position from the wheel's centre, in the tip's axes, that is lowest.
+    /// Smallest height of the rim over the plane, and its lowest position relative to the wheel's centre, in the tip's
+    /// axes.
     fn lowest(contact: &Contact, rotation: &Matrix3, position: &Vector3) -> (f64, Vector3) {
         let up = contact.side * rotation.row(2).transpose();
         let across = contact.axis.cross(&up).normalize();
@@ -158,7 +159,7 @@ mod tests {
         spheres.min_by(|one, other| one.0.total_cmp(&other.0)).expect("there are some")
     }
 
-    /// A wheel that leans, on both sides of the plane: gap, its derivative, and sliding velocities are those of the lowest point.
+    /// A leaning wheel, on both sides of the plane: gap, its derivative, and sliding velocities are those of the lowest point.
     #[test]
     fn the_gap_is_that_of_the_lowest_point_of_the_rim() {
         let turn = Rotation::exponential(&Vector3::new(0.3, -0.2, 0.5)).matrix();

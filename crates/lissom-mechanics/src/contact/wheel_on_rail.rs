@@ -1,20 +1,20 @@
-//! Where a wheel touches a rail: the position at which both surfaces have one normal.
+//! Point of contact between a wheel and a rail: the position at which both surfaces have a common normal.
 //!
-//! Legend: base's axes e₁ outwards across the track, e₂ up, e₃ along the rail; x tip's origin, a axis of the wheel, ξ position along it from the
-//! nominal circle on, b distance of that from the tip's origin; r(ξ) radius; p, q directions across the axis, down and along; ψ shift
-//! angle from p to q; u position on the rail's head with point Q, normal N and tangent t.
+//! Legend: base's axes e₁ outwards across the track, e₂ up, e₃ along the rail; x tip's origin, a axis of the wheel, ξ position
+//! along it from the nominal circle, b distance of that from the tip's origin; r(ξ) radius; p, q directions perpendicular to the
+//! axis, down and along; ψ shift angle from p to q; u position on the rail's head with point Q, normal N and tangent t.
 //!
 //! ```text
 //! p = a × e₃/C,   q = (e₃ - a₃ a)/C,   C² = 1 - a₃²,      d = cos ψ p + sin ψ q,   sin ψ = r' a₃/C
 //! P = x + (b + ξ) a + r d,      n = d - r' a,      n·t = 0,   (P - Q)·t = 0,      gap g = (P - Q)·N
 //! ```
 //!
-//! A rail is the same all along, so that the common normal has no part along e₃; this gives ψ at once, and the rest is a
-//! problem of the plane for ξ and u. For a cone on a circle P goes along a straight line, and ξ and u follow directly:
-//! the foot of the circle's centre on it. Other profiles start from the sample of smallest clearance, and Newton's method
-//! goes on from there: the answer depends on the configuration alone. The gap does not change with ξ, ψ and u to first
-//! order, so that its gradient is N at the wheel's point of contact. Derivatives of ξ and u are those of the implicit
-//! function.
+//! A rail is a prism, so that the common normal has no component along e₃. This gives ψ directly, and the rest is a plane
+//! problem for ξ and u. For a cone on a circle P moves along a straight line, and ξ and u follow directly from the
+//! projection of the circle's centre onto it. For other profiles Newton's method starts from the sample of smallest
+//! clearance: the result depends only on the configuration. The gap does not change with ξ, ψ and u to first order, so
+//! that its gradient is N at the wheel's point of contact. Derivatives of ξ and u follow from the implicit function
+//! theorem.
 
 use lissom_motion::{Matrix3, Vector3};
 
@@ -24,11 +24,11 @@ use crate::round_off;
 
 /// Added to C², so that it never vanishes.
 const NEVER_ZERO: f64 = 1e-14;
-/// Samples of a profile that is given.
+/// Samples of a given profile.
 const SAMPLES: usize = 64;
-/// Iterations after which the position of contact counts as not found.
+/// Maximum number of iterations for the position of contact.
 const MAX_ITERATIONS: usize = 40;
-/// Cosine of the angle from the top of the head up to which a position of contact is on its tread.
+/// Cosine of the largest angle from the top of the head at which a position of contact is on its tread.
 const STEEPEST: f64 = 0.5;
 /// Clearances below this fraction of the wheel's radius are contacts.
 const NEARLY_TOUCHING: f64 = 1e-6;
@@ -38,7 +38,7 @@ const NEARLY_TOUCHING: f64 = 1e-6;
 pub struct RailContact {
     /// Axis of the wheel in the tip's joint frame, outwards.
     pub axis: Vector3,
-    /// 1 where the second axis of the base's joint frame points to the wheel, else -1.
+    /// 1 if the second axis of the base's joint frame points to the wheel, otherwise -1.
     pub side: f64,
     /// Distance of the nominal circle from the tip's origin along the axis [m].
     pub offset: f64,
@@ -48,11 +48,11 @@ pub struct RailContact {
     pub wheel: WheelProfile,
     /// Profile of the rail.
     pub rail: RailProfile,
-    /// Positions along the axis at which the wheel's profile is that of the tread [m].
+    /// Range of positions along the axis at which the wheel's profile is that of the tread [m].
     pub tread: [f64; 2],
 }
 
-/// Where a wheel touches its rail, and what acts there.
+/// Position and forces of the contact between a wheel and its rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RailContactValues {
     /// Position along the wheel's axis, outwards from the nominal circle [m].
@@ -61,7 +61,7 @@ pub struct RailContactValues {
     pub on_rail: f64,
     /// Angle from the lowest spoke to that of the contact [rad].
     pub shift_angle: f64,
-    /// Normal force; negative where the rail pulls [N].
+    /// Normal force; negative if the rail pulls [N].
     pub normal_force: f64,
     /// Creep forces on the wheel along and across the direction of rolling [N].
     pub forces: [f64; 2],
@@ -69,7 +69,7 @@ pub struct RailContactValues {
     pub creepages: [f64; 3],
 }
 
-/// Pose of the tip's joint frame in the base's.
+/// Pose of the tip's joint frame relative to the base's.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose<T> {
     /// Rows of the rotation matrix.
@@ -85,7 +85,7 @@ impl Pose<f64> {
         Self { rows, position: (*position).into() }
     }
 
-    /// With derivatives along the tip's body variation, whose six directions are the first ones.
+    /// With derivatives by the tip's body variation, along the first six directions.
     pub fn varied<const N: usize>(&self) -> Pose<Dual<N>> {
         let constant = |value: &f64| Dual::constant(*value);
         let mut out = Pose {
@@ -95,7 +95,8 @@ impl Pose<f64> {
         for (i, row) in self.rows.iter().enumerate() {
             for k in 0..3 {
                 out.position[i].by[k] = row[k];
-                // δR = R η̃: column k + 2 grows by column k + 1 times η_k, column k + 1 falls by column k + 2.
+                // δR = R η̃: column k + 2 times η_k is added to column k + 1, and column k + 1 times η_k subtracted
+                // from column k + 2.
                 let (a, b) = ((k + 1) % 3, (k + 2) % 3);
                 out.rows[i][b].by[3 + k] = -row[a];
                 out.rows[i][a].by[3 + k] = row[b];
@@ -106,18 +107,18 @@ impl Pose<f64> {
 }
 
 impl<T: Number> Pose<T> {
-    /// A vector of the tip's axes in the base's.
+    /// Transforms a vector from the tip's axes to the base's.
     pub fn apply(&self, v: Three<T>) -> Three<T> {
         self.rows.map(|row| dot(row, v))
     }
 
-    /// A vector of the base's axes in the tip's.
+    /// Transforms a vector from the base's axes to the tip's.
     pub fn apply_inverse(&self, v: Three<T>) -> Three<T> {
         std::array::from_fn(|k| self.rows[0][k] * v[0] + self.rows[1][k] * v[1] + self.rows[2][k] * v[2])
     }
 }
 
-/// A position on the wheel where its normal lies across the rail.
+/// A position on the wheel at which its normal is perpendicular to the rail.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelPoint<T> {
     /// a, in the base's axes.
@@ -134,7 +135,7 @@ pub(crate) struct WheelPoint<T> {
     normal: [T; 2],
 }
 
-/// Where a wheel touches a rail.
+/// Position of contact on wheel and rail.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<T> {
     /// ξ [m].
@@ -143,7 +144,7 @@ pub struct Place<T> {
     pub on_rail: T,
 }
 
-/// A position of contact, and whether it is one.
+/// A position of contact, and whether it converged.
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     /// The point of contact.
@@ -152,7 +153,7 @@ pub struct Found {
 }
 
 impl RailContact {
-    /// The wheel at a position along its axis.
+    /// The wheel's point at a position along its axis.
     pub(crate) fn wheel_point<T: Number>(&self, pose: &Pose<T>, along: T) -> WheelPoint<T> {
         let axis = pose.apply([self.axis.x, self.axis.y, self.axis.z].map(T::constant));
         let [first, second, third] = axis;
@@ -164,7 +165,7 @@ impl RailContact {
         let [profile, slope, bend] = self.wheel.at(along);
         let radius = profile.plus(self.radius);
         let shift = slope * third / size;
-        // Beyond there is no common normal; numbers stay finite, so that the search says so.
+        // Beyond this there is no common normal; values remain finite, so that the search fails regularly.
         let square = T::constant(1.0) - shift * shift;
         let cosine = if square.value() > 0.0 { square.square_root() } else { T::constant(0.0) };
         let spoke = sum(times(down, cosine), times(forward, shift));
@@ -191,7 +192,7 @@ impl RailContact {
         ([across(of_wheel.normal, tangent), across(apart, tangent)], across(apart, normal))
     }
 
-    /// Values of the equations and their derivatives by ξ and u.
+    /// Values of the equations and their derivatives with respect to ξ and u.
     fn linearized(&self, pose: &Pose<f64>, place: &Place<f64>) -> [Dual<2>; 2] {
         let constant = |value: &f64| Dual::constant(*value);
         let fixed = Pose {
@@ -203,7 +204,7 @@ impl RailContact {
         self.equations(&fixed, &varied).0
     }
 
-    /// Where they touch, or are nearest.
+    /// The point of contact, or of smallest distance.
     pub fn place(&self, pose: &Pose<f64>) -> Found {
         let mut place = self.first_place(pose);
         let size = |rows: &[f64; 2]| rows[0].hypot(rows[1] / self.radius);
@@ -232,7 +233,7 @@ impl RailContact {
         Found { place, is_common_normal: before < 1e-9 }
     }
 
-    /// Where the iteration begins.
+    /// Initial guess of the iteration.
     fn first_place(&self, pose: &Pose<f64>) -> Place<f64> {
         if let (WheelProfile::Cone(_), RailProfile::Circle { .. }) = (&self.wheel, &self.rail) {
             return self.foot(pose);
@@ -247,7 +248,8 @@ impl RailContact {
         least.map_or_else(|| self.foot(pose), |(_, place)| place)
     }
 
-    /// The foot of the centre of the rail's circle on the line of a cone, for those that fit at the nominal circle.
+    /// Projection of the centre of the rail's circle onto the line of a cone, for those that fit at the nominal
+    /// circle.
     fn foot(&self, pose: &Pose<f64>) -> Place<f64> {
         let [from, to] = [0.0, self.radius].map(|along| self.wheel_point(pose, along).point);
         let (radius, cant) = self.rail.osculating();
@@ -264,7 +266,7 @@ impl RailContact {
         Place { along, on_rail }
     }
 
-    /// Angle of the spoke at a position from the lowest one, along the rail [rad].
+    /// Angle between the spoke at a position and the lowest one, along the rail [rad].
     pub fn shift_angle(&self, pose: &Pose<f64>, along: f64) -> f64 {
         let WheelPoint { axis: [first, second, third], spoke, .. } = self.wheel_point(pose, along);
         let up = second * self.side;
@@ -274,12 +276,12 @@ impl RailContact {
         dot(spoke, forward).atan2(dot(spoke, down))
     }
 
-    /// Gap [m], of surfaces that are apart positive.
+    /// Gap [m], positive if the surfaces are separated.
     pub fn gap(&self, pose: &Pose<f64>) -> f64 {
         self.equations(pose, &self.place(pose).place).1
     }
 
-    /// Position of contact with its derivatives, those of the implicit function.
+    /// Position of contact with its derivatives, by the implicit function theorem.
     pub(crate) fn varied_place<const N: usize>(
         &self,
         pose: &Pose<f64>,
@@ -319,7 +321,7 @@ impl RailContact {
         [outwards, upwards.scaled(self.side), T::constant(0.0)]
     }
 
-    /// Derivative of the gap by the body variation of the tip's joint frame.
+    /// Derivative of the gap with respect to the body variation of the tip's joint frame.
     pub fn row<T: Number>(&self, pose: &Pose<T>, place: &Place<T>) -> [T; 6] {
         let normal = pose.apply_inverse(self.normal(place));
         let arm = pose.apply_inverse(self.wheel_point(pose, place.along).arm);
@@ -329,7 +331,7 @@ impl RailContact {
 }
 
 impl RailContact {
-    /// What is in doubt about the position of contact, in words that follow the wheel's name.
+    /// Limits exceeded by the position of contact, in words that follow the wheel's name.
     pub fn doubt(&self, pose: &Pose<f64>) -> Option<String> {
         let Found { place, is_common_normal } = self.place(pose);
         if !is_common_normal {
@@ -359,7 +361,7 @@ impl RailContact {
         })
     }
 
-    /// Another position along the axis where the clearance is least and nearly zero, for profiles that are given.
+    /// Another position along the axis with a local minimum of the clearance near zero, for given profiles.
     fn second_place(&self, pose: &Pose<f64>, first: f64) -> Option<f64> {
         if let (WheelProfile::Cone(_), RailProfile::Circle { .. }) = (&self.wheel, &self.rail) {
             return None;
@@ -436,7 +438,7 @@ mod tests {
     use super::*;
     use crate::registry::TimeFunction;
 
-    /// A wave with a drift, of amplitude and length [m] and slope: several positions of a wheel come near to its rail.
+    /// A wave with a drift, of amplitude and length [m] and slope: several positions of a wheel are close to its rail.
     #[derive(Debug)]
     struct Waves(f64, f64, f64);
 
@@ -468,8 +470,8 @@ mod tests {
         }
     }
 
-    /// A waved wheel on a rounded rail, on both sides, rolled and shifted: the position of contact is the one of all its positions that
-    /// comes nearest to the rail.
+    /// A waved wheel on a rounded rail, on both sides, rolled and shifted: of all its positions the position of contact is
+    /// closest to the rail.
     #[test]
     fn given_profiles_touch_where_they_are_nearest() {
         let mut places = Vec::new();
@@ -516,7 +518,7 @@ mod tests {
         for (found, wanted) in &places {
             assert!((found - wanted).abs() < 5e-5, "{found}, nearest {wanted}");
         }
-        // Several positions have been found.
+        // Several positions were found.
         let is_there = |low: f64, high: f64| places.iter().any(|(found, _)| (low..high).contains(found));
         assert!(is_there(-0.05, -0.03) && is_there(-0.01, 0.01) && is_there(0.05, 0.07), "{places:?}");
     }
@@ -536,7 +538,7 @@ mod tests {
         [simpson(&|angle| square(angle).recip()), simpson(&square)]
     }
 
-    /// Curvatures that belong to a known ellipse give it back, whichever of them is larger.
+    /// Curvatures computed from a known ellipse reproduce it, whichever of them is larger.
     #[test]
     fn hertzs_ellipse_has_the_curvatures_that_it_belongs_to() {
         for ratio in [0.05, 0.3, 0.711_521_8, 0.99] {
@@ -550,7 +552,7 @@ mod tests {
         assert_eq!(hertz_ellipse(3.0, 3.0), [0.25 * TAU, 1.0]);
     }
 
-    /// A cone on a circle needs no iteration: there both normals agree at once, and no way along the tangent is left.
+    /// A cone on a circle needs no iteration: both normals coincide at once, with zero distance along the tangent.
     #[test]
     fn a_cone_touches_a_circle_at_the_foot_of_its_centre() {
         for (side, cone_angle, cant) in [(1.0, 0.1, 0.1), (1.0, 0.4, 0.2), (-1.0, -0.3, 0.0)] {

@@ -1,7 +1,7 @@
 //! Elements of one kind evaluated several at a time, in the lanes of vector registers.
 //!
-//! Blocks of eight hold the elements' constants lane by lane, whatever the processor; node motions are gathered into
-//! such blocks at each evaluation. The last block repeats its last element.
+//! Blocks of eight store the elements' constants lane by lane, independent of the processor; node motions are
+//! gathered into such blocks at each evaluation. The last block repeats its last element.
 
 use std::ops::Range;
 
@@ -9,11 +9,11 @@ use lissom_motion::{Block, WIDTH};
 
 use crate::kinematics::{Kinematics, NodeId};
 
-/// All elements of a batch, eight to a block.
+/// All elements of a batch, in blocks of eight.
 pub trait Blocks: Send + Sync {
-    /// Computes the forces of whole blocks and hands each block's to `add`, in order: first the block's number, then
-    /// the forces, local unknown after local unknown; in lanes beyond the last element is anything. The same
-    /// elements give the same forces to the last bit, whichever blocks are asked for.
+    /// Computes the forces of whole blocks and passes those of each block to `add`, in order: the block's index, then
+    /// the forces, local unknown by local unknown; lanes beyond the last element are undefined. The same elements
+    /// have the same forces to the last bit, whichever blocks are requested.
     fn forces(
         &self,
         processor: pulp::Arch,
@@ -22,9 +22,9 @@ pub trait Blocks: Send + Sync {
         add: &mut dyn FnMut(usize, &[Block]),
     );
 
-    /// Hands the derivatives of the forces by positions to `add` in the same way, row after row of the local matrices,
-    /// with the stresses of another configuration in the geometric stiffness. Default: `false`, and nothing is
-    /// computed; so as well where forces depend on more than positions.
+    /// Passes the derivatives of the forces with respect to positions to `add` in the same way, row by row of the
+    /// local matrices, with the stresses of another configuration in the geometric stiffness. Returns `false` and
+    /// computes nothing by default, and if forces depend on more than positions.
     fn stiffness(
         &self,
         _processor: pulp::Arch,
@@ -36,7 +36,7 @@ pub trait Blocks: Send + Sync {
     }
 }
 
-/// One number of each element of a block.
+/// A constant of each element of a block.
 pub(super) fn block_of<E>(elements: &[E], number: impl Fn(&E) -> f64) -> Block {
     std::array::from_fn(|lane| number(&elements[lane.min(elements.len() - 1)]))
 }

@@ -9,8 +9,8 @@
 //! f = K q + C q̇,        w = Qᵀ f,      on the base -Aᵀ w,      energy ½ q·K q
 //! ```
 //!
-//! p counts along the axes of the base's frame. The forces depend on the relative motion alone, and at K symmetric they
-//! are the gradient of the energy, for rotations below π.
+//! p has components along the axes of the base's frame. The forces depend only on the relative motion, and for
+//! symmetric K they are the gradient of the energy, for rotations below π.
 
 use lissom_motion::{
     Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, inverse_tangent_derivative,
@@ -97,7 +97,7 @@ fn build(
     ))
 }
 
-/// The relative motion and what follows from it.
+/// The relative motion and derived quantities.
 struct Deformation {
     /// Ad((R, p)⁻¹).
     to_tip: Matrix6,
@@ -147,7 +147,7 @@ impl Bushing {
         self.stiffness * of.value + self.damping * (of.map() * of.twist)
     }
 
-    /// Ad of the frames' offsets, inverse: from variations of the nodes to those of the frames.
+    /// Inverse Ad of the frames' offsets: from variations of the nodes to those of the frames.
     fn carry(&self) -> [Matrix6; 2] {
         [0, 1].map(|side| self.offsets[side].inverse().adjoint())
     }

@@ -1,4 +1,4 @@
-//! What an entry of a model adds to the system: nodes, coordinates, elements.
+//! Contribution of a model entry to the system: nodes, coordinates, elements.
 
 use lissom_motion::{Matrix6, Motion};
 use nalgebra::DMatrix;
@@ -8,7 +8,7 @@ use super::initial_model::{Coordinate, InitialModel, Node};
 use crate::evaluation::batch::AnyElement;
 use crate::kinematics::{CoordinateId, Freedoms, HeldId, NodeId, NodeMotion, Quantity};
 
-/// A coordinate whose rate is the force of a constraint between velocities.
+/// A coordinate whose rate is the force of a velocity constraint.
 #[derive(Clone, Debug)]
 pub struct Impulse {
     /// The coordinate.
@@ -19,7 +19,7 @@ pub struct Impulse {
     pub coordinates: Vec<CoordinateId>,
 }
 
-/// A mass matrix on coordinates, which an element of theirs brings into the equations.
+/// A mass matrix on coordinates, contained in the equations of one of their elements.
 #[derive(Clone, Debug)]
 pub struct CoordinateMass {
     /// Coordinates, in the order of the matrix.
@@ -28,7 +28,8 @@ pub struct CoordinateMass {
     pub matrix: DMatrix<f64>,
 }
 
-/// What an entry adds to a model. Its nodes and coordinates are numbered after those of the model it was made for.
+/// Contribution of an entry to a model. Its nodes and coordinates are numbered after those of the model for which it
+/// was built.
 pub struct Contribution {
     first_node: NodeId,
     first_coordinate: CoordinateId,
@@ -40,11 +41,11 @@ pub struct Contribution {
     pub inertias: Vec<(NodeId, Matrix6)>,
     /// First-order states with their usual magnitude.
     pub states: Vec<(CoordinateId, f64)>,
-    /// New constraints between velocities.
+    /// New velocity constraints.
     pub impulses: Vec<Impulse>,
     /// Inputs that engage latches.
     pub latches: Vec<HeldId>,
-    /// Mass matrices of coordinates that its elements contain.
+    /// Mass matrices of coordinates within its elements.
     pub coordinate_masses: Vec<CoordinateMass>,
     /// New elements.
     pub elements: Vec<Box<dyn AnyElement>>,
@@ -53,7 +54,7 @@ pub struct Contribution {
 }
 
 impl Contribution {
-    /// Nothing yet, for a model as it is.
+    /// An empty contribution to a model.
     pub fn to(model: &InitialModel) -> Self {
         Self {
             first_node: model.nodes.len(),
@@ -70,7 +71,7 @@ impl Contribution {
         }
     }
 
-    /// One element.
+    /// With one element.
     pub fn of<E: Element>(model: &InitialModel, element: E) -> Self {
         Self::to(model).with(element)
     }
@@ -81,7 +82,7 @@ impl Contribution {
         self
     }
 
-    /// Adds a node with its pose at the start.
+    /// Adds a node with its initial pose.
     pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
         let motion = NodeMotion::at_rest(frame);
         self.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
@@ -93,20 +94,20 @@ impl Contribution {
         self.inertias.push((node, mass));
     }
 
-    /// Adds a coordinate with its value at the start [m or rad], at rest.
+    /// Adds a coordinate with its initial value [m or rad], at rest.
     pub fn add_coordinate(&mut self, name: String, value: f64, quantity: Quantity) -> CoordinateId {
         self.coordinates.push(Coordinate { name, value, rate: 0.0, quantity });
         self.first_coordinate + self.coordinates.len() - 1
     }
 
-    /// Adds a first-order state with its value at the start and its usual magnitude.
+    /// Adds a first-order state with its initial value and its usual magnitude.
     pub fn add_state(&mut self, name: String, value: f64, magnitude: f64) -> CoordinateId {
         let state = self.add_coordinate(name, value, Quantity::State);
         self.states.push((state, magnitude));
         state
     }
 
-    /// Adds the impulse of a constraint between velocities of these nodes and coordinates.
+    /// Adds the impulse of a velocity constraint on these nodes and coordinates.
     pub fn add_impulse(
         &mut self,
         name: String,

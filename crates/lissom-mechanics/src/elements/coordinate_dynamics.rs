@@ -1,6 +1,6 @@
 //! Mass, damping and stiffness between coordinates: M q̈ + D q̇ + K (q - q₀) on the left-hand side of their equations.
 //!
-//! The parts that keep or take energy are laid apart from those that may put it in, whose work is counted:
+//! The parts that store or dissipate energy are separate from those that may supply it, whose work is computed:
 //!
 //! ```text
 //! K = (K + Kᵀ)/2 + (K - Kᵀ)/2      strain energy (q - q₀)ᵀ (K + Kᵀ) (q - q₀)/4;  circulatory forces
@@ -17,7 +17,7 @@ use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
 
-/// Coordinates of one entry: its matrices are full.
+/// Maximum number of coordinates of one entry: its matrices are full.
 const MAX_COORDINATES: usize = 100;
 
 const MATRIX: &str = "a number, the diagonal, or all rows";
@@ -65,7 +65,7 @@ pub struct CoordinateDynamics {
     damping: DMatrix<f64>,
     stiffness: DMatrix<f64>,
     rest: DVector<f64>,
-    /// Whether its forces may put energy in.
+    /// Whether its forces may supply energy.
     is_load: bool,
 }
 
@@ -107,7 +107,8 @@ fn build(
     let none = DMatrix::zeros(count, count);
     let symmetric = 0.5 * (&stiffness + stiffness.transpose());
     let circulatory = &stiffness - &symmetric;
-    // Negative damping drives; what the rest of the matrix does goes with it, so that one work is counted.
+    // Negative damping supplies energy; the rest of the matrix belongs to the same element, so that there is only one
+    // work term.
     let drives = is_indefinite(&(0.5 * (&damping + damping.transpose())));
     let (kept, active) = if drives { (none.clone(), damping) } else { (damping, none.clone()) };
     let is_whole = active.amax() == 0.0 && circulatory.amax() == 0.0;
@@ -134,11 +135,12 @@ fn build(
         rest,
         is_load: false,
     });
-    // The power of an entry of two elements is not that of one of them.
+    // The power of an entry with two elements is not that of one of them.
     Ok(if is_whole { contribution } else { contribution.without_outputs() })
 }
 
-/// Whether a symmetric matrix has a negative eigenvalue. Scaled to a unit diagonal, so that units do not decide.
+/// Whether a symmetric matrix has a negative eigenvalue. It is scaled to a unit diagonal, so that the result is
+/// independent of units.
 fn is_indefinite(matrix: &DMatrix<f64>) -> bool {
     let scale = matrix.diagonal().map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 1.0 });
     let scaled =
@@ -147,7 +149,7 @@ fn is_indefinite(matrix: &DMatrix<f64>) -> bool {
     eigenvalues.min() < -round_off::COUPLING * eigenvalues.amax().max(1.0)
 }
 
-/// A matrix of the size of the coordinates: zeros where it is not given; a single number represents all of the diagonal.
+/// A matrix of the size of the coordinates: zero if it is not given; a single number is the value of the whole diagonal.
 fn matrix(parameters: &Parameters, name: &str, count: usize) -> Result<DMatrix<f64>, ParameterError> {
     if !parameters.has(name) {
         return Ok(DMatrix::zeros(count, count));

@@ -104,7 +104,7 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
 pub(crate) struct CoordinateSpring {
     coordinate: [CoordinateId; 1],
     law: ForceLaw,
-    /// Where it is free of force.
+    /// Coordinate at zero force.
     rest: f64,
     switch_states: SwitchStates,
 }

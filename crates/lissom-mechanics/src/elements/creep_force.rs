@@ -1,5 +1,5 @@
-//! Forces of rolling contact between wheel and rail, by the law of [`CreepLaw`]. The normal force is the multiplier of the joint that keeps
-//! wheel and rail together.
+//! Forces of rolling contact between wheel and rail, by the law of [`CreepLaw`]. The normal force is the multiplier of the joint
+//! that keeps wheel and rail in contact.
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
@@ -11,10 +11,10 @@ use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::dual::Dual;
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
-/// Derivatives of a force: by the tip's variation, its twist relative to the base, and the normal force.
+/// Derivatives of a force: with respect to the tip's variation, its twist relative to the base, and the normal force.
 const DIRECTIONS: usize = 13;
 
-/// A wheel that creeps on a rail.
+/// A wheel with creep forces on a rail.
 #[derive(Clone, Debug)]
 pub struct CreepForce {
     frames: FramePair,
@@ -29,7 +29,7 @@ impl CreepForce {
         Self { frames: FramePair::new(frames), multipliers: [multiplier], contact, law }
     }
 
-    /// What acts at this normal force.
+    /// Creep at this normal force.
     pub fn creep(&self, at: &Kinematics, normal_force: f64) -> Creep<f64> {
         self.creep_of(&self.frames.motion(at), normal_force)
     }

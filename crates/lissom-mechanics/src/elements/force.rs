@@ -44,7 +44,7 @@ pub struct Force {
     load: DirectedLoad,
 }
 
-/// A vector times a function of time, fixed in space or in the node.
+/// A vector times a function of time, fixed in inertial or in body axes.
 #[derive(Clone, Debug)]
 pub(super) struct DirectedLoad {
     vector: Vector3,
@@ -53,7 +53,7 @@ pub(super) struct DirectedLoad {
 }
 
 impl DirectedLoad {
-    /// Reads the parameters; a follower's vector is turned into the node's axes at the start.
+    /// Reads the parameters; a follower's vector is transformed into the node's axes at the start.
     pub(super) fn new(
         model: &InitialModel,
         node: NodeId,
@@ -65,7 +65,7 @@ impl DirectedLoad {
         Ok(Self { vector, scale: parameters.function_or("scale", 1.0)?, follower })
     }
 
-    /// Times at which it is not smooth [s].
+    /// Breakpoints of the function [s].
     pub(super) fn breakpoints(&self) -> Vec<f64> {
         self.scale.breakpoints()
     }

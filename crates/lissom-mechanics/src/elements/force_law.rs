@@ -1,4 +1,4 @@
-//! The force of a spring and damper over its elongation x and rate v; positive where it pulls together.
+//! The force of a spring and damper over its elongation x and rate v; positive if it pulls.
 //!
 //! Legend: u elongation past the free play b, k stiffness, c damping, F and D functions given by expression or table,
 //! P(u) potential energy.
@@ -7,9 +7,9 @@
 //! f = clamp(k u + c v + F(u, v) + D(v, u)),      u = x - clamp(x, -b/2, b/2),      P(u) = ∫₀ᵘ clamp(k ξ + F(ξ, 0)) dξ
 //! ```
 //!
-//! It is zero within the free play and, where it acts on one side alone, on the other side; there it does not change sign
-//! either. What f has more than P' takes energy away as long as it has the sign of v, because clamping is monotone. A law
-//! for which that does not hold has no potential energy, and its work is counted as that of a load.
+//! It is zero within the free play and, if it is one-sided, on the other side; there it does not change sign either. The
+//! difference between f and P' dissipates energy as long as it has the sign of v, because clamping is monotone. A law
+//! that violates this has no potential energy, and its work is treated as that of a load.
 
 use super::switch_states::is_on_upper_branch;
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
@@ -30,7 +30,7 @@ pub(crate) const SIDE_OF_ANGLE: Parameter = Parameter::optional(
     "Where it acts: on rotations above the free one, below it, or both; default both.",
 );
 
-/// On which side it acts.
+/// The side on which it acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Both,
@@ -41,11 +41,11 @@ enum Side {
 /// A force and its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Response {
-    /// The force [N, N m], positive where it pulls together.
+    /// The force [N, N m], positive if it pulls.
     pub force: f64,
-    /// By the elongation [N/m, N m/rad].
+    /// Derivative with respect to the elongation [N/m, N m/rad].
     pub stiffness: f64,
-    /// By the rate [N s/m, N m s/rad].
+    /// Derivative with respect to the rate [N s/m, N m s/rad].
     pub damping: f64,
 }
 
@@ -64,8 +64,8 @@ pub(crate) struct ForceLaw {
 }
 
 impl ForceLaw {
-    /// From the parameters `stiffness`, `damping`, `side`, `limits` and `backlash`, and from forces over elongation and
-    /// over rate of the names given.
+    /// From the parameters `stiffness`, `damping`, `side`, `limits` and `backlash`, and from the two named parameters
+    /// for forces over elongation and over rate.
     ///
     /// # Errors
     /// If a parameter is of the wrong kind.
@@ -91,24 +91,24 @@ impl ForceLaw {
             play: 0.5 * parameters.number_or("backlash", 0.0)?,
             is_active: false,
         };
-        // The potential energy is counted from the free length; a law that is infinite there has none.
+        // The potential energy is zero at the free length; a law that is infinite there has none.
         let is_finite = law.elastic.as_ref().is_none_or(|law| law.evaluate(0.0, 0.0)[0].is_finite());
         law.is_active = !(is_finite && law.seems_passive());
         Ok(law)
     }
 
-    /// Whether it may put energy in, so that its work is counted instead of its potential energy.
+    /// Whether it may supply energy, so that its work is computed instead of its potential energy.
     pub(crate) fn is_active(&self) -> bool {
         self.is_active
     }
 
-    /// Whether it is free of force below an elongation, and above one.
+    /// Whether it is zero below an elongation, and above one.
     fn has_ends(&self) -> [bool; 2] {
         let has_play = self.side == Side::Both && self.play > 0.0;
         [has_play || self.side == Side::Positive, has_play || self.side == Side::Negative]
     }
 
-    /// How many kinks it has as far as [`switches`](Self::switches) reports them.
+    /// Number of kinks that [`switches`](Self::switches) reports.
     pub(crate) fn switch_count(&self) -> usize {
         let laws = [&self.elastic, &self.damper].into_iter().flatten();
         let breakpoints: usize = laws.map(|law| law.switch_count()).sum();
@@ -116,7 +116,7 @@ impl ForceLaw {
         self.has_ends().iter().filter(|has| **has).count() + breakpoints + limits
     }
 
-    /// Appends numbers that change their sign where the force begins or ends, at kinks of its expressions, and at limits.
+    /// Appends switching functions for the beginning and end of the force, for kinks of its expressions, and for limits.
     pub(crate) fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<f64>) {
         self.walk(elongation, rate, sides, |value| out.push(value));
     }
@@ -126,7 +126,7 @@ impl ForceLaw {
         self.walk(elongation, rate, sides, |_| ())
     }
 
-    /// The force; `hand` is given all switches in their order.
+    /// The force; `hand` is called with all switches in their order.
     fn walk(&self, elongation: f64, rate: f64, sides: &[f64], mut hand: impl FnMut(f64)) -> Response {
         let mut next = 0;
         let mut passes = |next: &mut usize, value: f64| {
@@ -141,7 +141,7 @@ impl ForceLaw {
         let past = match (is_above, is_below) {
             (true, _) => above,
             (_, true) => below,
-            // Limits are of the force where it begins.
+            // Limits are those of the force where it begins.
             _ if has_upper || has_lower => 0.0,
             _ => elongation - elongation.clamp(-self.play, self.play),
         };
@@ -195,8 +195,8 @@ impl ForceLaw {
         integral(&|past| elastic(past).max(low).min(high), past, &breakpoints)
     }
 
-    /// Whether what depends on the rate takes energy away, as far as can be seen at rates of all sizes. One that puts
-    /// energy in elsewhere is found by the energy balance of the simulation.
+    /// Whether the rate-dependent part dissipates energy, as far as rates of all magnitudes show. A law that supplies
+    /// energy elsewhere is detected by the energy balance of the simulation.
     fn seems_passive(&self) -> bool {
         let of_rate = |law: &Force| law.depends_on_second();
         let elastic = self.elastic.as_ref().filter(|law| of_rate(law));
@@ -223,7 +223,7 @@ impl ForceLaw {
     }
 }
 
-/// Whether a limit is reached while the force acts: one of zero is where it begins.
+/// Whether a limit is reached while the force acts: a limit of zero is where it begins.
 fn is_passed(limit: f64) -> bool {
     limit.is_finite() && limit != 0.0
 }
@@ -329,17 +329,17 @@ mod tests {
         let compressed = law(&given.clone().with("side", Value::Text("compression".to_owned())));
         assert_eq!(compressed.evaluate(0.3, 0.0, &[]).force, 0.0);
         assert!((compressed.evaluate(-0.3, 0.0, &[]).force + 20.0).abs() < 1e-12);
-        // It does not pull while it is let go.
+        // It does not pull during unloading.
         assert_eq!(compressed.evaluate(-0.3, 5.0, &[]), Response::default());
         assert_eq!(compressed.energy(0.3), 0.0);
         let limited = law(&given.with("limits", Value::Range([-5.0, 8.0])));
         assert_eq!(limited.evaluate(0.5, 0.0, &[]), Response { force: 8.0, ..Response::default() });
-        // On a known side it goes on, however far an iterate goes.
+        // On a known side it is continued, however far an iterate moves.
         let free = [-1.0; 4];
         assert_eq!(limited.switch_count(), 4);
         assert_eq!(limited.evaluate(0.5, 1.0, &free), Response::default());
         assert!((limited.evaluate(0.05, 0.0, &[1.0, -1.0, -1.0, -1.0]).force + 5.0).abs() < 1e-12);
-        // ½ k (8/k)² up to where it saturates, then 8 N along the rest of the way.
+        // ½ k (8/k)² up to saturation, then 8 N along the rest.
         assert!((limited.energy(0.5) - (0.32 + 8.0 * 0.32)).abs() < 1e-8, "{}", limited.energy(0.5));
     }
 
@@ -376,7 +376,8 @@ mod tests {
         assert!((saturated.energy(2.0) - 1.25).abs() < 1e-8, "{}", saturated.energy(2.0));
     }
 
-    /// Pieces of a cubic are integrated exactly, so that a kink on the way costs no digits, and others do nothing.
+    /// Intervals of a cubic are integrated exactly, so that a kink costs no accuracy, and additional breakpoints have
+    /// no effect.
     #[test]
     fn integrals_stop_at_kinks() {
         let (kink, other) = (0.3_f64, -0.37_f64);
@@ -404,11 +405,11 @@ mod tests {
             let law = law(&Parameters::new().with(name, cubic(by_rate)));
             assert_eq!(law.is_active(), active, "{name} {by_rate}");
         }
-        // A damper with a constant force drives one way.
+        // A damper with a constant force supplies energy in one direction.
         assert!(law(&Parameters::new().with("damper_force", Value::Number(1.0))).is_active());
         let active = law(&Parameters::new().with("force", cubic(-2.0)));
         assert_eq!(active.energy(1.0), 0.0);
-        // The potential of an attraction has no value where both meet.
+        // The potential of an attraction is infinite at zero distance.
         let attraction = Value::Force(Arc::new(Attraction));
         assert!(law(&Parameters::new().with("force", attraction)).is_active());
     }
@@ -436,7 +437,7 @@ mod tests {
         let laws = [
             ("stiffness", Value::Number(100.0)),
             ("force", cubic(0.0)),
-            // Steep on one side and flat on the other, so that pieces differ in length.
+            // Steep on one side and flat on the other, so that intervals differ in length.
             (
                 "force",
                 formula(|x, _| (6.0 * x).exp() - 1.0 + 2.0 / (1.0 + 900.0 * (x - 0.4) * (x - 0.4)), false),
@@ -474,7 +475,7 @@ mod tests {
         }
     }
 
-    /// Forces that drive at some rates or deformations only, as far out as they are looked for.
+    /// Forces that supply energy only at some rates or deformations, within the range examined.
     #[test]
     fn forces_that_drive_anywhere_are_active() {
         type Case = (&'static str, fn(f64, f64) -> f64, bool, bool);
@@ -483,11 +484,11 @@ mod tests {
             ("damper_force", |v, _| v * v * v, false, false),
             ("damper_force", |v, _| -1e-9 * v, false, true),
             ("damper_force", |v, _| v.max(0.0), false, false),
-            // Drives beyond a rate, or below one, in one direction.
+            // Supplies energy beyond a rate, or below one, in one direction.
             ("damper_force", |v, _| if v > 5e5 { -v } else { v }, false, true),
             ("damper_force", |v, _| if v < -5e5 { -v } else { v }, false, true),
             ("damper_force", |v, _| if v.abs() < 2e-6 { -v } else { v }, false, true),
-            // Drives at large or small deformations.
+            // Supplies energy at large or small deformations.
             ("damper_force", |v, x| v * x * x, true, false),
             ("damper_force", |v, x| if x > 5e5 { -v } else { v }, true, true),
             ("damper_force", |v, x| if x.abs() < 2e-6 { -v } else { v }, true, true),

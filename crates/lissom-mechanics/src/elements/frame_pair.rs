@@ -1,4 +1,4 @@
-//! Two frames that nodes carry, and what forces over their relative motion are to the nodes.
+//! Two frames fixed to nodes, and the forces on the nodes from their relative motion.
 //!
 //! Legend: (R, x) tip's frame in the base's, A = Ad((R, x)⁻¹), V twists in the frames' own axes, η variation of the tip's frame
 //! relative to the base's, w a wrench on the tip's frame.
@@ -52,18 +52,18 @@ impl FramePair {
         }
     }
 
-    /// Ad of the frames' offsets, inverse: from variations of the nodes to those of the frames.
+    /// Inverse Ad of the frames' offsets: from variations of the nodes to those of the frames.
     fn carry(&self) -> [Matrix6; 2] {
         self.frames.map(|frame| frame.offset.inverse().adjoint())
     }
 
-    /// η by variations of base and tip.
+    /// Derivatives of η with respect to variations of base and tip.
     pub(super) fn columns(&self, motion: &RelativeMotion) -> [Matrix6; 2] {
         let carry = self.carry();
         [-motion.to_tip * carry[0], carry[1]]
     }
 
-    /// Adds to the forces on both nodes what a wrench on the tip's frame is, and the opposite on the base's.
+    /// Adds the forces on both nodes from a wrench on the tip's frame and the opposite one on the base's.
     pub(super) fn add_wrench(&self, motion: &RelativeMotion, wrench: &Vector6, out: &mut [f64]) {
         let carry = self.carry();
         let on = [carry[0].tr_mul(&-motion.to_tip.tr_mul(wrench)), carry[1].tr_mul(wrench)];
@@ -72,7 +72,7 @@ impl FramePair {
         }
     }
 
-    /// Adds the derivatives of that, from those of the wrench by η and by η̇ at fixed twists of the nodes.
+    /// Adds their derivatives, from those of the wrench with respect to η, and to η̇ at fixed twists of the nodes.
     pub(super) fn add_derivatives(
         &self,
         motion: &RelativeMotion,

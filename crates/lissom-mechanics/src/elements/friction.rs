@@ -1,5 +1,5 @@
-//! Dry friction on a joint's relative rotation or displacement, by a bristle that bends before it slips
-//! [Canudas de Wit, Olsson, Åström and Lischinsky 1995].
+//! Dry friction on a joint's relative rotation or displacement, by a bristle that deflects before it slips [Canudas
+//! de Wit, Olsson, Åström and Lischinsky 1995].
 //!
 //! Legend: v rate of the coordinate, z deflection of the bristle (a first-order state), F_c Coulomb and F_s static friction,
 //! v_s Stribeck's velocity, σ₀ = F_c/z_c stiffness with the deflection z_c at slip, σ₁ damping, σ₂ viscous friction.
@@ -15,7 +15,7 @@ use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
-/// Deflection at which the bristle slips, where it is not given [rad, m].
+/// Default deflection at which the bristle slips [rad, m].
 const DEFLECTION: f64 = 1e-4;
 
 /// Registry entry of friction on a rotation.

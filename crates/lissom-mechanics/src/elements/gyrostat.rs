@@ -6,8 +6,8 @@
 //! moment on the left-hand side:  w × h,      by twist  -h~
 //! ```
 //!
-//! The rotor's mass, and its inertia as if it did not spin, belong to the body. A motor keeps the spin; its work goes into
-//! the rotor and is no part of the model's energy: w·(w × h) = 0. Its angular momentum h is part of the model's.
+//! The rotor's mass, and its inertia without spin, belong to the body. A motor keeps the spin constant; its work is stored
+//! in the rotor and is not part of the model's energy: w·(w × h) = 0. The angular momentum h is part of the model's.
 
 use lissom_motion::{Vector3, rotation_part, skew};
 

@@ -16,22 +16,22 @@ use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{Kinematics, NodeId, split};
 use crate::registry::Function;
 
-/// Acceleration of gravity, applied in full or by a factor that is a function of time.
+/// Acceleration of gravity, constant or multiplied by a function of time.
 #[derive(Clone, Debug)]
 pub struct Gravity {
-    /// In full [m/s²].
+    /// Full value [m/s²].
     pub acceleration: Vector3,
-    /// The part of it that acts; none for all of it.
+    /// The factor that applies; none for 1.
     pub factor: Option<Function>,
 }
 
 impl Gravity {
-    /// All of it, at all times.
+    /// Full gravity at all times.
     pub fn constant(acceleration: Vector3) -> Self {
         Self { acceleration, factor: None }
     }
 
-    /// What acts at `time` [m/s²].
+    /// Gravity at `time` [m/s²].
     pub fn at(&self, time: f64) -> Vector3 {
         self.factor.as_ref().map_or(self.acceleration, |factor| factor.value(time) * self.acceleration)
     }
@@ -50,7 +50,7 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    /// Inertia `mass` (6x6, body axes, about the node) of `node` in the field `gravity`.
+    /// Inertia `mass` (6x6, body axes, about the node) of `node` under `gravity`.
     pub fn new(node: NodeId, mass: Matrix6, gravity: Gravity) -> Self {
         Self { node: [node], mass, gravity }
     }

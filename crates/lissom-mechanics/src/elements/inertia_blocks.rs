@@ -1,4 +1,4 @@
-//! Inertias eight to a block, see `blocks`.
+//! Inertias in blocks of eight, see `blocks`.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::cell::RefCell;
@@ -15,7 +15,7 @@ use crate::kinematics::lanes::{
 use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::Function;
 
-/// Inertias eight to a block.
+/// Inertias in blocks of eight.
 pub(super) struct InertiaBlocks(Vec<InertiaBlock>);
 
 /// Eight inertias.
@@ -25,7 +25,7 @@ struct InertiaBlock {
     /// Row after row.
     mass: [Screws; 6],
     gravity: [Block; 3],
-    /// The part of gravity that acts, the same for all.
+    /// The factor of gravity, the same for all.
     factor: Option<Function>,
 }
 
@@ -38,7 +38,7 @@ struct Scratch {
 }
 
 thread_local! {
-    /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
+    /// One per thread: because of its size it is not cleared at each evaluation.
     static SCRATCH: RefCell<Scratch> = const {
         RefCell::new(Scratch {
             frames: [[0.0; WIDTH]; 7],

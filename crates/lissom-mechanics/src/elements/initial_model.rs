@@ -1,4 +1,4 @@
-//! Nodes, coordinates and gravity of a model under construction: what kinds of elements read of it.
+//! Nodes, coordinates and gravity of a model under construction, as input to kinds of elements.
 
 use lissom_motion::{Matrix6, Motion};
 
@@ -6,7 +6,7 @@ use super::inertia::Gravity;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, NodeMotion, Quantity};
 use crate::registry::ParameterError;
 
-/// A node at the start.
+/// Initial state of a node.
 #[derive(Clone, Debug)]
 pub struct Node {
     /// Name in messages and outputs.
@@ -19,7 +19,7 @@ pub struct Node {
     pub mass: Option<Matrix6>,
 }
 
-/// A coordinate at the start.
+/// Initial state of a coordinate.
 #[derive(Clone, Debug)]
 pub struct Coordinate {
     /// Name in messages and outputs.
@@ -28,11 +28,11 @@ pub struct Coordinate {
     pub value: f64,
     /// [m/s, rad/s].
     pub rate: f64,
-    /// Quantity that it measures.
+    /// Its quantity.
     pub quantity: Quantity,
 }
 
-/// The part of a model under construction that later entries refer to.
+/// The part of a model under construction to which later entries refer.
 #[derive(Clone, Debug)]
 pub struct InitialModel {
     /// Nodes; the ground is the first.
@@ -59,15 +59,15 @@ impl InitialModel {
         self.coordinates[coordinate].value
     }
 
-    /// Quantity that a coordinate measures.
+    /// Quantity of a coordinate.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.coordinates[coordinate].quantity
     }
 
-    /// Checks that a coordinate measures the quantity that a drive or spring acts on.
+    /// Checks that a coordinate has the quantity that a drive or spring requires.
     ///
     /// # Errors
-    /// If it measures another one.
+    /// If it has another one.
     pub fn check_quantity(&self, coordinate: CoordinateId, wanted: Quantity) -> Result<(), ParameterError> {
         if self.coordinates[coordinate].quantity == wanted {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What a kind of spring or load states about itself, and where it is attached.
+//! Description of a kind of spring or load, and of its attachment.
 
 use lissom_motion::Vector3;
 
@@ -7,16 +7,16 @@ use super::initial_model::InitialModel;
 use crate::kinematics::{CoordinateId, NodeId, Quantity};
 use crate::registry::{Parameter, ParameterError, Parameters};
 
-/// What a springlike or loadlike kind is attached to.
+/// Attachment of a kind of spring or load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Attachment {
-    /// One node and a point carried by it.
+    /// One node and a point fixed to it.
     OneNode,
-    /// Two nodes, base and tip, and a point carried by each.
+    /// Two nodes, base and tip, and a point fixed to each.
     TwoNodes,
     /// A joint's algebraic coordinate of this quantity.
     Coordinate(Quantity),
-    /// Positions one after the other, each carried by a node, and algebraic coordinates if there are any.
+    /// A sequence of positions, each fixed to a node, and algebraic coordinates if there are any.
     Places,
     /// Several algebraic coordinates, of any quantity.
     Coordinates,
@@ -25,7 +25,7 @@ pub enum Attachment {
 /// A node and a point in its body frame [m].
 pub type Carried = (NodeId, Vector3);
 
-/// Where a component is attached, resolved to indices.
+/// Attachment of a component, resolved to indices.
 #[derive(Clone, Debug)]
 pub enum Attached {
     /// A node and a point in its body frame [m].
@@ -34,10 +34,10 @@ pub enum Attached {
     TwoNodes([NodeId; 2], [Vector3; 2]),
     /// An algebraic coordinate.
     Coordinate(CoordinateId),
-    /// Nodes in their order, each with a point in its body frame [m]; a node may be there several times. Then algebraic
-    /// coordinates in their order, none of them twice.
+    /// Nodes in their order, each with a point in its body frame [m]; a node may occur several times. Then algebraic
+    /// coordinates in their order, all different.
     Places(Vec<(NodeId, Vector3)>, Vec<CoordinateId>),
-    /// Algebraic coordinates in their order, none of them twice.
+    /// Algebraic coordinates in their order, all different.
     Coordinates(Vec<CoordinateId>),
 }
 
@@ -64,7 +64,7 @@ impl Attached {
         }
     }
 
-    /// Nodes and points of an attachment to places, and the coordinates.
+    /// Nodes and points of an attachment to positions, and the coordinates.
     ///
     /// # Errors
     /// If the attachment is of another form.
@@ -98,7 +98,7 @@ impl Attached {
     }
 }
 
-/// A kind of spring or load, as the model file and the tests know it.
+/// A kind of spring or load, as used by the model file and the tests.
 #[derive(Clone, Copy, Debug)]
 pub struct ElementKind {
     /// Name in the model file.
@@ -109,8 +109,8 @@ pub struct ElementKind {
     pub sample: &'static str,
     /// Parameters beyond the attachment.
     pub parameters: &'static [Parameter],
-    /// What it is attached to.
+    /// Its attachment.
     pub attachment: Attachment,
-    /// Its elements, states and coordinates, for a model as it is so far.
+    /// Its elements, states and coordinates, for the model built so far.
     pub build: fn(&InitialModel, Attached, &Parameters) -> Result<Contribution, ParameterError>,
 }

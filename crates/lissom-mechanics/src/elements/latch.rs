@@ -1,4 +1,4 @@
-//! A latch: holds a coordinate of a joint where it is while an input is set, and leaves it free otherwise.
+//! A latch: locks a coordinate of a joint at its value while an input is set, and leaves it free otherwise.
 //!
 //! Legend: q the coordinate, Λ an impulse, a coordinate without mass whose rate is the force of the latch, see `rolling`.
 //!
@@ -6,7 +6,7 @@
 //! row of q: Λ̇       row of Λ: q̇ = 0 where it holds,   Λ̇ = 0 where it does not
 //! ```
 //!
-//! What it does at the instant of latching, an impact without rebound, is a matter of `Simulation::change_held_values`.
+//! The impact without rebound at the instant of latching is computed by `Simulation::change_held_values`.
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
@@ -15,7 +15,7 @@ use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
-/// An input above this holds.
+/// An input above this locks the coordinate.
 const HOLDS: f64 = 0.5;
 
 const PARAMETERS: &[Parameter] = &[
@@ -49,7 +49,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
 /// A latch on a coordinate.
 #[derive(Clone, Copy, Debug)]
 pub struct Latch {
-    /// The joint's, and the impulse.
+    /// The joint's coordinate, and the impulse.
     coordinates: [CoordinateId; 2],
     engaged: HeldId,
 }
@@ -68,7 +68,7 @@ fn build(
     Ok(contribution.with(Latch { coordinates: [coordinate, impulse], engaged }))
 }
 
-/// Whether an input of this value lets a latch hold.
+/// Whether an input of this value engages a latch.
 pub fn holds(input: f64) -> bool {
     input > HOLDS
 }

@@ -1,7 +1,7 @@
-//! What pushes back: inertia, stiffness, loads.
+//! Forces: inertia, stiffness, loads.
 //!
-//! An element sees positions, twists and accelerations in SI and answers with forces and their
-//! derivatives. It knows no time step, no scheme and no scaling.
+//! An element computes forces and their derivatives from positions, twists and accelerations in SI. It is independent
+//! of time step, scheme and scaling.
 
 pub mod beam;
 pub mod blocks;
@@ -44,7 +44,7 @@ use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Local unknowns that elements usually have at most: four nodes and two coordinates. Superelements may have more.
+/// Usual maximum number of local unknowns of an element: four nodes and two coordinates. Superelements may have more.
 pub const USUAL_UNKNOWNS: usize = 26;
 
 /// Energies of an element or a system [J].
@@ -54,12 +54,12 @@ pub struct Energy {
     pub kinetic: f64,
     /// Elastic energy.
     pub strain: f64,
-    /// Energy of gravity and of dead loads that do not change in time.
+    /// Energy of gravity and of dead loads that are constant in time.
     pub potential: f64,
 }
 
 impl Energy {
-    /// Sum of all parts.
+    /// Sum of all terms.
     pub fn total(&self) -> f64 {
         self.kinetic + self.strain + self.potential
     }
@@ -84,18 +84,19 @@ pub struct Tangents {
     pub damping: Vec<f64>,
     /// With respect to accelerations.
     pub mass: Vec<f64>,
-    /// How many of the last local unknowns are multipliers. Derivatives by them are with the stiffness.
+    /// Number of multipliers at the end of the local unknowns. Derivatives with respect to them are part of the
+    /// stiffness.
     multipliers: usize,
 }
 
 impl Tangents {
-    /// Room for `size` local unknowns, all zero.
+    /// Storage for `size` local unknowns, all zero.
     pub fn new(size: usize) -> Self {
         let zeros = vec![0.0; size * size];
         Self { size, stiffness: zeros.clone(), damping: zeros.clone(), mass: zeros, multipliers: 0 }
     }
 
-    /// Multiplies everything by a number.
+    /// Multiplies all derivatives by a number.
     pub fn multiply(&mut self, factor: f64) {
         for matrix in [&mut self.stiffness, &mut self.damping, &mut self.mass] {
             for value in matrix {
@@ -104,12 +105,12 @@ impl Tangents {
         }
     }
 
-    /// Makes room for more unknowns after those there are, all zero.
+    /// Adds unknowns after the existing ones, all zero.
     pub fn widen(&mut self, size: usize) {
         let own = std::mem::replace(&mut self.size, size);
         for matrix in [&mut self.stiffness, &mut self.damping, &mut self.mass] {
             matrix.resize(size * size, 0.0);
-            // From the end on, so that nothing is overwritten before it is moved.
+            // From the end, so that nothing is overwritten before it is moved.
             for entry in (0..own * own).rev() {
                 let value = std::mem::take(&mut matrix[entry]);
                 matrix[entry / own * size + entry % own] = value;
@@ -117,7 +118,7 @@ impl Tangents {
         }
     }
 
-    /// Adds the derivatives of all forces by a multiplier, the last local unknown.
+    /// Adds the derivatives of all forces with respect to a multiplier, the last local unknown.
     pub(crate) fn add_by_multiplier(&mut self, forces: &[f64]) {
         self.multipliers = 1;
         for (i, force) in forces.iter().enumerate() {
@@ -146,31 +147,31 @@ impl Tangents {
     }
 }
 
-/// Whether two parts of neighbouring models hold the same numbers. What is shown for debugging shows them all, and each
-/// to the last bit.
+/// Whether two parts of neighbouring models have the same values: their debug output contains all values, to the last
+/// bit.
 pub fn is_same<T: std::fmt::Debug + ?Sized>(one: &T, other: &T) -> bool {
     format!("{one:?}") == format!("{other:?}")
 }
 
-/// How much of the range is used in which a linear law is believed.
+/// Used fraction of the range in which a linear law is valid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearRange {
-    /// Over what is believed: beyond 1 it is in doubt.
+    /// Fraction of the valid range: above 1 the law is inaccurate.
     pub part: f64,
-    /// The node that deforms most, or turns.
+    /// The node with the largest deformation or rotation.
     pub node: NodeId,
 }
 
-/// What takes a linear law out of its range.
+/// Limits of a linear law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LinearLimit {
     /// Deformations.
     Deformation,
     /// The rate of rotation.
     Spin,
-    /// The share of the stiffness that axial forces and rotation give or take.
+    /// The relative change of stiffness by axial forces and rotation.
     Load,
-    /// What moments couple of bending and twist.
+    /// Coupling of bending and torsion by moments.
     Moment,
     /// Forces of modes that are omitted, under sudden loads.
     LeftOut,
@@ -210,12 +211,12 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         &[]
     }
 
-    /// Adds the forces [N, N m] that are on the left-hand side of the equations of motion,
-    /// six per node in the node's body frame, then one per coordinate. Hot: called in every iteration.
+    /// Adds the forces [N, N m] on the left-hand side of the equations of motion, six per node in the node's body
+    /// frame, then one per coordinate. Called in every iteration.
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
 
-    /// All elements of a batch laid out for evaluation several at a time, where that is worth while. Their forces
-    /// are those of [`Self::forces`] to round-off. Default: there is no such thing, they are evaluated one by one.
+    /// All elements of a batch laid out for evaluation several at a time, if that is efficient. Their forces are
+    /// those of [`Self::forces`] to round-off. Default: none, they are evaluated one by one.
     fn blocks(_elements: &[Self]) -> Option<Box<dyn Blocks>>
     where
         Self: Sized,
@@ -232,9 +233,9 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         }
     }
 
-    /// Where forces are proportional to what a number of the model changes, as to a stiffness or a mass: an element whose
-    /// forces are their derivative by the number, from this element in neighbouring models with the weights of a
-    /// difference. Default: there is none, and differences of forces represent it.
+    /// If forces are proportional to a model parameter, such as a stiffness or a mass: an element whose forces are their
+    /// derivative with respect to it, from this element in neighbouring models with the weights of a difference. Default:
+    /// none, and differences of forces replace it.
     fn derivative(_neighbours: &[(&Self, f64)]) -> Option<Self>
     where
         Self: Sized,
@@ -242,20 +243,20 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// Adds the derivatives of `forces`. `out` is zero on entry. Rare.
+    /// Adds the derivatives of `forces`. `out` is zero on entry. Called rarely.
     fn linearize(&self, at: &Kinematics, out: &mut Tangents);
 
-    /// The same, with the stresses of another configuration in the geometric stiffness: far from equilibrium
-    /// those of an iterate are no guide, see `Point::stressed`.
+    /// The same, with the stresses of another configuration in the geometric stiffness: far from equilibrium those of
+    /// an iterate are meaningless, see `Point::stressed`.
     fn linearize_stressed(&self, at: &Kinematics, _stressed: &Kinematics, out: &mut Tangents) {
         self.linearize(at, out);
     }
 
-    /// Puts its mass matrix into `out`, row after row of its local unknowns, for elements with mass but [`inertia`], whose mass
-    /// the system knows. Default: nothing.
+    /// Writes its mass matrix to `out`, row by row of its local unknowns, for elements with mass except [`inertia`], whose mass
+    /// is stored in the system. Default: nothing.
     fn mass(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
 
-    /// Whether its kinetic energy is positive in every motion, where that depends on the configuration. Default: it is.
+    /// Whether its kinetic energy is positive in every motion, if that depends on the configuration. Default: it is.
     fn has_positive_mass(&self, _at: &Kinematics) -> bool {
         true
     }
@@ -263,52 +264,54 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;
 
-    /// Whether its forces put energy in or take it out, so that their work is counted. Default: they do not, what they
-    /// store is reported by [`energy`](Self::energy), and what they take away is lost.
+    /// Whether its forces supply or dissipate energy, so that their work is computed. Default: they do not. Stored
+    /// energy is then reported by [`energy`](Self::energy), and dissipated energy is lost.
     fn is_load(&self) -> bool {
         false
     }
 
-    /// Angular momentum that it adds to that of the masses, global axes [N m s]. Default: none.
+    /// Angular momentum in addition to that of the masses, inertial axes [N m s]. Default: none.
     fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
         Vector3::zeros()
     }
 
-    /// Elongation, its rate and the force against it [SI], for springs and what is like them. Default: none.
+    /// Elongation, its rate and the opposing force [SI], for springs and similar elements. Default: none.
     fn spring_motion(&self, _at: &Kinematics) -> Option<[f64; 3]> {
         None
     }
 
-    /// Times at which its forces are known not to be smooth [s]. Default: none.
+    /// Known breakpoints of its forces [s]. Default: none.
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
 
-    /// How many kinks and jumps of its forces [`switches`](Self::switches) reports. Default: none.
+    /// Number of kinks and jumps of its forces that [`switches`](Self::switches) reports. Default: none.
     fn switch_count(&self) -> usize {
         0
     }
 
-    /// Where the sides of its switches will be held: from these on its forces are to be continued. Default: nothing.
+    /// Sets the location of the frozen sides of its switches, from which its forces are to be continued. Default:
+    /// nothing.
     fn freeze_switches(&mut self, _switch_states: switch_states::SwitchStates) {}
 
-    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
+    /// Appends switching functions, which change their sign where its forces have a kink or a jump, such as the
+    /// contact of a stop.
     fn switches(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
 
-    /// How fast it deforms [1/s]: the largest speed of its nodes relative to each other, over their distance, and one of
-    /// the two nodes, for elements that can be bent. Default: none.
+    /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
+    /// nodes, for deformable elements. Default: none.
     fn deformation_rate(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {
         None
     }
 
-    /// How far it goes towards a limit up to which its linear law is believed, for elements that are linear in a frame of their own.
+    /// Used fraction of the range in which its linear law is valid, for elements that are linear in a frame of their own.
     /// Default: none.
     fn linear_range(&self, _limit: LinearLimit, _at: &Kinematics) -> Option<LinearRange> {
         None
     }
 
-    /// The two of its nodes that are turned most against each other, and the cosine of half the angle between them,
-    /// for elements that cannot distinguish a turn from one the other way. Default: none.
+    /// Its two nodes with the largest relative rotation, and the cosine of half its angle, for elements that cannot
+    /// distinguish a rotation from the opposite one. Default: none.
     fn max_relative_rotation(&self, _at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         None
     }

@@ -1,4 +1,4 @@
-//! Moment on a node: dead (fixed direction) or follower (turning with the node).
+//! Moment on a node: dead (fixed direction) or follower (rotating with the node).
 
 use lissom_motion::skew;
 

@@ -139,8 +139,8 @@ impl PointSpring {
     /// Direction, length, its rate and the tension with its derivatives.
     fn tension(&self, at: &Kinematics, [a, b]: &[Point; 2]) -> (Vector3, f64, f64, Response) {
         let span = b.position - a.position;
-        // The direction of a spring of no length is undefined; any finite answer serves Newton better
-        // than NaN.
+        // The direction of a spring of zero length is undefined; any finite value is better for Newton's method than
+        // NaN.
         let length = span.norm().max(f64::MIN_POSITIVE);
         let direction = span / length;
         let rate = direction.dot(&(b.velocity - a.velocity));
@@ -148,7 +148,7 @@ impl PointSpring {
     }
 }
 
-/// Adds the forces of a pull on the base's point, and against it on the tip's [N, inertial axes].
+/// Adds the forces of a pull on the base's point, and the opposite one on the tip's [N, inertial axes].
 fn add_pull(points: &[Point; 2], pull: &Vector3, out: &mut [f64]) {
     for (i, sign) in [(0, -1.0), (1, 1.0)] {
         let local = points[i].rotation.tr_mul(&(sign * pull));
@@ -171,7 +171,7 @@ impl Element for PointSpring {
         add_pull(&points, &(tension.force * direction), out);
     }
 
-    /// The elongation is integrated; what that misses is put back along the relative velocities of the points.
+    /// The elongation is integrated; the remaining error is corrected along the relative velocities of the points.
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let [a, b] = self.points(step.start);
         let before = b.position - a.position;
@@ -216,7 +216,7 @@ impl Element for PointSpring {
         for i in 0..2 {
             for j in 0..2 {
                 let sign = signs[i] * signs[j];
-                // Δ̇ turns with the node: δ(R v) = -R ṽ δθ.
+                // Δ̇ rotates with the node: δ(R v) = -R ṽ δθ.
                 let mut turning = SMatrix::<f64, 3, 6>::zeros();
                 turning
                     .fixed_view_mut::<3, 3>(0, 3)
@@ -224,7 +224,7 @@ impl Element for PointSpring {
                 let mut stiffness =
                     sign * gradients[i].transpose() * (by_span * gradients[j] + by_speed * turning);
                 if i == j {
-                    // The force seen from the turning node: δ(Rᵀ t) = (Rᵀ t)~ δθ.
+                    // The force in the axes of the rotating node: δ(Rᵀ t) = (Rᵀ t)~ δθ.
                     let local = skew(&points[i].rotation.tr_mul(&(signs[i] * tension * u)));
                     let moment = skew(&points[i].offset) * local;
                     for row in 0..3 {

@@ -1,17 +1,17 @@
-//! Rolling without sliding: a constraint between velocities, with the forces that hold it.
+//! Rolling without sliding: a velocity constraint with its forces.
 //!
-//! Legend: (R, x) tip's joint frame in the base's, V twists in the frames' own axes, A = Ad((R, x)⁻¹), η variation of
-//! the tip's frame relative to the base's, b_k see `contact::wheel_on_plane`, Λ_k impulses: coordinates without mass whose rates
-//! are the forces of the plane against sliding.
+//! Legend: (R, x) tip's joint frame in the base's, V twists in the frames' own axes, A = Ad((R, x)⁻¹), η variation of the tip's
+//! frame relative to the base's, b_k see `contact::wheel_on_plane`, Λ_k impulses: coordinates without mass whose rates are the
+//! forces of the plane that prevent sliding.
 //!
 //! ```text
 //! rows of the tip's frame Σ Λ̇_k b_k,   of the base's -Aᵀ Σ Λ̇_k b_k,   of Λ_k:  b_k·(V_tip - A V_base) = 0
 //! ```
 //!
-//! A constraint between velocities is no derivative of one between positions, and so it has no multiplier among those.
-//! With impulses for coordinates the matrix by velocities is symmetric, [0 Bᵀ; B 0], and the equation holds at every stage
-//! of a scheme: the forces do no work there. With a linear law of creep c there are no impulses, but forces in place of
-//! Λ̇_k, b_k·(V_tip - A V_base)/c.
+//! A velocity constraint is not the derivative of a position constraint, and so it has no multiplier. With impulses for
+//! coordinates the derivative with respect to velocities is symmetric, [0 Bᵀ; B 0], and the equation holds at every stage
+//! of a scheme: the forces do no work there. With a linear creep law of coefficient c there are no impulses, but forces in
+//! place of Λ̇_k, b_k·(V_tip - A V_base)/c.
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
@@ -24,12 +24,12 @@ use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId};
 #[derive(Clone, Debug)]
 pub struct Rolling {
     frames: FramePair,
-    /// None where it creeps.
+    /// None with creep.
     impulses: Vec<CoordinateId>,
     contact: Contact,
 }
 
-/// Relative motion of the two joint frames, and the forces against sliding.
+/// Relative motion of the two joint frames, and the forces that oppose sliding.
 struct Rolled {
     motion: RelativeMotion,
     /// b_k.
@@ -45,7 +45,7 @@ impl Rolled {
 }
 
 impl Rolling {
-    /// Of a joint's frames; `impulses` are empty where the contact creeps.
+    /// Between a joint's frames; `impulses` are empty if the contact creeps.
     pub fn new(frames: [CarriedFrame; 2], impulses: Vec<CoordinateId>, contact: Contact) -> Self {
         Self { frames: FramePair::new(frames), impulses, contact }
     }
@@ -60,7 +60,7 @@ impl Rolling {
         Rolled { motion, rows, forces }
     }
 
-    /// Wrench on the tip in the tip's joint frame, by which the plane keeps it from sliding [N, N m].
+    /// Wrench of the plane on the tip in the tip's joint frame, which prevents sliding [N, N m].
     pub fn wrench(&self, at: &Kinematics) -> Vector6 {
         -self.rolled(at).wrench()
     }

@@ -1,7 +1,8 @@
-//! A wheel on a plane that yields and slips: a one-sided normal force, and friction by a law over the sliding velocity.
+//! A wheel on a compliant plane with sliding: a one-sided normal force, and friction by a law over the sliding
+//! velocity.
 //!
-//! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative twist, η
-//! its variation of position, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
+//! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative
+//! twist, η its variation of position, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
 //!
 //! ```text
 //! g = ±x₃ - r S - ρ,     N = k δ max(0, 1 + a δ̇) for δ > 0,     wrench on the tip N b_n - N μ(σ) Σ s_k/σ b_k
@@ -21,7 +22,7 @@ use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 
-/// Sliding velocities below are those of rolling, where the law is linear [m/s].
+/// Sliding velocities below this are those of rolling, where the law is linear [m/s].
 const STILL: f64 = 1e-9;
 
 /// Registry entry.
@@ -104,7 +105,7 @@ enum Traction {
 }
 
 impl Traction {
-    /// μ(σ)/σ, and the derivative of that by σ over σ.
+    /// μ(σ)/σ, and its derivative with respect to σ, over σ.
     fn per_velocity(&self, sliding: f64) -> (f64, f64) {
         let at = sliding.max(STILL);
         let (value, slope) = match self {
@@ -201,7 +202,7 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
     Ok(Traction::Given(function))
 }
 
-/// What acts between wheel and plane.
+/// Forces between wheel and plane.
 struct Touch {
     motion: RelativeMotion,
     /// b_n.
@@ -212,7 +213,7 @@ struct Touch {
     sliding: [f64; DIRECTIONS],
     /// N with its derivatives by gap and rate.
     normal: [f64; 3],
-    /// μ/σ, and its derivative by σ over σ.
+    /// μ/σ, and its derivative with respect to σ, over σ.
     traction: (f64, f64),
     /// On the left-hand side, on the tip's frame.
     wrench: Vector6,

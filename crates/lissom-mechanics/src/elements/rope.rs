@@ -1,8 +1,8 @@
-//! A rope over pulleys: a spring and damper without compression along the line through several positions, over which it slides
-//! without friction, so that its tension is the same all along. Pulleys have no radius. Drums pay it out.
+//! A rope over pulleys: a spring and damper without compression along the polyline through several positions, over which it
+//! slides without friction, so that its tension is uniform. Pulleys have no radius. Drums wind it.
 //!
-//! Legend: x_p positions, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates of drums
-//! that are q_d0 at the start, r_d what they pay out per unit.
+//! Legend: x_p positions, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates
+//! of drums with initial values q_d0, r_d length paid out per unit.
 //!
 //! ```text
 //! e = Σ ℓ_i - L,   ė = Σ u_i·Δ̇_i - L̇,   L = L₀(t) + Σ r_d (q_d - q_d0),   T = max(0, k e + c ė) or another law for e > 0
@@ -71,23 +71,23 @@ pub const KIND: ElementKind = ElementKind {
     build,
 };
 
-/// Nodes a rope may lead over, besides the ground.
+/// Maximum number of nodes of a rope, besides the ground.
 const MAX_NODES: usize = 4;
-/// Drums it may have: one at each end.
+/// Maximum number of drums: one at each end.
 const MAX_DRUMS: usize = 2;
-/// Local unknowns of so many nodes and drums.
+/// Maximum number of local unknowns.
 const MAX_UNKNOWNS: usize = 6 * MAX_NODES + MAX_DRUMS;
-/// Positions a rope may lead over.
+/// Maximum number of positions of a rope.
 const MAX_PLACES: usize = 16;
 
 /// A rope over pulleys.
 #[derive(Clone, Debug)]
 pub struct Rope {
-    /// Those that it leads over, each once, without the ground.
+    /// Its nodes, each once, without the ground.
     nodes: Vec<NodeId>,
-    /// Positions in their order along the rope: which of the nodes, none for the ground, and where on it.
+    /// Positions in their order along the rope: the index of the node, none for the ground, and the point on it.
     places: Vec<(Option<usize>, Vector3)>,
-    /// Coordinates of drums, and of each what it pays out per unit and its value at the start.
+    /// Coordinates of drums, and for each the length paid out per unit and its initial value.
     drums: Vec<CoordinateId>,
     pays_out: Vec<[f64; 2]>,
     law: ForceLaw,
@@ -95,7 +95,7 @@ pub struct Rope {
     switch_states: SwitchStates,
 }
 
-/// What drums pay out per unit of their coordinates, and where these are at the start.
+/// Lengths that drums pay out per unit of their coordinates, and the initial values of these.
 fn drums(
     model: &InitialModel,
     drums: &[CoordinateId],
@@ -193,7 +193,7 @@ struct Shape {
     segments: [Segment; MAX_PLACES],
     /// Number of positions.
     count: usize,
-    /// Elongation of the whole and its rate [m, m/s].
+    /// Total elongation and its rate [m, m/s].
     elongation: f64,
     rate: f64,
 }
@@ -203,13 +203,13 @@ impl Shape {
         &self.segments[..self.count - 1]
     }
 
-    /// Difference of what belongs to the parts before and after the position `index`.
+    /// Difference of a quantity of the segments before and after the position `index`.
     fn difference(&self, index: usize, of: impl Fn(&Segment) -> Vector3) -> Vector3 {
         let before = index.checked_sub(1).map_or_else(Vector3::zeros, |before| of(&self.segments[before]));
         before - self.segments().get(index).map_or_else(Vector3::zeros, of)
     }
 
-    /// Derivative of the whole length by the position `index`.
+    /// Derivative of the total length with respect to the position `index`.
     fn pull(&self, index: usize) -> Vector3 {
         self.difference(index, |segment| segment.direction)
     }
@@ -294,7 +294,7 @@ impl Element for Rope {
         self.add_winding(tension, out);
     }
 
-    /// The length is integrated; what that misses is put back along the relative velocities of the positions.
+    /// The length is integrated; the remaining error is corrected along the relative velocities of the positions.
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let start = self.shape(step.start);
         let mut moves = [Vector3::zeros(); MAX_PLACES];
@@ -310,7 +310,7 @@ impl Element for Rope {
             })
             .sum();
         let shapes = step.stages.map(|at| self.shape(at));
-        // Of the positions alone: what a winch does is known exactly, and so are coordinates.
+        // Only for the positions: the length paid out by a winch is known exactly, as are coordinates.
         let frees = step.stages.map(|at| self.free(at));
         let places = [0, 1].map(|j| shapes[j].rate + frees[j][1]);
         let square = |shape: &Shape| shape.segments().iter().map(|own| own.speed.norm_squared()).sum::<f64>();
@@ -330,7 +330,8 @@ impl Element for Rope {
         }
     }
 
-    /// With the gradients G of the length and R of its rate by positions: δ(T G) = G (k G + c R)ᵀ δq + c G Gᵀ δv + T δG.
+    /// With the gradients G of the length and R of its rate with respect to positions: δ(T G) = G (k G + c R)ᵀ δq + c G
+    /// Gᵀ δv + T δG.
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let shape = self.shape(at);
         let response = self.tension(&shape, at);
@@ -348,12 +349,12 @@ impl Element for Rope {
             let Some(node) = *node else { continue };
             let (point, pull) = (&shape.points[index], shape.pull(index));
             add(&mut by_length, node, &(pull.transpose() * gradients[index]));
-            // The velocity turns with the node: δ(R v) = -R ṽ δθ.
+            // The velocity rotates with the node: δ(R v) = -R ṽ δθ.
             let turning = -pull.transpose() * (point.rotation * skew(&point.local_velocity));
             for k in 0..3 {
                 by_rate[6 * node + 3 + k] += turning[k];
             }
-            // The force seen from the turning node: δ(Rᵀ f) = (Rᵀ f)~ δθ.
+            // The force in the axes of the rotating node: δ(Rᵀ f) = (Rᵀ f)~ δθ.
             let local = skew(&point.rotation.tr_mul(&(response.force * pull)));
             add_block(&mut out.stiffness, size, (6 * node, 6 * node + 3), &local);
             add_block(&mut out.stiffness, size, (6 * node + 3, 6 * node + 3), &(skew(&point.offset) * local));
@@ -393,7 +394,7 @@ impl Element for Rope {
         Energy { strain: self.law.energy(self.shape(at).elongation), ..Energy::default() }
     }
 
-    /// A winch puts energy in: then all of its work is counted.
+    /// A winch supplies energy: then its total work is computed.
     fn is_load(&self) -> bool {
         self.law.is_active() || !self.length.is_constant()
     }

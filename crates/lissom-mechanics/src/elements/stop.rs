@@ -8,9 +8,9 @@
 //! A (1 + e) = ln((1 + A)/(1 - e A)),      a = A/v
 //! ```
 //!
-//! The second line is exact for a body that meets the stop at v and feels nothing else: m δ̇ dδ̇/(1 + a δ̇) = -k δⁿ dδ over
-//! the whole contact, whatever m, k and n. The force is continuous at touch and never pulls. Between e and the velocity of
-//! impact there is the relation of the law: slower impacts lose less.
+//! The second line is exact for a body that meets the stop at v under no other force: m δ̇ dδ̇/(1 + a δ̇) = -k δⁿ dδ over
+//! the whole contact, for any m, k and n. The force is continuous at touch and never pulls. The law determines the relation
+//! between e and the impact velocity: slower impacts dissipate less.
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
@@ -20,7 +20,7 @@ use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
-/// Least restitution that a contact can have.
+/// Smallest restitution of a contact.
 const MIN_RESTITUTION: f64 = 0.01;
 
 /// Registry entry of the stop of a rotation.
@@ -129,7 +129,7 @@ fn add(
     Ok(Contribution::of(model, stop))
 }
 
-/// The factor a, as it is given or from the restitution.
+/// The factor a, given or computed from the restitution.
 fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
     if !parameters.has("restitution") {
         if parameters.has("impact_velocity") {
@@ -151,14 +151,14 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
     Ok(relative_dissipation(restitution) / parameters.number("impact_velocity")?)
 }
 
-/// A of a restitution e, by bisection between 0 and 1/e: A (1 + e) is below the logarithm near 1/e alone.
+/// A of a restitution e, by bisection between 0 and 1/e: A (1 + e) is below the logarithm only near 1/e.
 fn relative_dissipation(restitution: f64) -> f64 {
     if restitution >= 1.0 {
         return 0.0;
     }
     let is_below = |a: f64| a * (1.0 + restitution) > (a.ln_1p() - (-restitution * a).ln_1p());
     let (mut low, mut high) = (0.0, 1.0 / restitution);
-    // Down to the last digit of what is at most 100.
+    // To the last digit of a value up to 100.
     for _ in 0..70 {
         let middle = 0.5 * (low + high);
         if is_below(middle) { low = middle } else { high = middle }
@@ -172,8 +172,8 @@ impl Stop {
         let rate = at.coordinates[self.coordinate[0]].rate;
         let [past_high, past_low] = self.depths(at);
         let sides = self.switch_states.of(at);
-        // A contact that lasts until the end of a step may be left within it: its force goes on straight, where it is a
-        // straight line.
+        // A contact that lasts until the end of a step may end within it: its force is continued along a straight line,
+        // if it is linear.
         let depth = |depth: f64| if self.exponent == 1.0 { depth } else { depth.max(0.0) };
         if is_on_upper_branch(sides.first(), past_high) {
             Some((depth(past_high), rate, 1.0))
@@ -184,7 +184,7 @@ impl Stop {
         }
     }
 
-    /// How far it is past the upper and the lower end of its range.
+    /// Penetration of the upper and the lower end of its range.
     fn depths(&self, at: &Kinematics) -> [f64; 2] {
         let value = at.coordinates[self.coordinate[0]].value;
         [value - self.range[1], self.range[0] - value]
@@ -258,7 +258,7 @@ mod tests {
         }
         // 1/e, to all digits.
         assert!((relative_dissipation(0.01) - 100.0).abs() < 1e-9);
-        // Of weak losses: 3 (1 - e)/2.
+        // For small losses: 3 (1 - e)/2.
         assert!((relative_dissipation(0.999) - 1.5e-3).abs() < 5e-6);
         assert_eq!(relative_dissipation(1.0), 0.0);
     }

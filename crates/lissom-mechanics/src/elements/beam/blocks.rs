@@ -1,4 +1,4 @@
-//! Beams eight to a block, see `blocks`.
+//! Beams in blocks of eight, see `blocks`.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::cell::RefCell;
@@ -14,7 +14,7 @@ use crate::elements::blocks::{Blocks, block_of, nodes_of};
 use crate::kinematics::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
 use crate::kinematics::{Kinematics, NodeId};
 
-/// Beams eight to a block.
+/// Beams in blocks of eight.
 pub(super) struct BeamBlocks<const N: usize> {
     blocks: Vec<BeamBlock<N>>,
     /// Shape functions at the Gauss points, the same in all elements.
@@ -25,9 +25,9 @@ pub(super) struct BeamBlocks<const N: usize> {
 struct BeamBlock<const N: usize> {
     count: usize,
     nodes: [[NodeId; WIDTH]; N],
-    /// Section frames in the nodes' frames, where one differs.
+    /// Section frames relative to the nodes' frames, if any differs.
     offsets: Option<Box<[Frames; N]>>,
-    /// Whether one is damped.
+    /// Whether any of them is damped.
     damped: bool,
     stations: Vec<StationBlock<N>>,
 }
@@ -41,7 +41,7 @@ struct StationBlock<const N: usize> {
     law: [Screws; 6],
 }
 
-/// Most nodes of a beam.
+/// Maximum number of nodes of a beam.
 const MAX_NODES: usize = 4;
 
 /// Node motions and forces of one block.
@@ -52,7 +52,7 @@ struct Scratch {
 }
 
 thread_local! {
-    /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
+    /// One per thread: because of its size it is not cleared at each evaluation.
     static SCRATCH: RefCell<Scratch> = const {
         RefCell::new(Scratch {
             frames: [[[0.0; WIDTH]; 7]; MAX_NODES],
@@ -179,7 +179,7 @@ impl<const N: usize> WithSimd for Linearization<'_, N> {
     }
 }
 
-/// Constants of a part of a block.
+/// Constants of part of a block.
 struct Here<'a, S, const N: usize> {
     part: Part<S>,
     stations: &'a [StationBlock<N>],

@@ -5,7 +5,7 @@ use lissom_motion::{InverseTangent, Pose, Real, Screw, TangentOperator};
 
 use super::Beam;
 
-/// What is constant of an element; Gauss points `k` from 0 to N - 2, nodes `i`.
+/// Constants of an element; Gauss points `k` from 0 to N - 2, nodes `i`.
 pub(super) trait Constants<R: Real> {
     /// Shape function of node `i` at point `k`.
     fn shape(&self, k: usize, i: usize) -> f64;
@@ -21,7 +21,7 @@ pub(super) trait Constants<R: Real> {
     fn stress(&self, k: usize, strain: Screw<R>) -> Screw<R>;
 }
 
-/// A node as the reference node sees it.
+/// A node relative to the reference node.
 #[derive(Clone, Copy)]
 struct Link<R> {
     motion: Pose<R>,
@@ -38,7 +38,7 @@ impl<R: Real> Link<R> {
     }
 }
 
-/// Forces on the section frames of all nodes, from these and, if something is damped, their twists.
+/// Forces on the section frames of all nodes, from the frames and, with damping, their twists.
 #[inline(always)]
 pub(super) fn forces<R: Real, const N: usize>(
     constants: &impl Constants<R>,
@@ -91,7 +91,7 @@ fn conjugate_forces<R: Real, const N: usize>(
     for k in 0..N - 1 {
         let d_slope = combine_slopes(constants, k, &relative);
         if N == 2 {
-            // With one relative coordinate d and d' are parallel and T d' = d', whatever d.
+            // With only one relative coordinate, d and d' are parallel and T d' = d' for every d.
             let mut strain = d_slope - constants.natural(k);
             if let Some(rates) = rates {
                 strain = strain.plus_scaled(combine_slopes(constants, k, rates), constants.damping(k));
@@ -99,7 +99,7 @@ fn conjugate_forces<R: Real, const N: usize>(
             conjugate[1] = constants.stress(k, strain) * constants.slope(k, 1);
             continue;
         }
-        // The operator's coefficients serve strain and forces.
+        // The operator's coefficients are used for strain and forces.
         let operator = TangentOperator::new(combine_shapes(constants, k, &relative));
         let mut strain = operator.times(d_slope) - constants.natural(k);
         if let Some(rates) = rates {

@@ -1,4 +1,4 @@
-//! A line of beam elements: nodes, elements and the nodes' share of the mass, from a reference line.
+//! A line of beam elements: nodes, elements and the nodes' shares of the mass, from a reference line.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::kinematics::{Freedoms, Kinematics, NodeId};
 
 /// Motion and section forces anywhere in a beam element, for outputs.
 pub trait BeamProbe: Send + Sync {
-    /// Position of the section at ξ ∈ [-1, 1].
+    /// Pose of the section at ξ ∈ [-1, 1].
     fn frame_at(&self, at: &Kinematics, xi: f64) -> Motion;
     /// Twist of the section at ξ in its own frame [m/s, rad/s].
     fn twist_at(&self, at: &Kinematics, xi: f64) -> Vector6;
@@ -37,7 +37,7 @@ impl<const N: usize> BeamProbe for Beam<N> {
     }
 }
 
-/// What a line of beam elements is made from. All functions take s ∈ [0, 1] along the line.
+/// Description of a line of beam elements. All functions take s ∈ [0, 1] along the line.
 pub struct BeamLineDescription<'a> {
     /// Name in the model.
     pub name: &'a str,
@@ -51,7 +51,7 @@ pub struct BeamLineDescription<'a> {
     pub law: &'a dyn Fn(f64) -> SectionLaw,
     /// Mass matrix per length of the section [kg/m, kg, kg m].
     pub mass: &'a dyn Fn(f64) -> Matrix6,
-    /// Nodes of other parts that the ends are fixed to, instead of nodes of their own.
+    /// Nodes of other parts to which the ends are fixed, instead of nodes of their own.
     pub ends: [Option<NodeId>; 2],
 }
 
@@ -62,7 +62,7 @@ pub struct BeamLine {
     pub nodes: Vec<NodeId>,
     /// s of each node.
     pub places: Vec<f64>,
-    /// Section frame in the node's frame, for each node.
+    /// Section frame relative to the node's frame, for each node.
     pub offsets: Vec<Motion>,
     /// Polynomial order.
     pub order: usize,
@@ -71,7 +71,7 @@ pub struct BeamLine {
 }
 
 impl BeamLine {
-    /// The element that holds s ∈ [0, 1], and ξ in it.
+    /// The element that contains s ∈ [0, 1], and ξ in it.
     pub fn locate(&self, s: f64) -> (&Arc<dyn BeamProbe>, f64) {
         let count = self.elements.len();
         let index = ((s * count as f64).floor().max(0.0) as usize).min(count - 1);
@@ -97,7 +97,7 @@ fn build<const N: usize>(model: &InitialModel, line: &BeamLineDescription<'_>) -
     let mut contribution = Contribution::to(model);
     let rule = gauss_lobatto(N);
     let last = line.elements * (N - 1);
-    // s of node k: end points of elements exact, so that equal meshes give equal numbers.
+    // s of node k: end points of elements exact, so that equal meshes have equal values.
     let place = |k: usize| {
         let (element, i) = (k / (N - 1), k % (N - 1));
         (element as f64 + 0.5 * (1.0 + rule[i].0)) / line.elements as f64

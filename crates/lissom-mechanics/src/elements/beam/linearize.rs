@@ -20,7 +20,7 @@ pub(in crate::elements) struct Linearization<const N: usize> {
     damped: bool,
 }
 
-/// ∂ε̇/∂d at constant node twists, for the strains' derivatives and those of the rates ḋ.
+/// ∂ε̇/∂d at constant node twists, from derivatives of the strains and of the rates ḋ.
 fn rate_by_coordinates<const N: usize>(
     station: &Station<N>,
     (d, d_slope): (&Vector6, &Vector6),

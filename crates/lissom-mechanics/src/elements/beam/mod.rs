@@ -15,8 +15,7 @@
 //! g_i = Σ [N_i' Tᵀ S + N_i (∂(T d')/∂d)ᵀ S],   F_i = T(d_i)⁻ᵀ g_i,   F_r = - Σ Ad(exp(-d_i))ᵀ F_i
 //! ```
 //!
-//! All is built from relative motions: neither forces nor tangents change when the element moves
-//! rigidly.
+//! All terms depend on relative motions only: neither forces nor tangents change when the element moves rigidly.
 
 mod blocks;
 mod forces;
@@ -52,7 +51,7 @@ pub struct SectionLaw {
     pub damping: f64,
 }
 
-/// What one Gauss point needs.
+/// Constants of one Gauss point.
 #[derive(Clone, Debug)]
 pub(super) struct Station<const N: usize> {
     /// Shape functions and their derivatives with respect to arc length.
@@ -69,7 +68,7 @@ pub(super) struct Station<const N: usize> {
 #[derive(Clone, Debug)]
 pub struct Beam<const N: usize> {
     pub(super) nodes: [NodeId; N],
-    /// Section frame in the node's frame, where they differ.
+    /// Section frame relative to the node's frame, if they differ.
     pub(super) offsets: [Option<Motion>; N],
     pub(super) stations: Vec<Station<N>>,
     /// Stress-free relative motions of the nodes, for section forces anywhere in the element.
@@ -80,11 +79,11 @@ pub struct Beam<const N: usize> {
 pub(super) type Relative<const N: usize> = [Vector6; N];
 
 impl<const N: usize> Beam<N> {
-    /// The node the others are measured from: one in the middle, so that relative rotations are small.
+    /// The reference node of relative motions: one in the middle, so that relative rotations are small.
     pub const REFERENCE: usize = (N - 1) / 2;
 
-    /// A beam element, free of stress where the section frames at its nodes are `natural`.
-    /// `law(ξ)` gives the section at ξ ∈ [-1, 1]; `offsets` the section frames in the nodes' frames.
+    /// A beam element, stress-free if the section frames at its nodes are `natural`. `law(ξ)` is the section's law at
+    /// ξ ∈ [-1, 1]; `offsets` are the section frames relative to the nodes' frames.
     pub fn new(
         nodes: [NodeId; N],
         offsets: [Option<Motion>; N],
@@ -152,7 +151,7 @@ impl<const N: usize> Beam<N> {
         self.stations.iter().any(|station| station.law.damping != 0.0)
     }
 
-    /// Rates ḋ_i of the relative coordinates, or none where nothing is damped.
+    /// Rates ḋ_i of the relative coordinates, or none without damping.
     fn rates(&self, at: &Kinematics, d: &Relative<N>) -> Option<Relative<N>> {
         self.is_damped().then(|| {
             let twists = self.relative_twists(at, d);
@@ -160,7 +159,7 @@ impl<const N: usize> Beam<N> {
         })
     }
 
-    /// Position of the section at ξ ∈ [-1, 1].
+    /// Pose of the section at ξ ∈ [-1, 1].
     pub fn frame_at(&self, at: &Kinematics, xi: f64) -> Motion {
         let d = combine(&lagrange::<N>(xi).0, &self.relative(at));
         self.section_frame(at, Self::REFERENCE) * Motion::exponential(&d)
@@ -177,7 +176,7 @@ impl<const N: usize> Beam<N> {
             + tangent_times(&d, &combine(&shape, &rates))
     }
 
-    /// Strain at ξ ∈ [-1, 1]: axial, shear 2, shear 3 [-], twist, curvature 2, curvature 3 [1/m].
+    /// Strain at ξ ∈ [-1, 1]: axial, shear 2, shear 3 [-], torsion, curvature 2, curvature 3 [1/m].
     pub(crate) fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         let (shape, slope) = lagrange::<N>(xi);
         let twist = |d: &Relative<N>| tangent_times(&combine(&shape, d), &combine(&slope, d));
@@ -186,8 +185,9 @@ impl<const N: usize> Beam<N> {
     }
 
     /// Section forces and moments at ξ in the section's frame [N, N m], from those at the Gauss points, where they are most
-    /// accurate. The polynomial through them takes its next term from the equilibrium of the line without the change of loads along
-    /// the element, so that weight bends between the points, and shear also between the nodes of an element of two:
+    /// accurate. The next term of the polynomial through them follows from the equilibrium of the line without the change of
+    /// loads along the element. So weight causes bending between the points, and shear also between the nodes of a two-node
+    /// element:
     ///
     /// ```text
     /// S' = ad(f)ᵀ S - load,   S = p + Π (ξ - ξ_k) ad(f_ξ)ᵀ c / (N - 1),   c leading coefficient of p
@@ -213,8 +213,8 @@ impl<const N: usize> Beam<N> {
 }
 
 impl<const N: usize> Beam<N> {
-    /// Adds forces F_i on the section frames of all nodes but the reference, which takes what balances
-    /// them: F_r = - Σ Ad(exp(-d_i))ᵀ F_i.
+    /// Adds forces F_i on the section frames of all nodes except the reference node, and the balancing force on it:
+    /// F_r = - Σ Ad(exp(-d_i))ᵀ F_i.
     pub(super) fn add_relative_forces(&self, motions: &[Motion; N], forces: &Relative<N>, out: &mut [f64]) {
         let mut at_reference = Vector6::zeros();
         let mut add = |i: usize, force: &Vector6| {

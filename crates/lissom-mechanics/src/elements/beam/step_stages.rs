@@ -12,7 +12,7 @@ use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh}
 use crate::round_off;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
-/// formulas for small changes are good to round-off.
+/// formulas for small changes are accurate to round-off.
 const SMALL: f64 = 1e-3;
 
 /// Two Gauss points on 0 … 1.
@@ -33,7 +33,7 @@ pub(super) struct Visit<const N: usize> {
     work: f64,
 }
 
-/// Strains of a station at the stages, with what damping adds, and what their rates have missed.
+/// Strains of a station at the stages, with the term of damping, and the error of their rates.
 pub(super) struct Strains {
     pub(super) stressing: [Vector6; STAGES],
     pub(super) missed: Vector6,
@@ -85,7 +85,7 @@ impl<const N: usize> Beam<N> {
         }
     }
 
-    /// Integrates the strains of every station and hands them to `each`. Returns 1/Q.
+    /// Integrates the strains of every station and passes them to `each`. Returns 1/Q.
     pub(super) fn integrate(
         &self,
         step: &StepStages<'_>,
@@ -123,9 +123,9 @@ impl<const N: usize> Beam<N> {
         inverse
     }
 
-    /// Changes of the relative coordinates over a step without cancellation, or none where they are so large
-    /// that their difference is good enough. With η the relative motion, exp(d + Δd) = exp d exp η, they follow
-    /// from d' = T(d)⁻¹ η along the way, by one step of the classical Runge-Kutta method.
+    /// Changes of the relative coordinates over a step without cancellation, or none if they are so large that their
+    /// difference is accurate enough. With η the relative motion, exp(d + Δd) = exp d exp η, they are the integral of
+    /// d' = T(d)⁻¹ η, by one step of the classical Runge-Kutta method.
     fn coordinate_changes(
         &self,
         step: &StepStages<'_>,
@@ -160,7 +160,7 @@ impl<const N: usize> Beam<N> {
         }))
     }
 
-    /// How far the element's nodes come over a step, in both directions [m].
+    /// Largest displacement of the element's nodes over a step, in both directions [m].
     fn way(&self, step: &StepStages<'_>) -> f64 {
         let length = self.length();
         let mut way = 0.0_f64;

@@ -1,5 +1,5 @@
-//! Derivatives of a beam's elastic forces by positions, for one element or for several side by side. The formulas are
-//! those of `beam::linearize`, without damping.
+//! Derivatives of a beam's elastic forces with respect to positions, for one element or for several side by side. The
+//! formulas are those of `beam::linearize`, without damping.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{CurvedTangent, DualMatrix, Pose, Real, Screw, TangentOperator};
@@ -13,7 +13,7 @@ pub(super) type Rows<R> = [Screw<R>; 6];
 /// By node of the force, then by node of the variation.
 pub(super) type Stiffness<R, const N: usize> = [[Rows<R>; N]; N];
 
-/// The derivatives by the body variations of the section frames, with the stresses of the frames `stressed`.
+/// Derivatives with respect to the body variations of the section frames, with the stresses of the frames `stressed`.
 #[inline(always)]
 pub(super) fn stiffness<R: Real, const N: usize>(
     constants: &impl Constants<R>,
@@ -23,7 +23,7 @@ pub(super) fn stiffness<R: Real, const N: usize>(
     let reference = Beam::<N>::REFERENCE;
     let mut relative = [Screw::zero(frames[0].position.x); N];
     let mut relative_stressed = relative;
-    // Takes variations of the reference node to where the others are.
+    // Transforms variations of the reference node to the frames of the others.
     let mut adjoints = [frames[0].adjoint_inverse(); N];
     for i in 0..N {
         if i != reference {
@@ -84,7 +84,7 @@ fn by_coordinates<R: Real, const N: usize>(
     (blocks, conjugate)
 }
 
-// What follows has long formulas, which are compiled once for beams of any number of nodes.
+// The following has long formulas, which are compiled once for beams of any number of nodes.
 
 #[inline(always)]
 fn logarithm<R: Real>(motion: Pose<R>) -> Screw<R> {
@@ -129,7 +129,7 @@ pub(super) fn transpose_times_rows<R: Real>(matrix: DualMatrix<R>, rows: &Rows<R
     )
 }
 
-/// What all nodes need of a station, at T(d) and d', with the stress σ.
+/// Quantities of a station for all nodes, at T(d) and d', with the stress σ.
 struct AtStation<R> {
     /// Tᵀ σ.
     along: Screw<R>,
@@ -139,7 +139,7 @@ struct AtStation<R> {
     turn: DualMatrix<R>,
     /// ∂²(σᵀ T d')/∂d∂d.
     bend: DualMatrix<R>,
-    /// Strains by d' and by d.
+    /// Derivatives of strains with respect to d' and to d.
     by_slope: DualMatrix<R>,
     by_shape: DualMatrix<R>,
 }
@@ -162,7 +162,7 @@ fn at_station<R: Real>(d: Screw<R>, d_slope: Screw<R>, stress: Screw<R>) -> AtSt
     )
 }
 
-/// From ∂g_i/∂d_k to ∂F_i/∂η_k; gives X(F_i).
+/// From ∂g_i/∂d_k to ∂F_i/∂η_k; returns X(F_i).
 #[inline(always)]
 fn by_relative_variations<R: Real, const N: usize>(
     blocks: &mut Stiffness<R, N>,

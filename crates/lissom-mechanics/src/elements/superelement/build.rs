@@ -11,7 +11,7 @@ use crate::elements::initial_model::InitialModel;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use crate::registry::ParameterError;
 
-/// Most unknowns of a superelement.
+/// Maximum number of unknowns of a superelement.
 const MAX_UNKNOWNS: usize = 255;
 
 /// An interface of a superelement.
@@ -23,12 +23,12 @@ pub struct InterfacePlace {
     pub place: Vector3,
 }
 
-/// What a superelement is made from.
+/// Description of a superelement.
 #[derive(Clone, Debug)]
 pub struct SuperelementDescription<'a> {
     /// Name in the model.
     pub name: &'a str,
-    /// Position of the part at the start.
+    /// Initial pose of the part.
     pub frame: Motion,
     /// Its interfaces, in the order of the matrices.
     pub interfaces: &'a [InterfacePlace],
@@ -38,8 +38,8 @@ pub struct SuperelementDescription<'a> {
     pub matrices: ReducedMatrices,
 }
 
-/// A superelement, with its unknowns. Modal coordinates are measured so that each has the mass of
-/// the part: then they are of the size of displacements.
+/// A superelement, with its unknowns. Modal coordinates are scaled so that each has the mass of the part: then they
+/// have the magnitude of displacements.
 ///
 /// # Errors
 /// If it has too many unknowns.

@@ -1,8 +1,8 @@
-//! The centre of mass of a superelement, as its first-order deformation displaces it: with the whole mass there, translations
-//! of the part are exact, whatever it does besides, and weight is the gradient of an energy.
+//! The centre of mass of a superelement, displaced by its first-order deformation. With the whole mass there, translations of
+//! the part are exact regardless of other motions, and weight is the gradient of an energy.
 //!
 //! Legend: (E, r) frame of an interface in the floating frame, V and V_f twists in own axes, A = Ad((E, r)⁻¹), χ = δh - A δh_f
-//! variation of one frame seen from the other, (y, z) = V - A V_f, κ axial vector of E, which is log E to first order.
+//! variation of one frame relative to the other, (y, z) = V - A V_f, κ axial vector of E, which is log E to first order.
 //!
 //! ```text
 //! x_c = x_f + R_f ρ,      m ρ = m c + Σ (G_l (r - X) + G_a κ) + G_q q
@@ -21,7 +21,7 @@ use super::part::Part;
 use crate::elements::{Tangents, add_block};
 use crate::kinematics::Kinematics;
 
-/// One interface as the centre sees it.
+/// One interface in the formulas of the centre.
 struct Seen {
     /// A.
     to_own: Matrix6,
@@ -67,7 +67,7 @@ fn joined(seen: &Seen) -> Matrix3x6<f64> {
     map
 }
 
-/// A matrix of three rows on the rotations alone, and on the translations.
+/// A 3 x 3 matrix on the rotations only, with zeros on the translations.
 fn on_rotations(matrix: &Matrix3) -> Matrix3x6<f64> {
     let mut map = Matrix3x6::zeros();
     map.fixed_view_mut::<3, 3>(0, 3).copy_from(matrix);
@@ -80,7 +80,7 @@ fn turned_map(seen: &Seen, z: &Vector3) -> Matrix3 {
 }
 
 impl Centre {
-    /// Takes in the motion `at`.
+    /// Evaluates the motion `at`.
     pub(super) fn enter(&mut self, of: &Part, at: &Kinematics) {
         let base = &at.nodes[of.nodes[of.frame]];
         let inverse = of.total.recip();
@@ -203,7 +203,7 @@ impl Centre {
         self.add_geometric(of, out);
     }
 
-    /// ∂(a_c - R_fᵀ g) by positions and twists.
+    /// Derivatives of a_c - R_fᵀ g with respect to positions and twists.
     fn differentiate(&self, of: &Part, scratch: &mut Derivatives) {
         scratch.clear(of.size());
         let frame = 6 * of.frame;
@@ -222,7 +222,7 @@ impl Centre {
             let carried = lie_bracket_matrix(&seen.carried);
             let own = lie_bracket_matrix(&seen.twist);
             let map = joined(seen);
-            // How ρ̈ depends on the twist: G_l E (δz × y + z × δy) + G_a ax(E (δz~ z̃ + z̃ δz~)).
+            // Dependence of ρ̈ on the twist: G_l E (δz × y + z × δy) + G_a ax(E (δz~ z̃ + z̃ δz~)).
             let mut squared = Matrix3::zeros();
             let mut squared_by_turn = Matrix3::zeros();
             for k in 0..3 {
@@ -234,7 +234,7 @@ impl Centre {
             second_by_twist.fixed_view_mut::<3, 3>(0, 0).copy_from(&(seen.by_place * seen.turn * skew(&z)));
             let by_spin = -seen.by_place * seen.turn * skew(&y) + seen.by_rotation * squared;
             second_by_twist.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_spin);
-            // By χ at constant (y, z) and its rate.
+            // With respect to χ at constant (y, z) and its rate.
             let rate_by_turn =
                 -seen.by_place * seen.turn * skew(&y) + seen.by_rotation * turned_map(seen, &z);
             let second_by_turn = -seen.by_place * seen.turn * skew(&(ay + z.cross(&y)))
@@ -249,7 +249,8 @@ impl Centre {
             let by_place = centrifugal * map + 2.0 * spin * rate_by_place + second_by_place;
             add_six(&mut scratch.by_place, 6 * i, &by_place);
             add_six(&mut scratch.by_place, frame, &(-by_place * seen.to_own));
-            // By twists: δ(y, z) = δV - A δV_f, and its rate has -[A V_f, ·] of that and [(y, z), A δV_f].
+            // With respect to twists: δ(y, z) = δV - A δV_f, and its rate contains -[A V_f, ·] of that and [(y, z), A
+            // δV_f].
             let by_relative = 2.0 * spin * map + second_by_twist - map * carried;
             add_six(&mut scratch.by_twist, 6 * i, &by_relative);
             add_six(&mut scratch.by_twist, frame, &((map * own - by_relative) * seen.to_own));
@@ -261,7 +262,7 @@ impl Centre {
         }
     }
 
-    /// Adds what the forces do while their directions turn: ∂(Wᵀ F)/∂ position at constant F.
+    /// Adds the terms due to the rotation of the forces: ∂(Wᵀ F)/∂ position at constant F.
     fn add_geometric(&self, of: &Part, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let force = of.total * self.against;
@@ -310,7 +311,7 @@ impl Centre {
     }
 }
 
-/// Derivatives of the acceleration of the centre, a column per unknown.
+/// Derivatives of the acceleration of the centre, one column per unknown.
 pub(super) struct Derivatives {
     by_place: Matrix3xX<f64>,
     by_twist: Matrix3xX<f64>,

@@ -1,10 +1,10 @@
-//! What a superelement is deformed by, in the unknowns of the matrices that it was given by: for outputs.
+//! Deformation of a superelement, in the unknowns of its given matrices: for outputs.
 
 use lissom_motion::{Motion, Vector3};
 
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
-/// Where the unknowns of a superelement's matrices are found.
+/// Location of the unknowns of a superelement's matrices.
 #[derive(Clone, Debug)]
 pub struct Deformation {
     /// Nodes of the interfaces.
@@ -13,7 +13,7 @@ pub struct Deformation {
     pub(super) floating: usize,
     /// Positions of the interfaces in the undeformed part [m].
     pub(super) places: Vec<Vector3>,
-    /// Modal coordinates, and those of the matrices over them.
+    /// Modal coordinates, and the factors from them to those of the matrices.
     pub(super) modes: Vec<(CoordinateId, f64)>,
 }
 
@@ -41,8 +41,8 @@ impl Deformation {
         })
     }
 
-    /// u: displacement [m] and rotation vector [rad] of each interface against the floating frame and in its axes, then the modal
-    /// coordinates.
+    /// u: displacement [m] and rotation vector [rad] of each interface relative to the floating frame and in its axes, then the
+    /// modal coordinates.
     pub fn unknowns(&self, at: &Kinematics) -> Vec<f64> {
         let base = &at.nodes[self.nodes[self.floating]].frame;
         let mut all = Vec::with_capacity(self.size());
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
     use crate::kinematics::{CoordinateMotion, NodeMotion};
 
-    /// Three interfaces, the second of which carries the frame, and two modes whose units differ: u has as many rows as `size` says.
+    /// Three interfaces, the second of which carries the frame, and two modes with different units: u has as many rows as `size`.
     #[test]
     fn unknowns_are_those_of_the_matrices() {
         let places = vec![Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 2.0, 0.0)];

@@ -1,4 +1,4 @@
-//! Where a superelement is and how it moves, in the axes of its floating frame.
+//! Pose and motion of a superelement, in the axes of its floating frame.
 
 use lissom_motion::{Matrix3, Vector3, rotation_inverse_tangent};
 
@@ -6,8 +6,8 @@ use super::part::Part;
 use super::vectors::{set, three};
 use crate::kinematics::{Kinematics, split};
 
-/// Motion and forces of one superelement at one instant. Vectors count as the unknowns do: six per interface, then the modal
-/// coordinates.
+/// Motion and forces of one superelement at one instant. Vectors are in the order of the unknowns: six per interface, then
+/// the modal coordinates.
 #[derive(Default)]
 pub(super) struct ElementScratch {
     /// E_i.
@@ -39,7 +39,7 @@ pub(super) struct ElementScratch {
 }
 
 impl ElementScratch {
-    /// Takes in the motion `at`.
+    /// Evaluates the motion `at`.
     pub(super) fn enter(&mut self, of: &Part, at: &Kinematics) {
         let (nodes, size) = (of.nodes.len(), of.size());
         for vector in [

@@ -36,7 +36,7 @@ impl Part {
         }
     }
 
-    /// Adds what inertia and weight need besides the forces conjugate to u.
+    /// Adds the terms of inertia and weight other than the forces conjugate to u.
     pub(super) fn add_inertia(
         &self,
         at: &Kinematics,
@@ -62,7 +62,7 @@ impl Part {
         centre.add_forces(self.total, out);
     }
 
-    /// Momentum, and the inertial forces before they are turned.
+    /// Momentum, and the inertial forces before their rotation.
     pub(super) fn momenta(&self, scratch: &mut ElementScratch) {
         scratch.momentum.fill(0.0);
         scratch.inertia.fill(0.0);

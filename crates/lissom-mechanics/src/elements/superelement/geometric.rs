@@ -1,6 +1,6 @@
-//! What matrices of mass and stiffness leave out to second order in the deformation, in the way of the standard data of flexible bodies
-//! [Wallrapp 1994]: how first moment, inertia and angular momentum of a part depend on its deformation, the shortening of what bends
-//! included, and how much nearer interfaces come.
+//! Second-order terms in the deformation that matrices of mass and stiffness omit, in the format of the standard data of flexible
+//! bodies [Wallrapp 1994]: the dependence of first moment, inertia and angular momentum of a part on its deformation, including
+//! the shortening by bending, and the decrease of distances between interfaces.
 //!
 //! Legend: y are the displacements, from the floating frame at the first interface and in its axes: positions and rotation vectors of the
 //! interfaces, then modal coordinates; x₁ + x₂ position of a point to first and to second order in y.
@@ -10,7 +10,7 @@
 //! ∫ρ x × ẋ = (M-terms)·ẏ + c,   c_i = y·B_i ẏ                 h = Σ U_k ½ y·D_k y    (elastic energy ½ (y + h)·K (y + h))
 //! ```
 //!
-//! α, A and B are sums: of points that are displaced along straight lines, and of what the rotation of sections adds.
+//! α, A and B are sums: of points that are displaced along straight lines, and of the effect of section rotations.
 
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::{DMatrix, DVector};
@@ -20,13 +20,13 @@ use crate::registry::ParameterError;
 
 /// Entries of inertias in the order in which they are kept.
 pub const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
-/// Square blocks of inertia, and those of them in the form with loads in D.
+/// Square blocks of inertia, and those of them in the format with loads in D.
 const BLOCKS: usize = 21;
 const FORMER_BLOCKS: usize = 12;
-/// Part by which matrices may be asymmetric, and inertias may change otherwise in rigid turns.
+/// Allowed relative asymmetry of matrices, and relative error of inertias under rigid rotations.
 const UNEQUAL: f64 = 1e-3;
 
-/// What a deformation shortens: along a direction, by half a square.
+/// Shortening by a deformation: along a direction, by half a quadratic form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shortening {
     /// U.
@@ -35,10 +35,10 @@ pub struct Shortening {
     pub matrix: DMatrix<f64>,
 }
 
-/// How inertia and angular momentum about the floating frame depend on the deformation.
+/// Dependence of inertia and angular momentum about the floating frame on the deformation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TurningMatrices {
-    /// α, of all rows: a row each of xx, yy, zz, xy, xz, yz.
+    /// α, of all rows: one row each for xx, yy, zz, xy, xz, yz.
     pub slope: DMatrix<f64>,
     /// A, in the same order.
     pub inertia: [DMatrix<f64>; 6],
@@ -57,16 +57,16 @@ impl TurningMatrices {
 }
 
 /// Second-order matrices of a part over the rows of its mass matrix; rows and columns of the first interface are zero,
-/// except those of α, where it is displaced against the frame.
+/// except those of α, if it is displaced relative to the frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeometricMatrices {
     /// S along x, y, z.
     pub moment: [DMatrix<f64>; 3],
-    /// Of points that are displaced along straight lines, with sections that do not turn.
+    /// Of points that are displaced along straight lines, with sections that do not rotate.
     pub points: TurningMatrices,
-    /// What the rotation of sections adds, and the static response of modes that are omitted.
+    /// Effect of the rotation of sections, and the static response of omitted modes.
     pub sections: TurningMatrices,
-    /// U and D of all that is shortened.
+    /// U and D of all shortenings.
     pub shortening: Vec<Shortening>,
 }
 
@@ -75,11 +75,12 @@ fn problem<T>(words: impl Into<String>) -> Result<T, ParameterError> {
 }
 
 impl GeometricMatrices {
-    /// From one matrix with all of them below each other: S, A and B of points, A and B of sections, D, a row for each U, and α of points
-    /// and of sections last. None for a file of the form in which D were those of interfaces, without U: their matrices hold loads twice.
+    /// From one matrix with all of them stacked: S, A and B of points, A and B of sections, D, a row for each U, and α of points
+    /// and of sections last. None for a file of the format in which D were those of interfaces, without U: their matrices include
+    /// loads twice.
     ///
     /// # Errors
-    /// If it has another size than `size` columns and as many rows as some number of D need.
+    /// Unless it has `size` columns and a number of rows that matches some number of D.
     pub fn from_stacked(
         stacked: &DMatrix<f64>,
         interfaces: usize,
@@ -119,7 +120,7 @@ impl GeometricMatrices {
         }))
     }
 
-    /// All of them below each other.
+    /// All of them stacked.
     pub fn stacked(&self) -> DMatrix<f64> {
         let size = self.points.slope.ncols();
         let blocks: Vec<&DMatrix<f64>> = self.blocks().collect();
@@ -158,7 +159,7 @@ impl GeometricMatrices {
         sum
     }
 
-    /// Inertial terms over other unknowns, y = map z; without what is shortened.
+    /// Inertial terms over other unknowns, y = map z; without the shortenings.
     #[must_use]
     pub fn through(&self, map: &DMatrix<f64>) -> Self {
         let mut own = Self { shortening: Vec::new(), ..self.clone() };
@@ -171,7 +172,7 @@ impl GeometricMatrices {
         own
     }
 
-    /// With unknowns that are measured otherwise, each by its factor.
+    /// With other units of the unknowns, each by its factor.
     #[must_use]
     pub fn scaled(&self, factor: impl Fn(usize) -> f64) -> Self {
         let mut own = self.clone();
@@ -192,10 +193,11 @@ impl GeometricMatrices {
         own
     }
 
-    /// The same, symmetric to the last bit, if they can be those of the part whose mass is `mass`, with interfaces at `places` [m].
+    /// The same, symmetric to the last bit, if they are consistent with the part whose mass is `mass`, with interfaces at
+    /// `places` [m].
     ///
     /// # Errors
-    /// If they cannot.
+    /// If they are not.
     pub fn check(mut self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<Self, ParameterError> {
         let size = mass.nrows();
         if self.blocks().any(|block| block.shape() != (size, size))
@@ -232,7 +234,7 @@ impl GeometricMatrices {
         Ok(self)
     }
 
-    /// A part that is turned as a whole has its inertia turned.
+    /// A rigid rotation of a part rotates its inertia.
     fn check_turned(&self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<(), ParameterError> {
         if places.len() < 2 {
             return Ok(());
