@@ -1,20 +1,20 @@
-//! When two instants are the same: those of samples, breakpoints, records and ends of steps are computed in different ways and
+//! Equality of two instants: those of samples, breakpoints, records and ends of steps are computed in different ways and
 //! differ by round-off. A step between two of them would be so short that its accelerations are round-off.
 
 use crate::round_off;
 
-/// Instants closer than this fraction of a step, or of a sample period, are the same [-].
+/// Instants closer than this fraction of a step, or of a sample period, are equal [-].
 pub const SAME: f64 = 1e-9;
-/// Round-off that accumulates in a clock may reach this part of its step before it is taken for an intended difference.
+/// Round-off accumulated in a clock may reach this fraction of its step before it is considered an intended difference.
 const MAX_ACCUMULATED: f64 = 1e-3;
 
-/// Distance below which two instants near `time` [s] are the same where steps, or sample periods, are `duration` [s] long.
+/// Distance below which two instants near `time` [s] are equal if steps, or sample periods, are `duration` [s] long.
 pub fn tolerance(time: f64, duration: f64) -> f64 {
     SAME * duration + round_off::OPERATIONS * time.abs()
 }
 
-/// The same for an instant at a distance of `elapsed` [s] from the start which a clock outside of the program has reached in
-/// steps of `duration` [s], each added to the sum before: the rounding errors of all additions may have one sign.
+/// The same for an instant at a distance of `elapsed` [s] from the start in an external clock that has added steps of
+/// `duration` [s]: the rounding errors of all additions may have one sign.
 ///
 /// ```text
 /// n = elapsed/duration additions, each with an error of at most ε |t|/2

@@ -1,5 +1,5 @@
-//! The sides of an element's switches: where its forces have a kink or a jump, and steps end, they go on from the side on
-//! which the step began.
+//! The sides of an element's switches, at which its forces have a kink or a jump and steps end. Within a step the forces
+//! are continued from the side at its start.
 
 use crate::kinematics::Kinematics;
 
@@ -10,12 +10,12 @@ pub struct SwitchStates {
 }
 
 impl SwitchStates {
-    /// `count` sides from the held value `first` on.
+    /// `count` sides, stored from the held value `first` on.
     pub(crate) fn held_at(first: usize, count: usize) -> Self {
         Self { held: Some((first, count)) }
     }
 
-    /// The sides at a configuration: 1 above, -1 below, 0 where the switch decides by itself.
+    /// The sides at a configuration: 1 above, -1 below, 0 if the value of the switch decides.
     pub fn of<'k>(&self, at: &'k Kinematics) -> &'k [f64] {
         let held = self.held.and_then(|(first, count)| at.held.get(first..first + count));
         held.unwrap_or_default()

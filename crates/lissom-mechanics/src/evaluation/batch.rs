@@ -23,11 +23,11 @@ use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId
 /// All elements of one kind.
 pub struct Batch<E> {
     items: Vec<E>,
-    /// Row of every local unknown, item after item, [`LOCKED`] where there is none.
+    /// Row of every local unknown, item by item, [`LOCKED`] if there is none.
     rows: Vec<u32>,
-    /// Where each item's rows begin.
+    /// Offset of each item's rows.
     starts: Vec<usize>,
-    /// Where each item's local matrix lies in the pattern.
+    /// Positions of each item's local matrix in the pattern.
     places: ScatterMap,
     /// The items in lanes, for kinds that are evaluated several at a time.
     blocks: Option<Box<dyn Blocks>>,
@@ -46,13 +46,13 @@ pub trait AnyBatch: Send + Sync {
     fn locate(&mut self, pattern: &Pattern);
     /// Free rows of each item.
     fn cliques(&self) -> Vec<Vec<usize>>;
-    /// Where each item's local unknowns begin, and where the last one's end.
+    /// Offset of each item's local unknowns, and the end of the last ones.
     fn starts(&self) -> &[usize];
     /// Adds the forces of all items to the rows of the system [N, N m].
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
     /// The same on several threads.
     fn forces_side_by_side(&self, at: &Kinematics, threads: &mut Threads, out: &mut [f64]);
-    /// Adds the derivatives of all items; geometric stiffness has the stresses of the second configuration.
+    /// Adds the derivatives of all items; the geometric stiffness uses the stresses of the second configuration.
     fn linearize(
         &self,
         at_stressed: (&Kinematics, &Kinematics),
@@ -68,7 +68,7 @@ pub trait AnyBatch: Send + Sync {
     fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>);
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
-    /// Angular momentum that items add to that of the masses, global axes [N m s].
+    /// Angular momentum of items in addition to that of the masses, inertial axes [N m s].
     fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
         Vector3::zeros()
     }
@@ -78,30 +78,30 @@ pub trait AnyBatch: Send + Sync {
     fn power(&self, item: usize, at: &Kinematics) -> f64;
     /// Work of an item's forces between two configurations [J].
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
-    /// Times at which forces are known not to be smooth [s].
+    /// Known breakpoints of forces [s].
     fn breakpoints(&self) -> Vec<f64>;
     /// Assigns every item slots for the sides of its switches, from the discrete value `first` on; returns their number.
     fn freeze_switches(&mut self, first: usize) -> usize;
-    /// Appends numbers that change their sign where forces have a kink or a jump.
+    /// Appends switching functions, which change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
-    /// Appends where each switch acts, in words.
+    /// Appends the location of each switch, in words.
     fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>);
-    /// The largest rate at which an element deforms [1/s], with one of its nodes.
+    /// The largest deformation rate of an element [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
     /// The largest exceedance of the range of an element's linear law.
     fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange>;
-    /// Passes on the mass matrix of every item that has one, row after row: its nodes, its coordinates, its rows.
+    /// Passes the mass matrix of every item that has one to `each`, row by row: its nodes, its coordinates, its rows.
     fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>));
     /// The first node of an item whose kinetic energy is not positive in every motion.
     fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId>;
-    /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
+    /// The two nodes of an element with the largest relative rotation, and the cosine of half its angle.
     fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
-    /// Difference of these elements from those of neighbouring models, which come with the weights of a difference; none
-    /// where that cannot be determined.
+    /// Difference of these elements from those of neighbouring models, given with the weights of a difference; none if
+    /// it cannot be determined.
     fn changed(&self, neighbours: &[(&dyn AnyBatch, f64)], layout: &Layout) -> Option<Changed>;
-    /// Adds the forces of some items alone.
+    /// Adds the forces of some items only.
     fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]);
-    /// For the comparison with batches of the same kind.
+    /// For comparison with batches of the same kind.
     fn as_any(&self) -> &dyn Any;
     /// For elements that join the batch of their kind.
     fn as_any_mut(&mut self) -> &mut dyn Any;
@@ -110,9 +110,9 @@ pub trait AnyBatch: Send + Sync {
 /// The index of an element in its system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ElementId {
-    /// Its batch; none where a signal drives it.
+    /// Its batch; none for a load scaled by a signal.
     pub batch: Option<usize>,
-    /// Its index in the batch, or among loads that signals multiply.
+    /// Its index in the batch, or among loads scaled by signals.
     pub item: usize,
 }
 
@@ -120,7 +120,7 @@ pub struct ElementId {
 pub trait AnyElement: Send + Sync {
     /// Adds it to the batch of its kind, or begins one.
     fn join(self: Box<Self>, batches: &mut Vec<Box<dyn AnyBatch>>) -> ElementId;
-    /// The same as a load of size one, which a signal multiplies.
+    /// The same as a unit load, scaled by a signal.
     fn into_load(self: Box<Self>) -> Box<dyn Element>;
 }
 
@@ -145,7 +145,7 @@ impl<E: Element> AnyElement for E {
 pub enum Changed {
     /// Nothing.
     Nothing,
-    /// Elements whose forces are the derivative by the parameter.
+    /// Elements whose forces are the derivative with respect to the parameter.
     Derivative(Box<dyn AnyBatch>),
     /// Indices of items whose forces are to be compared.
     Items(Vec<usize>),
@@ -157,7 +157,7 @@ pub struct Mass<'a> {
     pub nodes: &'a [NodeId],
     /// Of each local unknown.
     pub rows: &'a [u32],
-    /// Row after row.
+    /// Row by row.
     pub matrix: &'a [f64],
 }
 
@@ -505,7 +505,7 @@ impl<E: Element> AnyBatch for Batch<E> {
     }
 }
 
-/// Transforms local derivatives by the chart, for nodes whose six columns begin as given.
+/// Transforms local derivatives by the chart, for nodes with given offsets of their six columns.
 pub fn through(chart: Chart<'_>, nodes: impl Iterator<Item = (NodeId, usize)>, scratch: &mut Tangents) {
     let size = scratch.size();
     for (node, column) in nodes {
@@ -524,7 +524,7 @@ pub fn through(chart: Chart<'_>, nodes: impl Iterator<Item = (NodeId, usize)>, s
     }
 }
 
-/// Adds local values to the rows that are free.
+/// Adds local values to the free rows.
 pub fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
     for (&row, value) in rows.iter().zip(local) {
         if row != LOCKED {
@@ -533,11 +533,11 @@ pub fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
     }
 }
 
-/// Adds one lane of a block's forces to the rows that are free, six of a node after six of another.
+/// Adds one lane of a block's forces to the free rows, six per node.
 #[inline]
 pub fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
     for (rows, forces) in rows.chunks(6).zip(forces.chunks(6)) {
-        // Most nodes have all their degrees of freedom, six rows in a row.
+        // Most nodes have all their degrees of freedom, in six consecutive rows.
         if let (&[first, .., last], [a, b, c, d, e, f]) = (rows, forces)
             && first != LOCKED
             && last == first + 5
@@ -558,7 +558,7 @@ pub fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]
     }
 }
 
-/// Adds to six columns of `matrix` those of `other` times `factor`.
+/// Adds `factor` times six columns of `other` to those of `matrix`.
 fn add_columns(matrix: &mut [f64], other: &[f64], size: usize, column: usize, factor: &Matrix6) {
     for (row, source) in matrix.chunks_exact_mut(size).zip(other.chunks_exact(size)) {
         let (row, source) = (&mut row[column..column + 6], &source[column..column + 6]);

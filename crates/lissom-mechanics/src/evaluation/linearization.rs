@@ -16,13 +16,13 @@ pub struct Linearization {
     pub gram: Vec<f64>,
     /// B and Bᵀ in the multipliers' rows and columns.
     pub constraint: Vec<f64>,
-    /// Derivatives of elements' forces by multipliers, in the multipliers' columns.
+    /// Derivatives of elements' forces with respect to multipliers, in the multipliers' columns.
     pub by_multiplier: Vec<f64>,
     /// Memory for the assembly of these derivatives.
     pub scratch: Option<Box<Scratch>>,
 }
 
-/// Room for derivatives of one element or joint after the other.
+/// Storage for derivatives of one element or joint at a time.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Of an element.
@@ -52,7 +52,8 @@ impl Linearization {
         }
     }
 
-    /// Adds derivatives by multipliers to those of the constraints, Bᵀ in their columns: B stays in their rows.
+    /// Adds derivatives with respect to multipliers to those of the constraints, Bᵀ in their columns: B remains in
+    /// their rows.
     pub fn fold_multipliers(&mut self) {
         for (entry, value) in self.constraint.iter_mut().zip(&mut self.by_multiplier) {
             *entry += std::mem::take(value);

@@ -1,5 +1,5 @@
 //! Evaluation of elements in batches of one kind, and the positions of local forces and derivatives in the equations of
-//! the system. Knows no system, no scheme and no step size.
+//! the system. Independent of the system, the scheme and the step size.
 
 pub mod batch;
 pub mod linearization;

@@ -1,10 +1,11 @@
-//! Where dense local matrices lie in the tangent's pattern: as segments of entries that follow each other in a column.
+//! Positions of dense local matrices in the tangent's pattern: as segments of entries that are consecutive in a
+//! column.
 
 use lissom_solver::Pattern;
 
 use crate::kinematics::LOCKED;
 
-/// Entries of a local column that follow each other in the pattern.
+/// Entries of a local column that are consecutive in the pattern.
 #[derive(Clone, Copy, Debug)]
 pub struct Segment {
     /// Local column.
@@ -30,7 +31,7 @@ impl Segment {
     }
 }
 
-/// Segments of several local matrices, one after the other.
+/// Segments of several local matrices, concatenated.
 #[derive(Clone, Debug, Default)]
 pub struct ScatterMap {
     segments: Vec<Segment>,
@@ -38,13 +39,13 @@ pub struct ScatterMap {
 }
 
 impl ScatterMap {
-    /// None yet.
+    /// An empty map.
     pub fn new() -> Self {
         Self { segments: Vec::new(), starts: vec![0] }
     }
 
-    /// Adds the local matrix over `rows`, [`LOCKED`] where there is none. The square of the rows from `filled` on is
-    /// omitted: it stays zero.
+    /// Adds the local matrix over `rows`, [`LOCKED`] for missing ones. The square of the rows from `filled` on is
+    /// omitted: it is zero.
     pub fn push(&mut self, pattern: &Pattern, rows: &[u32], filled: usize) {
         for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
             let seen = if j < filled { rows } else { &rows[..filled] };
@@ -53,7 +54,7 @@ impl ScatterMap {
         self.starts.push(self.segments.len() as u32);
     }
 
-    /// Adds the first `count` rows of the local matrix over `rows`; the others stay zero.
+    /// Adds the first `count` rows of the local matrix over `rows`; the others are zero.
     pub fn push_rows(&mut self, pattern: &Pattern, rows: &[u32], count: usize) {
         for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
             self.push_column(pattern, &rows[..count], (j, column));
@@ -78,7 +79,7 @@ impl ScatterMap {
         }
     }
 
-    /// Gives back room that was not needed.
+    /// Releases unused memory.
     pub fn shrink(&mut self) {
         self.segments.shrink_to_fit();
         self.starts.shrink_to_fit();
@@ -93,7 +94,7 @@ impl ScatterMap {
 /// Position of an entry of the pattern.
 ///
 /// # Panics
-/// If the pattern was not made from these rows.
+/// If the pattern was not built from these rows.
 pub fn position_of(pattern: &Pattern, row: usize, column: usize) -> usize {
     pattern.position(row, column).expect("the pattern was made from these rows")
 }

@@ -20,7 +20,7 @@ pub struct Blend<T> {
     pub acceleration: T,
     /// Of BᵀWB.
     pub augmented: f64,
-    /// Of B and Bᵀ, and of derivatives of elements' forces by multipliers.
+    /// Of B and Bᵀ, and of derivatives of elements' forces with respect to multipliers.
     pub constraint: f64,
 }
 
@@ -31,7 +31,7 @@ pub struct Sum<'a, T> {
     pub blend: Blend<T>,
     /// The tangent, on its pattern.
     pub values: &'a mut [T],
-    /// Receives the diagonal of ∂/∂ position by row, of translations at least; may be empty.
+    /// Receives the diagonal of ∂/∂ position by row, at least for translations; may be empty.
     pub stiffness: &'a mut [f64],
 }
 
@@ -51,7 +51,7 @@ pub enum TangentAssembler<'a> {
 pub struct Slot<'a> {
     /// Row of each local unknown, or locked.
     pub rows: &'a [u32],
-    /// Where its local matrix lies.
+    /// Positions of its local matrix.
     pub segments: &'a [Segment],
 }
 
@@ -137,7 +137,7 @@ impl<T: Scalar> Sum<'_, T> {
             }
         }
         for (i, &row) in rows.iter().enumerate() {
-            // Locked rows are beyond all.
+            // Locked rows are out of range.
             if let Some(sum) = self.stiffness.get_mut(row as usize) {
                 *sum += local.stiffness[i * size + i];
             }
@@ -165,7 +165,7 @@ fn scatter<T: Scalar>(segments: &[Segment], joint: &Derivatives, values: &mut [T
         let row = usize::from(run.row);
         let own = &joint.column(usize::from(run.column))[row..row + usize::from(run.length)];
         let values = &mut values[run.positions()];
-        // A node's six rows, or the three of a point: no loop.
+        // A node's six rows, or the three of a point: without a loop.
         if let (Ok(values), Ok(own)) = (<&mut [T; 6]>::try_from(&mut *values), <&[f64; 6]>::try_from(own)) {
             add(values, own);
         } else if let (Ok(values), Ok(own)) =

@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use lissom_motion::WIDTH;
 
-/// With fewer elements or joints than this, waking another thread costs about what it saves.
+/// With fewer elements or joints than this, waking another thread costs about as much as it saves.
 pub const WORTH_WHILE: usize = 4000;
 
-/// Memory for local forces, and the number of threads. Waking them allocates a little.
+/// Memory for local forces, and the number of threads. Waking them allocates slightly.
 #[derive(Clone, Debug)]
 pub struct Threads {
     count: usize,
@@ -16,7 +16,7 @@ pub struct Threads {
 }
 
 impl Threads {
-    /// For batches of parts whose numbers begin at `starts`; none if there is only one thread, or one is enough.
+    /// For batches of items with offsets `starts`; none if there is only one thread, or one is sufficient.
     pub fn new<'a>(starts: impl Iterator<Item = &'a [usize]>, threads: usize) -> Option<Self> {
         let (mut parts, mut longest) = (0, 0);
         for own in starts {
@@ -26,8 +26,8 @@ impl Threads {
         (threads >= 2 && parts >= WORTH_WHILE).then(|| Self { count: threads, locals: vec![0.0; longest] })
     }
 
-    /// Calls `work` with portions of the parts, whole blocks of eight, and the numbers that belong to them, all zero, side by side; gives
-    /// all numbers. Those of part `k` begin at `starts[k]`.
+    /// Calls `work` in parallel with portions of the items, whole blocks of eight, and their values, initially zero. Returns all
+    /// values. Those of item `k` begin at `starts[k]`.
     pub fn side_by_side(
         &mut self,
         starts: &[usize],

@@ -8,7 +8,8 @@ use crate::kinematics::Kinematics;
 use crate::kinematics::work::along;
 
 /// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
-/// inertial axes over the way of their nodes, moments over the turn between, forces on coordinates over their change.
+/// inertial axes along the displacement of their nodes, moments along the rotation, forces on coordinates along their
+/// change.
 pub fn work<E: Element + ?Sized>(
     element: &E,
     (from, to): (&Kinematics, &Kinematics),

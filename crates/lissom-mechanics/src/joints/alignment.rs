@@ -1,15 +1,16 @@
-//! Directions of a slider's tip that stay perpendicular to its line: the tip turns with the tangent, or with the sections as well.
+//! Directions of a slider's tip that remain perpendicular to its line: the tip rotates with the tangent, or with the sections as
+//! well.
 //!
-//! Legend: d = R_t e direction of the tip, y(s) = Σ w_k⁽ᵖ⁾(s) u_k what it stays across: the tangent with positions u_k = x_k and p = 1, or
-//! an axis of the sections with their directions u_k = R_k g_k and p = 0; o_k the point of a node in its axes.
+//! Legend: d = R_t e direction of the tip, y(s) = Σ w_k⁽ᵖ⁾(s) u_k perpendicular vector: the tangent with positions u_k = x_k and
+//! p = 1, or an axis of the sections with their directions u_k = R_k g_k and p = 0; o_k the point of a node in its axes.
 //!
 //! ```text
 //! c = d · y = 0,      c̈ = d̈ · y + 2 ḋ · ẏ + d · ÿ
 //! forces Bᵀ μ: tip e × R_tᵀ y μ,   node k: w_k⁽ᵖ⁾ [R_kᵀ d, o_k × R_kᵀ d] μ or w_k⁽ᵖ⁾ g_k × R_kᵀ d μ,   s: d · y' μ
 //! ```
 //!
-//! The weights of a tangent add up to nothing, so that its forces are a couple, and the moment on the tip holds it: momentum and
-//! angular momentum stay what they were.
+//! The weights of a tangent sum to zero, so that its forces are a couple, balanced by the moment on the tip: momentum and
+//! angular momentum are conserved.
 
 use lissom_motion::{Matrix3, Vector3, skew};
 
@@ -17,16 +18,16 @@ use super::slider::{CarriedPoint, LOCAL, OWN, Place, Row, TIP};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::{Kinematics, NodeMotion};
 
-/// What a direction of the tip stays perpendicular to.
+/// Vector to which a direction of the tip remains perpendicular.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Across {
     /// The tangent of the line.
     Tangent,
-    /// The directions that the nodes carry, in their axes, blended as their positions are.
+    /// Directions fixed to the nodes, in their axes, interpolated as their positions are.
     Sections(Vec<Vector3>),
 }
 
-/// A direction of the tip, in its axes, and what it stays perpendicular to.
+/// A direction of the tip, in its axes, and the vector to which it remains perpendicular.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Alignment {
     /// A unit vector in the axes of the tip.
@@ -43,7 +44,7 @@ pub(crate) struct Aligned<'a> {
     pub tip: &'a CarriedPoint,
 }
 
-/// Second derivative of a direction by time, without angular acceleration, in inertial axes.
+/// Second time derivative of a direction, without angular acceleration, in inertial axes.
 fn turning(motion: &NodeMotion, direction: &Vector3) -> [Vector3; 2] {
     let spin = motion.twist.fixed_rows::<3>(3).into_owned();
     let rate = spin.cross(direction);
@@ -51,7 +52,7 @@ fn turning(motion: &NodeMotion, direction: &Vector3) -> [Vector3; 2] {
 }
 
 impl Aligned<'_> {
-    /// Which derivative by s what it stays across is of the nodes' vectors.
+    /// Order of the derivative of the nodes' vectors with respect to s in the perpendicular vector.
     fn order(&self) -> usize {
         usize::from(self.alignment.across == Across::Tangent)
     }
@@ -93,7 +94,8 @@ impl Aligned<'_> {
         }
     }
 
-    /// Derivative of u_k by translation and rotation of its node in body axes: R_k [I, -õ] or R_k [0, -g̃].
+    /// Derivative of u_k with respect to translation and rotation of its node in body axes: R_k [I, -õ] or R_k [0,
+    /// -g̃].
     fn vector_gradient(&self, node: usize, at: &Kinematics) -> [Matrix3; 2] {
         let axes = self.motion(node, at).frame.rotation.matrix();
         match &self.alignment.across {
@@ -107,7 +109,7 @@ impl Aligned<'_> {
         at.nodes[self.tip.node].frame.rotation.apply(&self.alignment.direction)
     }
 
-    /// A derivative of y by s.
+    /// A derivative of y with respect to s.
     fn across(&self, place: &Place, derivative: usize, at: &Kinematics) -> Vector3 {
         place.support.sum(self.order() + derivative, |node| self.vector(node, at))
     }
@@ -117,7 +119,8 @@ impl Aligned<'_> {
         self.direction(at).dot(&self.across(place, 0, at))
     }
 
-    /// Change of c since the start of a step, without cancellation. `slid` is the change of y by s alone, of the vectors at the start.
+    /// Change of c since the start of a step, without cancellation. `slid` is the change of y due to s only, for the vectors at
+    /// the start.
     pub(crate) fn violation_change(
         &self,
         after: &Place,
@@ -168,7 +171,7 @@ impl Aligned<'_> {
         let direction = self.direction(at);
         let own = skew(&self.alignment.direction);
         let turns = 6 * TIP + 3;
-        // δd = -R ẽ δθ, and y seen from the turning tip: δ(Rᵀ y) = (Rᵀ y)~ δθ.
+        // δd = -R ẽ δθ, and y in the axes of the rotating tip: δ(Rᵀ y) = (Rᵀ y)~ δθ.
         let by_tip = -axes * own;
         add(turns, turns, &(own * skew(&rotation.apply_inverse(&self.across(place, 0, at)))));
         for (k, weight) in place.weights(self.order()) {

@@ -1,4 +1,4 @@
-//! Joints behind one interface, whatever their kind.
+//! One interface to joints of all kinds.
 
 use lissom_motion::{Motion, Vector6};
 use nalgebra::SVector;
@@ -18,7 +18,7 @@ use crate::kinematics::Quantity;
 pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     /// See [`Joint::equations`].
     fn equations(&self) -> &'static [&'static str];
-    /// What an equation is: see [`Joint::LENGTHS`].
+    /// The quantity of an equation: see [`Joint::LENGTHS`].
     fn equation_quantity(&self, equation: usize) -> Quantity;
     /// See [`Joint::COORDINATES`].
     fn coordinates(&self) -> &'static [Coordinate];
@@ -30,11 +30,11 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     }
     /// See [`Joint::contact`].
     fn contact(&self) -> Option<Contact>;
-    /// The contact of a wheel with a rail, for joints that are one. Default: it is none.
+    /// The contact of a wheel with a rail, for joints of that kind. Default: none.
     fn rail_contact(&self) -> Option<&RailContact> {
         None
     }
-    /// The law of creep in that contact, if there is one.
+    /// The creep law in that contact, if there is one.
     fn creep(&self) -> Option<&CreepLaw> {
         None
     }
@@ -59,7 +59,7 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
         mu: &Equations,
         out: &mut ConstraintHessian,
     );
-    /// Adds the joint, the one of this index, to the batch of its kind.
+    /// Adds the joint of this index to the batch of its kind.
     fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches);
 }
 

@@ -40,7 +40,7 @@ pub struct AttachedJoint {
     pub coordinates: Vec<CoordinateId>,
     /// Position of its first multiplier among all multipliers.
     pub first_multiplier: usize,
-    /// Coordinates whose rates are the forces against sliding, of joints that roll.
+    /// Coordinates whose rates are the forces that prevent sliding, for rolling joints.
     pub impulses: Vec<CoordinateId>,
     /// Its kind with parameters.
     pub joint: Box<dyn AnyJoint>,
@@ -138,7 +138,7 @@ impl AttachedJoint {
         gradient
     }
 
-    /// A relative motion and coordinates that satisfy the equations: those at which the joint was created.
+    /// A relative motion and coordinates that satisfy the equations: those at the creation of the joint.
     pub fn as_built(&self) -> (Relative, JointCoordinates) {
         let (values, relative) = self.joint.initial();
         (Relative::at_start(&relative), JointCoordinates { value: values, ..JointCoordinates::default() })
@@ -176,7 +176,7 @@ impl AttachedJoint {
     }
 
     /// Derivatives of the equations and of the forces at constant multipliers `mu`, with respect to the local
-    /// unknowns. `joint` is this joint's kind, where it is known; `weights` are those of the equations in BᵀWB.
+    /// unknowns. `joint` is this joint's kind, if it is known; `weights` are those of the equations in BᵀWB.
     pub(super) fn linearize_as<J: AnyJoint + ?Sized>(
         &self,
         joint: &J,
@@ -201,7 +201,7 @@ impl AttachedJoint {
         out.fill(&self.sides(relative), charts, &inner);
     }
 
-    /// Derivatives at a point with respect to the unknowns of `chart`; `joint` is this joint's kind, where it is known.
+    /// Derivatives at a point with respect to the unknowns of `chart`; `joint` is this joint's kind, if it is known.
     pub(super) fn linearize_for<J: AnyJoint + ?Sized>(
         &self,
         joint: &J,
@@ -235,7 +235,7 @@ impl AttachedJoint {
         SMatrix::from_fn(|i, j| derivatives.column(j)[i])
     }
 
-    /// How the relative motion varies with base and tip.
+    /// Derivatives of the relative motion with respect to base and tip.
     fn sides(&self, relative: &Relative) -> [Side; 2] {
         let [base, tip] = self.frames.map(|frame| (frame.offset.rotation.matrix(), frame.offset.position));
         [
@@ -260,7 +260,7 @@ impl AttachedJoint {
     }
 
     /// Accelerations of its coordinates that follow from those of its nodes, by the least squares of c̈ = 0. Schemes
-    /// know those of massless coordinates to a lower order than those of nodes.
+    /// compute those of massless coordinates to a lower order than those of nodes.
     pub fn coordinate_accelerations(&self, at: &Kinematics) -> [f64; MAX_COORDINATES] {
         let configuration = self.evaluate_absolute(at);
         let rows = self.gradient_at(&configuration);
@@ -286,7 +286,8 @@ impl AttachedJoint {
         (inverse * right).into()
     }
 
-    /// Where a wheel touches its rail and what acts there, for the multipliers `mu`; none for other joints.
+    /// Position and forces of the contact between a wheel and its rail, for the multipliers `mu`; none for other
+    /// joints.
     pub fn rail_contact(&self, at: &Kinematics, mu: &Equations) -> Option<RailContactValues> {
         let contact = self.joint.rail_contact()?;
         let (relative, _) = self.evaluate_absolute(at);
@@ -306,7 +307,7 @@ impl AttachedJoint {
         Some(values)
     }
 
-    /// The creep force of a wheel on a rail, if it is one that creeps.
+    /// The creep force of a wheel on a rail, if it has one.
     pub fn creep_force(&self) -> Option<CreepForce> {
         let (contact, law) = self.joint.rail_contact().zip(self.joint.creep())?;
         Some(CreepForce::new(self.frames, self.first_multiplier, contact.clone(), law.clone()))
@@ -337,7 +338,8 @@ fn ported(coordinates: usize) -> impl Iterator<Item = usize> + Clone {
     (0..6).chain(TIP..TIP + 6).chain(OWN..OWN + coordinates)
 }
 
-/// In a step, joints are evaluated in lanes, several of a kind at a time (`blocks`); queries see them one by one.
+/// Within a step, joints are evaluated in lanes, several of a kind at a time (`blocks`); queries evaluate them one by
+/// one.
 impl Constraint for AttachedJoint {
     fn name(&self) -> &str {
         &self.name

@@ -1,8 +1,9 @@
-//! Joints of one kind together: one virtual call per kind, then eight joints at a time in the lanes of vector registers.
+//! Joints of one kind in batches: one virtual call per kind, then eight joints at a time in the lanes of vector
+//! registers.
 //!
-//! Constants are stored lane by lane in blocks of eight, whatever the processor, and so is what is constant over a
-//! step, in [`JointStarts`]. Motions and multipliers are gathered at each evaluation. The last block repeats its last
-//! joint.
+//! Constants are stored lane by lane in blocks of eight, independent of the processor, and so are values that are
+//! constant over a step, in [`JointStarts`]. Motions and multipliers are gathered at each evaluation. The last block
+//! repeats its last joint.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::any::Any;
@@ -30,7 +31,7 @@ pub type Results = [Block; LOCAL + MAX_EQUATIONS];
 pub struct Batches(Vec<Box<dyn JointBatch>>);
 
 impl Batches {
-    /// All joints of `joints`.
+    /// Builds the batches of `joints`.
     pub fn new(joints: &[AttachedJoint]) -> Self {
         let mut batches = Self::default();
         for (index, joint) in joints.iter().enumerate() {
@@ -81,7 +82,7 @@ impl Batches {
         self.0.iter().map(|batch| &**batch)
     }
 
-    /// Records the start of a step.
+    /// Stores the start of a step.
     #[inline]
     pub fn begin(&self, start: &Kinematics, out: &mut JointStarts) {
         out.0.resize_with(self.0.len(), Vec::new);
@@ -95,13 +96,14 @@ impl Batches {
 pub trait JointBatch: Send + Sync {
     /// Index of each joint among all.
     fn indices(&self) -> &[u32];
-    /// Where each joint's local unknowns and equations begin, all of them in a row, and where the last one's end.
+    /// Offsets of each joint's local unknowns and equations, concatenated, and the end of the last ones.
     fn starts(&self) -> &[usize];
     /// Joints in a block.
     fn block_items(&self, block: usize) -> Range<usize>;
-    /// Records the start of a step.
+    /// Stores the start of a step.
     fn begin(&self, start: &Kinematics, out: &mut Vec<StartBlock>);
-    /// Computes forces and violations of whole blocks, or violations alone, and hands each block's to `add`, in order.
+    /// Computes forces and violations of whole blocks, or violations only, and passes those of each block to `add`, in
+    /// order.
     fn evaluate(
         &self,
         wanted: Wanted,
@@ -110,7 +112,7 @@ pub trait JointBatch: Send + Sync {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
     );
-    /// Hands the derivatives of each joint to `take`, with its index among all.
+    /// Passes the derivatives of each joint to `take`, with its index among all.
     fn linearize(
         &self,
         joints: &[AttachedJoint],
@@ -120,13 +122,13 @@ pub trait JointBatch: Send + Sync {
         scratch: &mut Derivatives,
         take: &mut dyn FnMut(usize, &mut Derivatives),
     );
-    /// Lays the joints out in lanes.
+    /// Arranges the joints in lanes.
     fn pack(&mut self, joints: &[AttachedJoint]);
     /// For joints that join the batch of their kind.
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
 
-/// What an evaluation computes.
+/// Requested results of an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// Forces and violations.
@@ -165,7 +167,7 @@ struct BatchScratch {
 }
 
 thread_local! {
-    /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
+    /// One per thread: because of its size it is not cleared at each evaluation.
     static SCRATCH: RefCell<BatchScratch> = const {
         RefCell::new(BatchScratch {
             gathered: Gathered {
@@ -233,7 +235,7 @@ impl<J: Joint> JointBatch for Batch<J> {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
     ) {
-        // Analyses that take no steps have none.
+        // Analyses without steps have none.
         let mut own = Vec::new();
         let starts = starts.unwrap_or_else(|| {
             self.begin(point.increments.start, &mut own);
@@ -370,7 +372,7 @@ impl Pack {
             let (first, count) = self.equations[lane];
             let own = first as usize..(first + count) as usize;
             let (multipliers, violations) = (&point.multipliers[own.clone()], &point.violations[own]);
-            // As many as the kind has at most, in a loop of known length where all are there.
+            // The maximum number of the kind, in a loop of constant length if all exist.
             if multipliers.len() == J::MAX_ROWS && violations.len() == J::MAX_ROWS {
                 for k in 0..J::MAX_ROWS {
                     gathered.multipliers[k][lane] = multipliers[k];
@@ -381,7 +383,7 @@ impl Pack {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
-                // Values left by other joints may not be numbers.
+                // Values of other joints that remain in storage may not be finite.
                 for k in multipliers.len()..J::MAX_ROWS {
                     gathered.multipliers[k][lane] = 0.0;
                     gathered.violations[k][lane] = 0.0;
@@ -426,7 +428,7 @@ impl Pack {
             return;
         }
         let (wrench, forces) = J::wrench(&increment, &own, &constants, &mu);
-        // On the base acts the opposite wrench, at the base's point.
+        // The opposite wrench acts on the base, at the base's point.
         let rotation = increment.rotation();
         let couple = wrench.rotation.plus_cross(increment.place, wrench.translation);
         let opposite = Screw::new(-rotation.times(wrench.translation), -rotation.times(couple));
@@ -457,7 +459,7 @@ fn coordinate_increment<J: Joint, S: Simd>(
     own
 }
 
-/// A wrench on a joint frame as one on its node.
+/// Transforms a wrench on a joint frame to its node.
 #[inline(always)]
 fn at_node<R: Real>(wrench: Screw<R>, (axes, place): (Option<Axes<R>>, Triple<R>)) -> Screw<R> {
     let (force, moment) = match axes {
@@ -467,13 +469,13 @@ fn at_node<R: Real>(wrench: Screw<R>, (axes, place): (Option<Axes<R>>, Triple<R>
     Screw::new(force, moment.plus_cross(place, force))
 }
 
-/// A vector of three blocks in a row.
+/// A vector from three consecutive blocks.
 #[inline(always)]
 fn triple<S: Simd>(part: Part<S>, blocks: &[Block], first: usize) -> Triple<Lanes<S>> {
     Triple::new(part.number(&blocks[first]), part.number(&blocks[first + 1]), part.number(&blocks[first + 2]))
 }
 
-/// A matrix of nine blocks, column by column.
+/// A matrix from nine blocks, column by column.
 #[inline(always)]
 fn axes<S: Simd>(part: Part<S>, blocks: &[Block]) -> Axes<Lanes<S>> {
     Axes([triple(part, blocks, 0), triple(part, blocks, 3), triple(part, blocks, 6)])

@@ -1,5 +1,4 @@
-//! A smooth line through the nodes of a beam, without kinks or jumps of curvature where elements
-//! meet.
+//! A smooth line through the nodes of a beam, without kinks or jumps of curvature between elements.
 //!
 //! Legend: s arc length of the undeformed beam, s_k that of node k, x_k its position, Q_k the parabola through the nodes k - 1,
 //! k and k + 1, u = (s - s_k)/(s_{k+1} - s_k).
@@ -8,12 +7,12 @@
 //! x(s) = (1 - b) Q_k + b Q_{k+1} = Σ_k w_k(s) x_k,      b = 3u² - 2u³,      Σ w_k = 1,      Σ w_k s_k = s
 //! ```
 //!
-//! Both parabolas meet at both nodes and b' vanishes there: position, tangent and curvature are continuous [cf. Overhauser 1968,
-//! who blends with b = u, and Bauchau 2000 on sliding joints]. The first and the last interval have one parabola only.
+//! Both parabolas pass through both nodes and b' vanishes there: position, tangent and curvature are continuous [cf. Overhauser
+//! 1968, who blends with b = u, and Bauchau 2000 on sliding joints]. The first and the last interval have one parabola only.
 
 use lissom_motion::Vector3;
 
-/// Maximum number of nodes that a position between two of them depends on.
+/// Maximum number of nodes on which a position between two of them depends.
 pub const SUPPORT: usize = 4;
 
 /// Arc lengths of the nodes along a beam or a chain of beams.
@@ -22,7 +21,7 @@ pub struct Centerline {
     knots: Vec<f64>,
 }
 
-/// Weights of nodes at a position, and their first three derivatives by the arc length.
+/// Weights of nodes at a position, and their first three derivatives with respect to arc length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Support {
     /// The first of the nodes.
@@ -34,7 +33,7 @@ pub struct Support {
 }
 
 impl Support {
-    /// Σ w_k x_k of a derivative, from positions by the number of the node.
+    /// Σ w_k x_k of a derivative, from positions by the index of the node.
     pub fn sum(&self, derivative: usize, place: impl Fn(usize) -> Vector3) -> Vector3 {
         (0..self.count).map(|k| self.weights[derivative][k] * place(self.first + k)).sum()
     }
@@ -47,7 +46,7 @@ impl Centerline {
         (knots.len() > 1 && ascends).then_some(Self { knots })
     }
 
-    /// Arc length of the whole [m].
+    /// Total arc length [m].
     pub fn length(&self) -> f64 {
         self.knots[self.knots.len() - 1]
     }
@@ -57,20 +56,20 @@ impl Centerline {
         self.knots.len() - 1
     }
 
-    /// The interval that holds `s`; beyond the ends the first or the last.
+    /// The interval that contains `s`; beyond the ends the first or the last.
     pub fn interval(&self, s: f64) -> usize {
         let inner = &self.knots[1..self.knots.len() - 1];
         inner.partition_point(|&knot| knot <= s)
     }
 
-    /// The first node that positions in an interval depend on, and how many there are.
+    /// The first node on which positions in an interval depend, and their number.
     pub fn nodes_of(&self, interval: usize) -> (usize, usize) {
         let first = interval.saturating_sub(1);
         let last = (interval + 2).min(self.knots.len() - 1);
         (first, last - first + 1)
     }
 
-    /// Weights at `s`; beyond the ends the parabolas go on.
+    /// Weights at `s`; the parabolas are extrapolated beyond the ends.
     pub fn at(&self, s: f64) -> Support {
         self.within(self.interval(s), s)
     }
@@ -87,7 +86,7 @@ impl Centerline {
             support.weights[1][..2].copy_from_slice(&[-1.0 / length, 1.0 / length]);
             return support;
         }
-        // Parabolas about the nodes at both ends of the interval, where these have neighbours on both sides.
+        // Parabolas about the nodes at both ends of the interval, if these have neighbours on both sides.
         let (left, right) = (interval > 0, interval + 1 < last);
         let length = self.knots[interval + 1] - self.knots[interval];
         let u = (s - self.knots[interval]) / length;
@@ -116,7 +115,7 @@ impl Centerline {
         support
     }
 
-    /// Lagrange's weights of the three nodes about `middle`, with both derivatives.
+    /// Lagrange weights of the three nodes about `middle`, with both derivatives.
     fn parabola(&self, middle: usize, s: f64) -> [[f64; 3]; 3] {
         let knots = [self.knots[middle - 1], self.knots[middle], self.knots[middle + 1]];
         std::array::from_fn(|k| {
@@ -126,8 +125,8 @@ impl Centerline {
         })
     }
 
-    /// x(from + change) - x(from) of unchanged positions, or the same of a `derivative` of x, without cancellation: the integral of the
-    /// next one over each interval, which is of the fourth degree at most.
+    /// x(from + change) - x(from) for constant positions, or the same for a `derivative` of x, without cancellation: the integral
+    /// of the next derivative over each interval, which is of the fourth degree at most.
     pub fn change(
         &self,
         derivative: usize,
@@ -165,7 +164,8 @@ impl Centerline {
         sum
     }
 
-    /// Where the line through these positions is nearest to a point: among many positions, then by Newton's method.
+    /// Arc length at which the line through these positions is nearest to a point: by sampling, then by Newton's
+    /// method.
     pub fn nearest(&self, point: &Vector3, place: impl Fn(usize) -> Vector3) -> f64 {
         const PER_INTERVAL: usize = 16;
         let steps = PER_INTERVAL * self.intervals();
@@ -222,7 +222,7 @@ mod tests {
         }
     }
 
-    /// A straight line is met by two nodes as by more, at its arc length and with its tangent.
+    /// A straight line is reproduced by two or more nodes, with its arc length and its tangent.
     #[test]
     fn straight_lines_of_two_and_more_nodes_are_met_exactly() {
         for knots in [vec![0.4, 1.7], vec![0.4, 1.0, 1.7], vec![0.4, 0.7, 1.1, 1.7]] {
@@ -281,7 +281,7 @@ mod tests {
             let found = line.nearest(&line.at(s).sum(0, place), place);
             assert!((found - s).abs() < 1e-12, "{s}: {found}");
         }
-        // Beside an arc, as far as four fifths of its radius on the inner side.
+        // Points near an arc, up to four fifths of its radius on the inner side.
         let on_arc = |node: usize| Vector3::new(line.knots[node].cos(), line.knots[node].sin(), 0.0);
         for (s, share) in [(0.2, 0.5), (0.5, 0.8), (0.9, 0.8), (1.1, -2.0)] {
             let [on_line, tangent, curvature] = [0, 1, 2].map(|order| line.at(s).sum(order, on_arc));

@@ -1,8 +1,8 @@
-//! Constant-velocity joint: two nodes share a point, and the shafts along the third axes turn by the same angle,
+//! Constant-velocity joint: two nodes share a point, and the shafts along the third axes rotate by the same angle,
 //! whatever the angle between them: c = axial(R)·e₃.
 //!
-//! With the input turned by α, the output by β, and the tip's shaft bent by θ about any axis across,
-//! R_21 - R_12 = (1 + cos θ) sin(β - α): the equation holds with β = α up to θ = π.
+//! With the input rotated by α, the output by β, and the tip's shaft bent by θ about any perpendicular axis, R_21 -
+//! R_12 = (1 + cos θ) sin(β - α): the equation is satisfied with β = α up to θ = π.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
@@ -33,7 +33,7 @@ pub const KIND: JointKind = JointKind {
         let shaft = geometry.axes.apply(&Vector3::z());
         let tip = parameters.vector_or("tip_axis", shaft)?;
         let tip = geometry.axes.apply_inverse(&tip).normalize();
-        // A shaft has no sense: the direction that bends less is used.
+        // The sense of a shaft is arbitrary: the direction with the smaller angle is used.
         let tip = tip * tip.z.signum();
         if tip.z.abs() < 1e-6 {
             return Err(ParameterError::new(
@@ -45,10 +45,10 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// A shared point, and a shared rotation of bent shafts.
+/// A shared point, and equal rotation of bent shafts.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstantVelocity {
-    /// The tip's shaft at the start, of length one, in the base's joint frame.
+    /// The tip's shaft at the start, a unit vector in the base's joint frame.
     tip: Vector3,
 }
 
@@ -59,12 +59,12 @@ impl Joint for ConstantVelocity {
         &["position 1", "position 2", "position 3", "rotation 3"]
     }
 
-    /// R_11 + R_22 = (1 + cos θ) cos(β - α): the equation also holds with β = α + π.
+    /// R_11 + R_22 = (1 + cos θ) cos(β - α): the equation is also satisfied with β = α + π.
     fn branch(&self) -> Option<Branch> {
         Some(|relative| relative.rotation[(0, 0)] + relative.rotation[(1, 1)])
     }
 
-    /// The tip's third axis is its shaft: turned there from the base's about an axis across both.
+    /// The tip's third axis is its shaft, rotated from the base's about their common normal.
     fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         let across = Vector3::z().cross(&self.tip);
         let angle = across.norm().atan2(self.tip.z);

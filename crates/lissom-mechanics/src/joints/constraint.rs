@@ -1,5 +1,5 @@
-//! One interface for equations between positions, whatever they relate: joints between two nodes, drives and relations of
-//! coordinates, sliders along beams.
+//! One interface to position constraints of all types: joints between two nodes, drives and relations of coordinates,
+//! sliders along beams.
 //!
 //! Legend: q positions of the local unknowns, v their rates, c violations, μ multipliers.
 //!
@@ -7,19 +7,19 @@
 //! c(q, t) = 0,      ċ = B v + ∂c/∂t,      c̈ = B v̇ + (what `acceleration` gives),      forces Bᵀ μ
 //! ```
 //!
-//! Local unknowns are those of the constraint's ports, one port after the other: six body variations of a node, or one
+//! Local unknowns are those of the constraint's ports, in their order: six body variations of a node, or one
 //! coordinate. Matrices are row-major with [`Constraint::size`] columns.
 
 use super::evaluation_point::Increments;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 
-/// A port: what a constraint acts on.
+/// A port: a node or coordinate on which a constraint acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Port {
     /// A node: six local unknowns.
     Node(NodeId),
-    /// No node in this arrangement: six local unknowns that do not enter the equations.
+    /// No node in this arrangement: six local unknowns that do not appear in the equations.
     NoNode,
     /// An algebraic coordinate: one local unknown.
     Coordinate(CoordinateId),
@@ -51,7 +51,7 @@ pub struct Visit<'a> {
     pub rows: [&'a mut [f64]; STAGES],
     /// Integrated violations by stage, all zero at first.
     pub violations: [&'a mut [f64]; STAGES],
-    /// Scratch, one number by equation.
+    /// Scratch, one value per equation.
     pub changes: &'a mut [f64],
 }
 
@@ -66,10 +66,10 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     /// Number of equations.
     fn equations(&self) -> usize;
 
-    /// What the violation of an equation measures.
+    /// The quantity of an equation's violation.
     fn quantity(&self, equation: usize) -> Quantity;
 
-    /// Number of arrangements: a slider acts on other nodes in each interval between two of them.
+    /// Number of arrangements: a slider acts on different nodes in each interval between two of them.
     fn arrangements(&self) -> usize {
         1
     }
@@ -90,7 +90,7 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
         (0..self.ports()).map(|index| self.port(0, index).width()).sum()
     }
 
-    /// Groups of nodes each of which could satisfy the equations alone, were it free. Default: each node by itself.
+    /// Groups of nodes each of which could satisfy the equations alone if it were free. Default: each node by itself.
     fn sides(&self) -> Vec<Vec<NodeId>> {
         let ports = (0..self.ports()).map(|index| self.port(0, index));
         let node = |port| if let Port::Node(node) = port { Some(vec![node]) } else { None };
@@ -100,45 +100,45 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     /// Violations, evaluated from absolute positions [m, rad].
     fn violation(&self, at: &Kinematics, out: &mut [f64]);
 
-    /// Changes of the violations since the start of a step, without cancellation [m, rad]; the time `elapsed` [s] ends
-    /// at `time`.
+    /// Changes of the violations since the start of a step, without cancellation [m, rad]; the time interval `elapsed`
+    /// [s] ends at `time`.
     fn violation_change(&self, increments: &Increments<'_>, time_elapsed: (f64, f64), out: &mut [f64]);
 
     /// B, by equation and local unknown; `out` is zero.
     fn gradient(&self, at: &Kinematics, out: &mut [f64]);
 
-    /// Derivatives of Bᵀ μ at constant multipliers, by local unknown and local unknown; `out` is zero.
+    /// Derivatives of Bᵀ μ at constant multipliers, local unknowns by local unknowns; `out` is zero.
     fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]);
 
-    /// ∂c/∂t by equation; `out` is zero. Default: nothing depends on the time itself.
+    /// ∂c/∂t by equation; `out` is zero. Default: no equation depends explicitly on time.
     fn time_derivative(&self, _at: &Kinematics, _out: &mut [f64]) {}
 
-    /// What c̈ holds besides B v̇, by equation [m/s², rad/s²].
+    /// The terms of c̈ other than B v̇, by equation [m/s², rad/s²].
     fn acceleration(&self, at: &Kinematics, out: &mut [f64]);
 
-    /// Whether it may depend on the time itself, at one instant or another.
+    /// Whether it may depend explicitly on time at any instant.
     fn may_depend_on_time(&self) -> bool {
         false
     }
 
-    /// Whether it depends on the time itself at a configuration.
+    /// Whether it depends explicitly on time at a configuration.
     fn depends_on_time(&self, _at: &Kinematics) -> bool {
         false
     }
 
-    /// Work that it does, as it depends on the time, between two configurations with all multipliers [J].
+    /// Work due to its explicit dependence on time, between two configurations with all multipliers [J].
     fn work(&self, _from: (&Kinematics, &[f64]), _to: (&Kinematics, &[f64])) -> f64 {
         0.0
     }
 
-    /// Times at which its functions of time are known not to be smooth [s].
+    /// Known breakpoints of its functions of time [s].
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
 
     /// Gradients and integrated violations at the stages of a step that ends with the increments `end`; `before` are the
-    /// violations at its start. Default: the rates at the stages are such that no violation is left at the end; forces are those
-    /// of the gradients there, so that the work is of the order of the scheme, and not zero as that of joints.
+    /// violations at its start. By default the rates at the stages leave no violation at the end, and forces are those of the
+    /// gradients there. Their work is then of the order of the scheme's error, and not zero as that of joints.
     fn visit(&self, step: &StepStages<'_>, end: &Increments<'_>, before: &[f64], out: &mut Visit<'_>) {
         let size = self.size();
         for (j, at) in step.stages.iter().enumerate() {

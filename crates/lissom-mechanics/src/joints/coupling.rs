@@ -1,11 +1,12 @@
 //! A relation between coordinates of joints, c(q, t) = 0: gears, cams, equations. The forces on the coordinates are
-//! -μ ∂c/∂q; they do no work together where c does not depend on time.
+//! -μ ∂c/∂q; their total work is zero if c does not depend explicitly on time.
 //!
 //! ```text
 //! ċ = ∂c/∂q q̇ + ∂c/∂t,      c̈ = ∂c/∂q q̈ + d²c/dε² (q + ε q̇, t + ε)
 //! ```
 //!
-//! Derivatives come from second-order jets along directions: d²c/dε² along u + v, u and v gives the mixed one of u and v.
+//! Derivatives are computed by second-order jets along directions: d²c/dε² along u + v, u and v gives the mixed one of u
+//! and v.
 
 use std::sync::Arc;
 
@@ -16,22 +17,22 @@ use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 pub use crate::relation::{Coupled, MAX_COUPLED, Relation, RelationPoint};
 use crate::round_off;
 
-/// A relation with its position in the system.
+/// A relation with its location in the system.
 #[derive(Debug)]
 pub struct Coupling {
     /// Name in the model.
     pub name: String,
     /// Its coordinates.
     pub coordinates: Vec<CoordinateId>,
-    /// What each of them measures.
+    /// The quantity of each of them.
     pub quantities: Vec<Quantity>,
-    /// What its equation measures.
+    /// The quantity of its equation.
     pub quantity: Quantity,
     /// Its multiplier among all.
     pub multiplier: usize,
     /// Its equation.
     pub relation: Arc<dyn Relation>,
-    /// The equation is multiplied by this, so that its largest derivative at the start is 1.
+    /// Factor of the equation, so that its largest derivative at the start is 1.
     pub scale: f64,
 }
 
@@ -50,7 +51,7 @@ impl Coupling {
         self.each(|coordinate| at.coordinates[coordinate].rate)
     }
 
-    /// Numbers of its coordinates.
+    /// Values of its coordinates.
     pub fn each(&self, of: impl Fn(CoordinateId) -> f64) -> Coupled {
         let mut out = Coupled::default();
         for (value, &coordinate) in out.iter_mut().zip(&self.coordinates) {
@@ -189,7 +190,7 @@ impl Constraint for Coupling {
         0.5 * elapsed * (power(from) + power(to))
     }
 
-    /// As joints: forces do no work but that of ∂c/∂t.
+    /// As for joints: forces do no work except that of ∂c/∂t.
     fn visit(&self, step: &StepStages<'_>, end: &Increments<'_>, before: &[f64], out: &mut Visit<'_>) {
         let mut rows = step.stages.map(|at| self.slopes(at));
         let mut rates = [0.0; STAGES];
@@ -219,7 +220,7 @@ impl Constraint for Coupling {
         if inverse == 0.0 {
             shares = [1.0 / whole; STAGES];
         }
-        // What is below round-off counts in the violations but would be noise in the forces.
+        // A value below round-off is included in the violations but would be noise in the forces.
         let known = missed * above_round_off(missed.abs(), round_off::OPERATIONS * way);
         let violations =
             step.at_stages(0.0, [0, 1].map(|j| rates[j] + shares[j] * missed + before[0] / whole));
@@ -297,7 +298,7 @@ mod tests {
         }
     }
 
-    /// Values and arguments that are large round much more than the change is.
+    /// Large values and arguments have round-off above the change.
     #[test]
     fn changes_keep_their_digits_whatever_rounds() {
         let width: f64 = 3e-9;

@@ -1,4 +1,4 @@
-//! Cylindrical joint: the tip slides along an axis of the base and turns about it. Rotation and displacement are
+//! Cylindrical joint: the tip slides along an axis of the base and rotates about it. Rotation and displacement are
 //! algebraic coordinates: x = d e₃ in the joint frame, R = Q(φ).
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START};
 
-/// The displacement's position among the coordinates, after the rotation.
+/// Index of the displacement among the coordinates, after the rotation.
 const SLIDE: usize = 1;
 
 /// Registry entry.
@@ -31,7 +31,7 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// A slide that turns.
+/// A cylindrical joint.
 #[derive(Clone, Copy, Debug)]
 pub struct Cylindrical {
     /// Relative rotation at the start [rad].

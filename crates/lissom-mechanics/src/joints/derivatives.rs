@@ -1,12 +1,13 @@
-//! Derivatives of a joint's equations and forces by its local unknowns.
+//! Derivatives of a joint's equations and forces with respect to its local unknowns.
 //!
 //! ```text
 //! (η, φ) = J δ,   B = (∂c/∂(η, φ)) J,   K = Jᵀ C J - [base] Jᵀ X(w) J,   Γ = Bᵀ W B
 //! ```
 //!
-//! δ variations of the local unknowns, C Hessian of the equations, X(w) how the base's wrench turns with η, [base]
-//! the base's rows only. To the right of each product J and B go through the charts of the nodes, if asked for.
-//! Rows are as wide as two blocks of eight, one for each side, and so products are of a number and a vector register.
+//! δ variations of the local unknowns, C Hessian of the equations, X(w) the derivative of the base's wrench with
+//! respect to η, [base] the base's rows only. To the right of each product J and B are transformed by the charts of
+//! the nodes, if requested. Rows are as wide as two blocks of eight, one for each side, and so products are of a
+//! number and a vector register.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Block, Lanes, Matrix3, Matrix6, Real, Vector3, Vector6, WIDTH};
@@ -14,25 +15,25 @@ use pulp::{Simd, WithSimd};
 
 use super::{ConstraintHessian, Gradient, MAX_COORDINATES, MAX_EQUATIONS};
 
-/// The tip's first local unknown. The base's six begin at 0; two positions behind them stay empty, so that each side
-/// fills vectors of eight.
+/// The tip's first local unknown. The base's six begin at 0; the two positions after them are empty, so that each
+/// side fills vectors of eight.
 pub const TIP: usize = 8;
 /// The joint's own coordinates.
 pub const OWN: usize = TIP + 6;
 /// Positions of local unknowns.
 pub const LOCAL: usize = OWN + MAX_COORDINATES;
-/// Blocks of local unknowns, one for each side; another one takes the equations.
+/// Blocks of local unknowns, one for each side; a further one is for the equations.
 const SIDES: usize = 2;
 /// Relative motion and own coordinates.
 const INNER: usize = 6 + MAX_COORDINATES;
 
-/// One number by local unknown.
+/// One value per local unknown.
 type Row = [Block; SIDES];
 
 const ZEROS: Row = [[0.0; WIDTH]; SIDES];
 
-/// How the relative motion varies with one of the nodes: translation by translation and rotation by rotation alike,
-/// translation by rotation. Rotation by translation is zero.
+/// Derivative of the relative motion with respect to one of the nodes: translation by translation and rotation by
+/// rotation are equal, then translation by rotation. Rotation by translation is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Side {
     /// ∂η_u/∂u = ∂η_θ/∂θ.
@@ -54,7 +55,7 @@ impl Side {
         Self { turning, shifting }
     }
 
-    /// The same by increments of the node instead of body variations.
+    /// The same with respect to increments of the node instead of body variations.
     fn through(&self, chart: &IncrementTangent) -> Self {
         Self {
             turning: self.turning * chart.turning,
@@ -92,7 +93,8 @@ impl IncrementTangent {
         }
     }
 
-    /// Takes derivatives by a body variation of the node to those by its increment: a row of six times T(ψ).
+    /// Transforms derivatives with respect to a body variation of the node to those with respect to its increment: a
+    /// row of six times T(ψ).
     pub fn through(&self, row: &mut [f64]) {
         let mut turned = [0.0; 6];
         for j in 0..3 {
@@ -104,13 +106,13 @@ impl IncrementTangent {
         row.copy_from_slice(&turned);
     }
 
-    /// Of no increment.
+    /// For a zero increment.
     pub fn none() -> Self {
         Self { turning: Matrix3::identity(), shifting: Matrix3::zeros() }
     }
 }
 
-/// Of a joint, what its derivatives are made of.
+/// The terms of a joint's derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Inner<'a> {
     /// Number of equations and of own coordinates.
@@ -125,18 +127,18 @@ pub struct Inner<'a> {
     pub weights: &'a [f64; MAX_EQUATIONS],
 }
 
-/// Derivatives of one joint after the other.
+/// Storage for the derivatives of one joint at a time.
 #[derive(Clone, Debug)]
 pub struct Derivatives {
     equations: usize,
     coordinates: usize,
-    /// J, and the same through the charts.
+    /// J, and J transformed by the charts.
     variation: [Row; INNER],
     charted: [Row; INNER],
-    /// B, and the same through the charts.
+    /// B, and B transformed by the charts.
     gradient: [Row; MAX_EQUATIONS],
     charted_gradient: [Row; MAX_EQUATIONS],
-    /// C J, and C J - X(w) J, through the charts.
+    /// C J, and C J - X(w) J, transformed by the charts.
     on_tip: [Row; INNER],
     on_base: [Row; INNER],
     weights: [f64; MAX_EQUATIONS],
@@ -152,7 +154,7 @@ impl Default for Derivatives {
 }
 
 impl Derivatives {
-    /// Room.
+    /// Allocates the storage.
     pub fn new() -> Self {
         let mut own = [ZEROS; INNER];
         for k in 0..MAX_COORDINATES {
@@ -173,7 +175,7 @@ impl Derivatives {
         }
     }
 
-    /// Of the joint with these sides, base and tip, through these charts.
+    /// Computes the derivatives of the joint with these sides, base and tip, transformed by these charts.
     pub fn fill(&mut self, sides: &[Side; 2], charts: Option<[&IncrementTangent; 2]>, inner: &Inner<'_>) {
         (self.equations, self.coordinates) = inner.counts;
         self.weights = *inner.weights;
@@ -185,7 +187,7 @@ impl Derivatives {
         self.processor.dispatch(Fill { inner, out: self });
     }
 
-    /// Makes the local matrix with these factors of K, Γ and B.
+    /// Computes the local matrix with these factors of K, Γ and B.
     pub fn sum(&mut self, place: f64, augmented: f64, constraint: f64) {
         self.processor.dispatch(Summation { place, augmented, constraint, out: self });
     }
@@ -225,7 +227,7 @@ impl WithSimd for Fill<'_> {
 }
 
 impl Fill<'_> {
-    /// As many columns of one side as a vector holds.
+    /// As many columns of one side as a vector register contains.
     #[inline(always)]
     fn columns<S: Simd>(&mut self, simd: S, side: usize, part: usize) {
         let Self { inner, out } = self;
@@ -258,7 +260,7 @@ impl Fill<'_> {
             }
             bent[m].store(&mut out.on_tip[m][side], part);
         }
-        // X(w) J = [[0, ñ], [ñ, m̃]] J is taken off. Row i of ñ: -n_b in column a, n_a in column b.
+        // X(w) J = [[0, ñ], [ñ, m̃]] J is subtracted. Row i of ñ: -n_b in column a, n_a in column b.
         let mut w = [zero; 6];
         for m in 0..6 {
             w[m] = Lanes::splat(simd, inner.wrench[m]);
@@ -304,7 +306,7 @@ impl WithSimd for Summation<'_> {
 }
 
 impl Summation<'_> {
-    /// As many rows of one side as a vector holds, in all columns.
+    /// As many rows of one side as a vector register contains, in all columns.
     #[inline(always)]
     fn rows<S: Simd>(&mut self, simd: S, side: usize, part: usize) {
         let (coordinates, equations) = (self.out.coordinates, self.out.equations);

@@ -45,7 +45,7 @@ impl Joint for Distance {
         &["distance"]
     }
 
-    /// One over the length.
+    /// The inverse of the length.
     fn constants(&self) -> [f64; MAX_CONSTANTS] {
         let mut constants = [0.0; MAX_CONSTANTS];
         constants[0] = 1.0 / self.length;

@@ -6,14 +6,14 @@ use super::prescribed::Prescribed;
 use crate::kinematics::work::along;
 use crate::kinematics::{Kinematics, Quantity};
 
-/// A driven coordinate with its position among the multipliers.
+/// A driven coordinate with its location among the multipliers.
 #[derive(Debug)]
 pub struct Drive {
     /// Name in the model.
     pub name: String,
-    /// What is prescribed.
+    /// The prescribed coordinate and its function.
     pub prescribed: Prescribed,
-    /// What its coordinate measures.
+    /// The quantity of its coordinate.
     pub quantity: Quantity,
     /// Its multiplier, the drive's moment or force, among all multipliers.
     pub multiplier: usize,

@@ -1,4 +1,4 @@
-//! Equation: any expression of joints' coordinates and of time vanishes, c = f(q, t).
+//! Equation: an arbitrary expression of joints' coordinates and of time vanishes, c = f(q, t).
 
 use super::kind::{Build, Coupled, JointKind};
 use crate::registry::{Parameter, ParameterType};

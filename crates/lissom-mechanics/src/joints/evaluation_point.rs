@@ -4,7 +4,7 @@ use super::derivatives::IncrementTangent;
 use super::starts::JointStarts;
 use crate::kinematics::{Kinematics, MotionChange, NodeMotion, Quantity};
 
-/// What has changed since the start of the step.
+/// Changes since the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Increments<'a> {
     /// The start of the step.
@@ -13,21 +13,20 @@ pub struct Increments<'a> {
     pub nodes: &'a [MotionChange],
     /// Change of every coordinate.
     pub coordinates: &'a [f64],
-    /// What joints see at the start, if somebody has it at hand.
+    /// Values of joints at the start, if they have been stored.
     pub joints: Option<&'a JointStarts>,
 }
 
-/// Where residual and tangent are evaluated.
+/// Evaluation point of residual and tangent.
 #[derive(Clone, Copy, Debug)]
 pub struct Point<'a> {
     /// Positions, twists and accelerations.
     pub at: &'a Kinematics,
-    /// Where the stresses of the geometric stiffness are taken from: `at` itself, or, while iterations are
-    /// far from equilibrium, the start of the step. Stresses of a far iterate can be larger than any that
-    /// the motion ever sees, for a small turn stretches a stiff element [cf. Magisano, Leonetti and Garcea
-    /// 2017].
+    /// Configuration whose stresses are used in the geometric stiffness: `at` itself, or, while iterations are far
+    /// from equilibrium, the start of the step. Stresses of a distant iterate can be larger than any in the motion,
+    /// because a small rotation stretches a stiff element [cf. Magisano, Leonetti and Garcea 2017].
     pub stressed: &'a Kinematics,
-    /// What has changed since the start of the step.
+    /// Changes since the start of the step.
     pub increments: Increments<'a>,
     /// Multipliers [N, N m].
     pub multipliers: &'a [f64],
@@ -37,12 +36,12 @@ pub struct Point<'a> {
     pub augmentation: Augmentation,
 }
 
-/// How violations are turned into forces by the augmented Lagrangian term.
+/// Forces from violations in the augmented Lagrangian term.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Augmentation {
     /// Force per violation of a length [N/m].
     pub weight: f64,
-    /// The length that represents a radian: an angle's violation weighs its square [m].
+    /// The length that represents a radian: the weight of an angle's violation contains its square [m].
     pub radian: f64,
 }
 
@@ -61,14 +60,14 @@ impl Augmentation {
     }
 }
 
-/// Which unknowns derivatives are taken with respect to.
+/// Unknowns of derivatives.
 #[derive(Clone, Copy, Debug)]
 pub enum Chart<'a> {
     /// Body variations at the point of linearisation.
     Body,
     /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ, T given by node.
     Increments(&'a [IncrementTangent]),
-    /// Departures ψ̂ from going on with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and
-    /// δV̇ = δψ̂'' + ad_V δψ̂'.
+    /// Departures ψ̂ from extrapolation with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and δV̇ = δψ̂'' +
+    /// ad_V δψ̂'.
     Departures(&'a [NodeMotion]),
 }

@@ -1,5 +1,5 @@
-//! Generalised coordinates without a position in space: numbers that springs, loads, relations and the matrices of
-//! `elements::coordinate_dynamics` act on, as on the coordinates of joints. They have no equations of their own.
+//! Generalised coordinates without a position in space: springs, loads, relations and the matrices of
+//! `elements::coordinate_dynamics` act on them as on the coordinates of joints. They have no equations of their own.
 
 use super::Coordinate;
 use super::kind::{Build, JointKind};
@@ -34,10 +34,10 @@ pub const KIND: JointKind = JointKind {
     build: Build::Free(read),
 };
 
-/// A coordinate that no joint between two nodes has.
+/// A coordinate of no joint between two nodes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeCoordinate {
-    /// What it is.
+    /// Its name and quantity.
     pub coordinate: Coordinate,
     /// At the start [m, rad].
     pub value: f64,

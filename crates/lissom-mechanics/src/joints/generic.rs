@@ -6,7 +6,7 @@
 //!                        to the tip's axis c;   about c alone: the base's axis c+1 is perpendicular to the tip's c+2
 //! ```
 //!
-//! Every rotational equation is an entry of R, with the sign that makes it the angle itself where angles are small.
+//! Every rotational equation is an entry of R, with the sign for which it approximates the angle for small rotations.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Real, Screw, Triple, Vector3};
@@ -102,7 +102,7 @@ impl<const LENGTHS: usize> Generic<LENGTHS> {
             let negative = Cosine { axes: (next, last), sign: -1.0 };
             match single {
                 _ if count == 3 => positive,
-                // The column is that of the tip's axis about which it may turn.
+                // The column is that of the tip's axis about which it may rotate.
                 Some(free) if count == 2 && free == next => positive,
                 _ => negative,
             }
@@ -128,7 +128,7 @@ const fn names() -> [[&'static str; 6]; 64] {
     all
 }
 
-/// Names of the equations by what is locked, as a binary number.
+/// Names of the equations by the locked directions, as a binary number.
 static EQUATIONS: [[&str; 6]; 64] = names();
 
 impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
@@ -140,8 +140,8 @@ impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
         &EQUATIONS[mask][..mask.count_ones() as usize]
     }
 
-    /// 1 at the only locked translation, or the only free one where two are locked; likewise 1 at the only free
-    /// rotation, at the only locked one, and where all are locked.
+    /// 1 at the only locked translation, or at the only free one if two are locked; likewise 1 at the only free
+    /// rotation, at the only locked one, and for each if all are locked.
     fn constants(&self) -> [f64; MAX_CONSTANTS] {
         let mut constants = [0.0; MAX_CONSTANTS];
         for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! In-line: the tip's point stays on a line of the base, x·e₁ = x·e₂ = 0.
+//! In-line: the tip's point remains on a line of the base, x·e₁ = x·e₂ = 0.
 
 use super::generic::locking;
 use super::kind::{Build, Frames, JointKind};

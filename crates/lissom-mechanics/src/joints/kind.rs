@@ -1,4 +1,4 @@
-//! What a kind of joint states about itself, and how its equations are made.
+//! Description of a kind of joint, and the construction of its equations.
 
 use std::sync::Arc;
 
@@ -10,24 +10,24 @@ use crate::kinematics::Quantity;
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
 use crate::relation::Relation;
 
-/// How the joint frames are laid at the start.
+/// Initial arrangement of the joint frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frames {
-    /// Both at one point; their direction does not matter.
+    /// Both at one point; their orientation is arbitrary.
     Point,
     /// Both at one point, third axis along `axis`.
     Axis,
     /// Both at one point, first axis along `axis`, second along `second_axis`.
     TwoAxes,
-    /// The same; along the global axes where none is given.
+    /// The same; along the inertial axes if none is given.
     GivenOrGlobalAxes,
     /// One at the base's point, one at the tip node; third axis along `axis`.
     SpanWithAxis,
-    /// One at the base's point, one at the tip node; their direction does not matter.
+    /// One at the base's point, one at the tip node; their orientation is arbitrary.
     Span,
 }
 
-/// Position of the tip's joint frame at the start, seen from the base's joint frame.
+/// Initial position of the tip's joint frame relative to the base's joint frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     /// From the base's point to the tip's point, in the base's joint frame [m].
@@ -38,25 +38,25 @@ pub struct Geometry {
     pub axes: Rotation,
 }
 
-/// Makes the equations of a joint.
+/// Builds the equations of a joint.
 pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn AnyJoint>, ParameterError>;
 
-/// Makes a relation between coordinates; they have these values at the start [rad, m].
+/// Builds a relation between coordinates with these initial values [rad, m].
 pub type MakeRelation = fn(&Parameters, &[f64]) -> Result<Arc<dyn Relation>, ParameterError>;
 
-/// Makes coordinates that are not between nodes.
+/// Builds coordinates that are not between nodes.
 pub type MakeFree = fn(&Parameters) -> Result<Vec<FreeCoordinate>, ParameterError>;
 
-/// Which coordinates a relation is between.
+/// The coordinates of a relation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coupled {
     /// One of a joint, and one of another joint.
     Two,
-    /// Those that its expression names.
+    /// Those in its expression.
     Named,
 }
 
-/// How a joint is made.
+/// Construction of a joint.
 #[derive(Clone, Copy, Debug)]
 pub enum Build {
     /// Between two nodes.
@@ -65,7 +65,7 @@ pub enum Build {
     Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
     /// Prescribes the whole motion of a node relative to another.
     Motion,
-    /// Lets a point of the tip slide along beams.
+    /// Constrains a point of the tip to slide along beams.
     AlongBeams,
     /// Has coordinates of its own, not between nodes.
     Free(MakeFree),
@@ -73,7 +73,7 @@ pub enum Build {
     Coupling(Coupled, MakeRelation),
 }
 
-/// A kind of joint, as the model file and the tests know it.
+/// A kind of joint, as used by the model file and the tests.
 #[derive(Clone, Copy, Debug)]
 pub struct JointKind {
     /// Name in the model file.
@@ -84,6 +84,6 @@ pub struct JointKind {
     pub sample: &'static str,
     /// Parameters beyond base, tip, at and the axes.
     pub parameters: &'static [Parameter],
-    /// How it is made.
+    /// Its construction.
     pub build: Build,
 }

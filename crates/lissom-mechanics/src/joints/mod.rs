@@ -1,8 +1,8 @@
-//! What must hold: joints between two nodes, and prescribed relative motions.
+//! Constraints: joints between two nodes, and prescribed relative motions.
 //!
-//! A joint sees only the relative motion of two joint frames, one carried by its base node and one by
-//! its tip node, and its own algebraic coordinates. It knows no step size, no scheme, no scaling, and
-//! not even where it is. `attached` turns its answers into rows of the system.
+//! A joint depends only on the relative motion of two joint frames, one fixed to its base node and one to its tip
+//! node, and on its own algebraic coordinates. It is independent of step size, scheme, scaling and absolute position.
+//! `attached` transforms its results to rows of the system.
 
 pub mod alignment;
 mod any_joint;
@@ -66,21 +66,21 @@ use relative_increment::{CoordinateIncrement, RelativeIncrement};
 
 use crate::kinematics::Quantity;
 
-/// Most equations a joint may have.
+/// Maximum number of equations of a joint.
 pub const MAX_EQUATIONS: usize = 6;
-/// Most algebraic coordinates a joint may have.
+/// Maximum number of algebraic coordinates of a joint.
 pub const MAX_COORDINATES: usize = 2;
 
-/// Most numbers of its own that the equations of a joint hold.
+/// Maximum number of constants in the equations of a joint.
 pub const MAX_CONSTANTS: usize = 10;
 
 /// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
 /// step, computed from the increments without cancellation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relative {
-    /// Relative rotation now.
+    /// Present relative rotation.
     pub rotation: Matrix3,
-    /// Relative position now [m].
+    /// Present relative position [m].
     pub position: Vector3,
     /// Change of the rotation matrix since the start of the step.
     pub rotation_change: Matrix3,
@@ -113,7 +113,7 @@ pub type Branch = fn(&Relative) -> f64;
 pub struct Coordinate {
     /// Name within the joint.
     pub name: &'static str,
-    /// What it is.
+    /// Its quantity.
     pub quantity: Quantity,
 }
 

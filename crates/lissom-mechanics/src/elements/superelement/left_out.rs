@@ -1,8 +1,8 @@
-//! Forces that the modes omitted from a superelement would add where it is excited faster than its modes can follow: an estimate for a
-//! warning.
+//! Forces of the modes omitted from a superelement if it is excited faster than its modes can follow: an estimate for a warning.
 //!
-//! Legend: y displacements against the floating frame, M_y their mass, m total mass, G momentum by their rates, V natural modes with the
-//! floating frame held, z = Vᵀ M_y y, L_i = G V_i. The effective mass of mode i along axis c is L_ci² [Craig and Kurdila 2006, ch. 17].
+//! Legend: y displacements relative to the floating frame, M_y their mass, m total mass, G momentum by their rates, V natural
+//! modes with the floating frame fixed, z = Vᵀ M_y y, L_i = G V_i. The effective mass of mode i along axis c is L_ci² [Craig and
+//! Kurdila 2006, ch. 17].
 //!
 //! ```text
 //! left out     μ_c = m - Σ_i L_ci²
@@ -10,9 +10,9 @@
 //! error_c = μ_c L_cn z̈_n / |L_n|²
 //! ```
 //!
-//! A mode whose period is short against changes of the load follows statically, and z̈ vanishes. A sudden load accelerates all modes alike,
-//! z̈_i = -L_i a, also those that are omitted, whose mass then moves with the floating frame in the model and not in the part. The highest
-//! mode that is kept shows how much of a load is sudden.
+//! A mode whose period is short compared with changes of the load responds statically, and z̈ vanishes. A sudden load accelerates
+//! all modes alike, z̈_i = -L_i a. This includes omitted modes, whose mass moves with the floating frame in the model, but not in
+//! the part. The response of the highest retained mode shows how much of a load is sudden.
 
 use lissom_motion::{Vector3, rotation_part, translation_part};
 use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
@@ -22,9 +22,9 @@ use super::relative::Relative;
 use super::vectors::three;
 use crate::kinematics::Kinematics;
 
-/// Error of forces, as a share of the largest inertial or elastic force of the element, from which on a warning is given.
+/// Error of forces, as a fraction of the largest inertial or elastic force of the element, that causes a warning.
 pub(super) const MAX_ERROR: f64 = 0.05;
-/// Share of the mass that makes a mode count.
+/// Smallest effective mass of a significant mode, as a fraction of the mass.
 const MIN_MASS_FRACTION: f64 = 0.01;
 
 /// Maps of accelerations ÿ to errors of forces [kg].
@@ -34,7 +34,7 @@ pub(super) struct LeftOut {
 }
 
 impl LeftOut {
-    /// Of an element; none if nothing moves against the floating frame.
+    /// For an element; none if nothing moves relative to the floating frame.
     pub(super) fn of(element: &Part) -> Option<Self> {
         let rows: Vec<usize> = (0..element.size()).filter(|row| row / 6 != element.frame).collect();
         if rows.is_empty() {
@@ -67,7 +67,8 @@ impl LeftOut {
         Some(Self { error })
     }
 
-    /// The error of forces as a share of the largest of inertial and elastic forces and weight; none without forces. `stress` is K u.
+    /// The error of forces as a fraction of the largest of inertial and elastic forces and weight; none without forces. `stress`
+    /// is K u.
     pub(super) fn share(&self, element: &Part, at: &Kinematics, stress: &[f64]) -> Option<f64> {
         let mut error = Vector3::zeros();
         let (mut largest, mut sum) = (0.0_f64, Vector3::zeros());
@@ -89,7 +90,7 @@ impl LeftOut {
         let rigid =
             change + spin.cross(&velocity) + turning.cross(&centre) + spin.cross(&spin.cross(&centre))
                 - gravity;
-        // Weight counts as well: a part that falls freely has no other forces.
+        // Weight is included: a part in free fall has no other forces.
         let weight = element.total * gravity.norm();
         let largest = largest.max(sum.norm()).max(element.total * rigid.norm()).max(weight);
         (largest > 0.0).then(|| error.norm() / largest)
@@ -106,7 +107,8 @@ mod tests {
     use crate::kinematics::NodeMotion;
     use lissom_motion::Motion;
 
-    /// A rod with linear shapes: a quarter of its mass is omitted, and a sixth of it times the acceleration of its end is missed.
+    /// A rod with linear shapes: a quarter of its mass is omitted, and a sixth of it times the acceleration of its end is the
+    /// error.
     #[test]
     fn a_sudden_load_on_a_rod_with_linear_shapes_misses_a_quarter_of_its_mass() {
         let (total, length) = (12.0, 2.0);
@@ -139,7 +141,7 @@ mod tests {
             at.nodes[1].acceleration[0] = of_base + own;
             estimate.share(&element, &at, &[0.0; 12])
         };
-        // A base that is accelerated by 1 leaves the end behind by 3/2: 3 kg are wrong of 12.
+        // A base acceleration of 1 with an end acceleration of -3/2 relative to it: an error of 3 kg in 12.
         let found = share(-1.5, 1.0).expect("there are forces");
         assert!((found - 0.25).abs() < 1e-12, "{found}");
         assert_eq!(share(0.0, 1.0), Some(0.0));

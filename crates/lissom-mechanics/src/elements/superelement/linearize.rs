@@ -1,5 +1,5 @@
-//! Derivatives of a superelement's forces. All that depends on the motion does so through maps y_i = A_i ξ_i + F_i ξ_f of the
-//! unknowns ξ of one interface and of the floating frame.
+//! Derivatives of a superelement's forces. The motion enters only through maps y_i = A_i ξ_i + F_i ξ_f of the unknowns ξ of
+//! one interface and of the floating frame.
 
 use lissom_motion::{
     Matrix3, Matrix6, Vector3, Vector6, inverse_tangent_derivative, inverse_tangent_transpose_derivative,
@@ -12,12 +12,12 @@ use super::part::Part;
 use super::vectors::three;
 use crate::elements::{Tangents, add_block};
 
-/// A map of the unknowns, interface by interface.
+/// A linear map of the unknowns, interface by interface.
 #[derive(Default)]
 pub(super) struct Map {
     own: Vec<Matrix6>,
     frame: Vec<Matrix6>,
-    /// Whether modal coordinates are mapped to themselves, or to nothing.
+    /// Whether modal coordinates are mapped to themselves, or to zero.
     keeps_modes: bool,
 }
 
@@ -33,7 +33,7 @@ impl Map {
         self.frame.push(*frame);
     }
 
-    /// The matrix times this map.
+    /// The product of the matrix and this map.
     pub(super) fn after(&self, matrix: &DMatrix<f64>, frame: usize, out: &mut DMatrix<f64>) {
         let size = matrix.ncols();
         make_room(out, matrix.nrows(), size);
@@ -48,7 +48,7 @@ impl Map {
         }
     }
 
-    /// Adds this map's transpose times the matrix.
+    /// Adds the product of this map's transpose and the matrix.
     pub(super) fn add_before(&self, matrix: &DMatrix<f64>, frame: usize, out: &mut [f64]) {
         let size = matrix.nrows();
         for (i, (own, to_frame)) in self.own.iter().zip(&self.frame).enumerate() {
@@ -82,7 +82,7 @@ fn add_rows(out: &mut [f64], first: usize, map: &Matrix6, rows: &Rows<'_>) {
     }
 }
 
-/// Adds three rows times a matrix of the rows before.
+/// Adds the product of a 3 x 3 factor and three rows of a matrix.
 fn add_three(out: &mut DMatrix<f64>, first: usize, factor: &Matrix3, rows: &DMatrix<f64>, from: usize) {
     for column in 0..out.ncols() {
         let own = Vector3::new(rows[(from, column)], rows[(from + 1, column)], rows[(from + 2, column)]);
@@ -93,26 +93,26 @@ fn add_three(out: &mut DMatrix<f64>, first: usize, factor: &Matrix3, rows: &DMat
     }
 }
 
-/// Room for the maps and for matrices.
+/// Storage for the maps and for matrices.
 #[derive(Default)]
 pub(super) struct Maps {
     /// ∂u/∂ position, and ∂u̇/∂ position.
     displacement: Map,
     rate: Map,
-    /// ∂η/∂ twist, and by position.
+    /// ∂η/∂ twist, and ∂η/∂ position.
     velocity: Map,
     velocity_by_place: Map,
-    /// ∂η̇/∂ twist, and by position.
+    /// ∂η̇/∂ twist, and ∂η̇/∂ position.
     acceleration_by_twist: Map,
     acceleration_by_place: Map,
     first: DMatrix<f64>,
     second: DMatrix<f64>,
-    /// Six rows of a matrix, and what acts on the floating frame besides.
+    /// Six rows of a matrix, and the additional force on the floating frame.
     six: DMatrix<f64>,
     on_frame: DMatrix<f64>,
 }
 
-/// Makes it a matrix of zeros of this size, without allocating where it has the size.
+/// Resizes to a matrix of zeros, without allocation if it has the size.
 fn make_room(matrix: &mut DMatrix<f64>, rows: usize, columns: usize) {
     if matrix.shape() != (rows, columns) {
         *matrix = DMatrix::zeros(rows, columns);
@@ -158,7 +158,8 @@ impl Maps {
                 let arm = skew(&scratch.arms[i]);
                 let own = blocks((turn, zero), (zero, inverse));
                 let by_frame = blocks((-Matrix3::identity(), arm), (zero, -inverse * turn.transpose()));
-                // ∂u̇: of r by v̂ and by r; of log E by the angles, and by what is seen of ω_f.
+                // ∂u̇: of r with respect to v̂ and r; of log E with respect to the angles, and to ω_f in the
+                // interface's axes.
                 let bent = rotations(inverse_tangent_derivative, &angles, &scratch.relative_spins[i]);
                 let seen = turn.tr_mul(&scratch.twist[1]);
                 let rate_own =
@@ -187,7 +188,7 @@ impl Maps {
         }
     }
 
-    /// The mass matrix, row after row.
+    /// The mass matrix, row by row.
     pub(super) fn mass(&mut self, of: &Part, scratch: &ElementScratch, out: &mut Vec<f64>) {
         self.velocity.begin(true);
         let zero = Matrix3::zeros();
@@ -200,7 +201,7 @@ impl Maps {
         self.velocity.add_before(&self.first, of.frame, out);
     }
 
-    /// Adds the derivatives of elastic and viscous forces; the room holds motion and stress.
+    /// Adds the derivatives of elastic and viscous forces; the scratch contains motion and stress.
     pub(super) fn add_elastic_tangents(&mut self, of: &Part, scratch: &ElementScratch, out: &mut Tangents) {
         self.fill(of, scratch);
         let frame = of.frame;
@@ -216,7 +217,7 @@ impl Maps {
         geometric(of, scratch, &mut out.stiffness);
     }
 
-    /// Adds the derivatives of inertial forces, after those of elastic ones; the room holds motion and momenta.
+    /// Adds the derivatives of inertial forces, after those of elastic ones; the scratch contains motion and momenta.
     pub(super) fn add_inertial_tangents(&mut self, of: &Part, scratch: &ElementScratch, out: &mut Tangents) {
         let frame = of.frame;
         self.velocity.after(&of.mass, frame, &mut self.first);
@@ -228,7 +229,7 @@ impl Maps {
         self.add_momenta(of, scratch, true, &mut out.stiffness);
     }
 
-    /// Adds the derivatives of the inertial forces: `first` holds those of p, `second` those of ṗ.
+    /// Adds the derivatives of the inertial forces: `first` contains those of p, `second` those of ṗ.
     fn add_momenta(&mut self, of: &Part, scratch: &ElementScratch, by_place: bool, out: &mut [f64]) {
         let size = of.size();
         let frame = of.frame;
@@ -246,7 +247,7 @@ impl Maps {
             add_three(&mut self.second, 6 * i + 3, &(spin - turning), &self.six, 3);
             add_three(&mut self.on_frame, 0, &speed, &self.six, 0);
             add_three(&mut self.on_frame, 0, &turning, &self.six, 3);
-            // What depends on η_i itself, and on ω_f.
+            // Terms with η_i itself, and with ω_f.
             let map = if by_place { &self.velocity_by_place } else { &self.velocity };
             for (columns, map) in [(6 * i, map.own[i]), (6 * frame, map.frame[i])] {
                 let linear: Matrix3x6<f64> = -p * map.fixed_view::<3, 6>(0, 0);
@@ -286,7 +287,7 @@ fn add_to<const R: usize, const C: usize>(
     view += block;
 }
 
-/// Adds what the forces conjugate to u do while their directions turn.
+/// Adds the terms due to the rotation of the forces conjugate to u.
 fn geometric(of: &Part, scratch: &ElementScratch, out: &mut [f64]) {
     let size = of.size();
     let rotation = 6 * of.frame + 3;
@@ -302,7 +303,7 @@ fn geometric(of: &Part, scratch: &ElementScratch, out: &mut [f64]) {
         add_block(out, size, (rotation, 6 * i), &(force * turn));
         add_block(out, size, (rotation, 6 * of.frame), &-force);
         add_block(out, size, (rotation, rotation), &(force * skew(&scratch.arms[i])));
-        // T⁻ᵀ m, and on the frame what balances it.
+        // T⁻ᵀ m, and the balancing moment on the frame.
         let local = inverse.tr_mul(&moment);
         let angles = three(&scratch.displacement, own);
         let bent = rotations(inverse_tangent_transpose_derivative, &angles, &moment) * inverse;

@@ -1,8 +1,8 @@
-//! By how much loads would change the stiffness of a superelement whose matrices do not know of it: an estimate for a warning.
+//! Change of stiffness by loads in a superelement whose matrices do not contain it: an estimate for a warning.
 //!
-//! Legend: interface k lies at the distance ℓ_k from the floating frame in the direction d_k, N_k = d_k·(K u)_k is the force along
-//! it, w_k the displacements under a unit force there with the floating interface held, F_q flexibility against forces on modes, f_q(ω)
-//! centrifugal forces on them.
+//! Legend: interface k is at the distance ℓ_k from the floating frame in the direction d_k, N_k = d_k·(K u)_k is the force along
+//! it, w_k the displacements under a unit force there with the floating interface fixed, F_q flexibility under modal forces,
+//! f_q(ω) centrifugal modal forces.
 //!
 //! ```text
 //! b = u - Σ N_k w_k - F_q f_q(ω)                       what the part bends besides its elongation
@@ -11,18 +11,19 @@
 //! part = (Σ |N_k| H_k + Σ |N_k| Σ_j H_j + ω² b·M b) / (b·K b)
 //! ```
 //!
-//! It is the share of the stiffness against b that axial forces and rotation give or take [Przemieniecki 1968, ch. 15, for H_k].
+//! It is the relative change of the stiffness against b by axial forces and rotation [Przemieniecki 1968, ch. 15, for H_k].
 //!
-//! Moments couple bending out of their plane with twist, and torques bending in one plane with that in the other: a section that is turned
-//! by ϑ carries a moment M on, which bends by M × ϑ. Rotations grow from the frame on, and moments towards it: a quarter of the product counts.
-//! Against beams under forces and torques at the end the estimate is 1.2 times the error.
+//! Moments couple bending out of their plane with torsion, and torques bending in one plane with that in the other. A section
+//! that is rotated by ϑ transmits a moment M, which bends by M × ϑ. Rotations increase from the frame on, and moments towards it:
+//! a quarter of the product is used. Compared with beams under forces and torques at the end the estimate is 1.2 times the error.
 //!
 //! ```text
 //! m_k moment and f_k force on interface k, M_k larger of m_k and m_k + ℓ d × f_k across d, T_k along d, κ_k rotation of the interface
 //! missed = ¼ max(λ_d |M × κ|_d, λ_t |M| |κ_d|, λ_t |T| |κ_t|),    λ_d, λ_t flexibilities of twist and of bending
 //! ```
 //!
-//! It is compared with the largest displacement, as missed times the size of the element. No matrices know it.
+//! The product of the omitted rotation and the element's size is compared with the largest displacement. No matrices
+//! contain it.
 
 use lissom_motion::{Matrix3, Vector3};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -32,12 +33,12 @@ use super::vectors::three;
 
 use crate::round_off;
 
-/// Share of the stiffness from which on a warning reports it.
+/// Relative change of stiffness that causes a warning.
 pub(super) const MAX_SHARE: f64 = 0.005;
-/// Bending below this fraction of the size of the element, and of its elongation, is nothing to be right about.
+/// Bending below this fraction of the size of the element, and of its elongation, is ignored.
 const NO_BENDING: [f64; 2] = [1e-7, 1.0];
 
-/// An interface seen from the floating frame.
+/// An interface relative to the floating frame.
 #[derive(Clone, Debug)]
 struct Axial {
     interface: usize,
@@ -46,14 +47,15 @@ struct Axial {
     length: f64,
     /// w.
     response: DVector<f64>,
-    /// Force along d in rotation across it, over the square of its rate [kg m].
+    /// Force along d under rotation about an axis perpendicular to it, over the square of its rate [kg m].
     centrifugal: f64,
-    /// Rotation about d under a unit moment about it, and the largest across d under one across [rad/(N m)].
+    /// Rotation about d under a unit moment about it, and the largest about a perpendicular axis under a unit moment
+    /// about one [rad/(N m)].
     twist: f64,
     bend: f64,
 }
 
-/// What the estimate needs.
+/// Data of the estimate.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LoadStiffness {
     axial: Vec<Axial>,
@@ -63,7 +65,7 @@ pub(super) struct LoadStiffness {
     of_modes: DMatrix<f64>,
 }
 
-/// Displacements under unit forces with one interface held; mechanisms do not move.
+/// Displacements under unit forces with one interface fixed; mechanisms do not move.
 pub fn flexibility(stiffness: &DMatrix<f64>, frame: usize) -> DMatrix<f64> {
     let size = stiffness.nrows();
     let is_held = |k: usize| k / 6 == frame;
@@ -83,7 +85,7 @@ pub fn flexibility(stiffness: &DMatrix<f64>, frame: usize) -> DMatrix<f64> {
 }
 
 impl LoadStiffness {
-    /// Of an element.
+    /// For an element.
     pub(super) fn of(element: &Part) -> Self {
         let size = element.size();
         let flexibility = flexibility(&element.stiffness, element.frame);
@@ -93,7 +95,7 @@ impl LoadStiffness {
         let outward =
             &element.mass * &places + element.carried.tr_mul(&(&element.carried * &places)) / element.total;
         let mut axial: Vec<Axial> = Vec::new();
-        // Of the interface farthest away: its distance and its largest transverse flexibility.
+        // For the interface farthest away: its distance and its largest transverse flexibility.
         let mut slenderness: Option<(f64, f64)> = None;
         for (interface, place) in element.places.iter().enumerate() {
             let length = place.norm();
@@ -129,7 +131,7 @@ impl LoadStiffness {
         Self { axial, slopes, of_modes: flexibility.columns(first, size - first).into_owned() }
     }
 
-    /// Rotation that moments make and linear matrices miss, times the size of the element over its largest displacement.
+    /// Rotation by moments that linear matrices omit, times the size of the element over its largest displacement.
     pub(super) fn share_of_moments(
         &self,
         element: &Part,
@@ -157,7 +159,7 @@ impl LoadStiffness {
         self.axial.iter().map(missed).reduce(f64::max).map(|missed| missed * reach / size)
     }
 
-    /// The share of the stiffness against what the part bends, where it bends; `displacement` is u, `force` K u.
+    /// The relative change of stiffness against bending, if there is bending; `displacement` is u, `force` K u.
     pub(super) fn share(
         &self,
         element: &Part,
@@ -206,7 +208,7 @@ impl LoadStiffness {
 }
 
 impl Part {
-    /// Centrifugal forces on the modal coordinates, of the positions that the interfaces carry along with them.
+    /// Centrifugal forces on the modal coordinates, from the positions of the interfaces.
     fn centrifugal(&self, spin: &Vector3) -> DVector<f64> {
         let first = 6 * self.nodes.len();
         let mut outward = DVector::zeros(self.size());
@@ -228,13 +230,13 @@ mod tests {
     /// E A and E I of the bar.
     const STIFFNESS: [f64; 2] = [3e6, 40.0];
 
-    /// A bar along y from the floating frame on, as a beam of one cubic.
+    /// A bar along y from the floating frame, as one cubic beam element.
     fn bar() -> Part {
         let [axial, bending] = STIFFNESS.map(|own| own / LENGTH);
         let mut stiffness = DMatrix::zeros(12, 12);
         stiffness[(7, 7)] = axial;
         stiffness[(10, 10)] = bending;
-        // A slope in +x is a turn about -z, one in +z a turn about +x.
+        // A slope in +x is a rotation about -z, one in +z a rotation about +x.
         for (shift, turn, sign) in [(6, 11, -1.0), (8, 9, 1.0)] {
             let coupling = -6.0 * sign * bending / LENGTH;
             stiffness[(shift, shift)] = 12.0 * bending / (LENGTH * LENGTH);
@@ -249,7 +251,7 @@ mod tests {
         Part::new((vec![1, 2], Vec::new()), (0, &places), matrices, gravity)
     }
 
-    /// ∫ w'² dy of the cubic that begins at rest and ends with this displacement and slope, by Simpson's rule.
+    /// ∫ w'² dy of the cubic that starts with zero displacement and slope and ends with these, by Simpson's rule.
     fn shortening(displacement: f64, slope: f64) -> f64 {
         const PARTS: usize = 400;
         let square = |part: f64| {
@@ -264,7 +266,8 @@ mod tests {
         whole.sum::<f64>() * LENGTH / PARTS as f64 / 6.0
     }
 
-    /// Work of an axial force on the shortening over the energy of bending, and that of centrifugal forces besides.
+    /// Work of an axial force on the shortening over the energy of bending, and that of centrifugal forces in
+    /// addition.
     #[test]
     fn the_share_is_that_of_a_cubic_under_an_axial_force() {
         let element = bar();
@@ -295,7 +298,7 @@ mod tests {
         }
     }
 
-    /// What bends no more than it is stretched has no share.
+    /// An element that bends no more than it is stretched has no estimate.
     #[test]
     fn a_bar_that_is_only_stretched_has_no_share() {
         let element = bar();

@@ -1,5 +1,5 @@
-//! The matrices of a superelement, and what they must satisfy: symmetry, a mass that is positive and knows the rigid motions
-//! as those of a rigid body, a stiffness that does not hold them.
+//! The matrices of a superelement, and their requirements: symmetry, a positive mass with the rigid motions of a rigid body,
+//! a stiffness without resistance to them.
 
 use lissom_motion::{Matrix3, Vector3, axial, skew};
 use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
@@ -8,12 +8,12 @@ use super::geometric::GeometricMatrices;
 use crate::registry::ParameterError;
 use crate::round_off;
 
-/// Entries differ from their mirror images by no more than this fraction of their rows' diagonals.
+/// Allowed difference between mirror entries, as a fraction of their rows' diagonals.
 const UNEQUAL: f64 = 1e-5;
-/// Forces of a rigid displacement are no more than this fraction of the terms they are made of; so is what a mass differs from that of a
-/// rigid body.
+/// Allowed forces of a rigid displacement, as a fraction of their terms, and allowed deviation of a mass from that of a rigid
+/// body.
 const RIGID: f64 = 1e-4;
-/// Negative eigenvalues of a stiffness of so small a part of the size are those of numbers that were written with few digits.
+/// Negative eigenvalues of a stiffness below this relative size result from numbers written with few digits.
 const FEW_DIGITS: f64 = 1e-6;
 
 /// Damping of a superelement.
@@ -38,13 +38,13 @@ pub struct ReducedMatrices {
     pub stiffness: DMatrix<f64>,
     /// Damping.
     pub damping: Damping,
-    /// Forces in the undeformed part [N, N m], which turn with it; empty for none.
+    /// Forces in the undeformed part [N, N m], which rotate with it; empty for none.
     pub preload: Vec<f64>,
-    /// What is of second order in the deformation; none where it is not known.
+    /// Second-order terms in the deformation; none if they are unknown.
     pub geometric: Option<Box<GeometricMatrices>>,
 }
 
-/// What a mass matrix says of rigid motions.
+/// Rigid motions of a mass matrix.
 pub(super) struct RigidMotion {
     /// m.
     pub(super) total: f64,
@@ -52,7 +52,7 @@ pub(super) struct RigidMotion {
     pub(super) moment: Vector3,
     /// G = Tᵀ M.
     pub(super) carried: Matrix3xX<f64>,
-    /// The largest entry that a rigid body would have otherwise, relative to m and m times lengths.
+    /// The largest deviation of an entry from that of a rigid body, relative to m and m times lengths.
     error: f64,
 }
 
@@ -68,7 +68,7 @@ pub fn rigid_column(places: &[Vector3], size: usize, k: usize) -> Vec<f64> {
     column
 }
 
-/// Rigid motions of a mass matrix; `places` from the point that moments are about.
+/// Rigid motions of a mass matrix; `places` are relative to the reference point of moments.
 pub(super) fn rigid_motion(mass: &DMatrix<f64>, places: &[Vector3]) -> RigidMotion {
     let size = mass.nrows();
     let columns: Vec<_> =
@@ -77,7 +77,7 @@ pub(super) fn rigid_motion(mass: &DMatrix<f64>, places: &[Vector3]) -> RigidMoti
     let carried = Matrix3xX::from_fn(size, |k, column| images[k][column]);
     let entry = |i: usize, j: usize| columns[i].dot(&images[j]);
     let total = (0..3).map(|k| entry(k, k)).sum::<f64>() / 3.0;
-    // Momentum of a turn is -m c\u{303}.
+    // Momentum of a rotation is -m c\u{303}.
     let turning = Matrix3::from_fn(|i, j| entry(i, 3 + j));
     let moment = -axial(&turning);
     let length = (0..3).map(|k| entry(3 + k, 3 + k)).fold(0.0, f64::max) / total;
@@ -92,7 +92,7 @@ fn problem<T>(parameter: &str, words: impl Into<String>) -> Result<T, ParameterE
     Err(ParameterError::new(parameter, words.into()))
 }
 
-/// The symmetric part, if the rest is nothing but round-off.
+/// The symmetric part, if the antisymmetric one is only round-off.
 fn symmetric(matrix: &DMatrix<f64>, name: &str) -> Result<DMatrix<f64>, ParameterError> {
     let size = matrix.nrows();
     for i in 0..size {
@@ -116,7 +116,7 @@ fn symmetric(matrix: &DMatrix<f64>, name: &str) -> Result<DMatrix<f64>, Paramete
     Ok(0.5 * (matrix + matrix.transpose()))
 }
 
-/// Eigenvalues of the matrix with its diagonal brought to 1.
+/// Eigenvalues of the matrix scaled to a unit diagonal.
 fn scaled_eigenvalues(matrix: &DMatrix<f64>) -> Vec<f64> {
     let size = matrix.nrows();
     let factor = |k: usize| {
@@ -127,7 +127,7 @@ fn scaled_eigenvalues(matrix: &DMatrix<f64>) -> Vec<f64> {
     SymmetricEigen::new(scaled).eigenvalues.iter().copied().collect()
 }
 
-/// Fails where a rigid displacement has forces.
+/// Fails if a rigid displacement has forces.
 fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<(), ParameterError> {
     let size = matrix.nrows();
     let words = ["translation along x", "translation along y", "translation along z"];
@@ -135,7 +135,8 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
     let scale: Vec<f64> = (0..size).map(|row| matrix[(row, row)].abs().sqrt()).collect();
     for (k, word) in words.iter().chain(&turns).enumerate() {
         let column = rigid_column(places, size, k);
-        // Terms may be round-off themselves: the norm of the matrix, scaled to one unit by its diagonal, bounds that.
+        // Terms may be round-off themselves: their bound is the norm of the matrix, scaled to one unit by its
+        // diagonal.
         let norm = column.iter().zip(&scale).map(|(own, scale)| own.abs() * scale).fold(0.0, f64::max);
         for row in 0..size {
             let terms = column.iter().enumerate().map(|(j, value)| matrix[(row, j)] * value);
@@ -159,10 +160,10 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
 }
 
 impl ReducedMatrices {
-    /// The same, symmetric to the last bit, if they can be those of a free elastic part with interfaces at `places` [m].
+    /// The same, symmetric to the last bit, if they are those of a free elastic part with interfaces at `places` [m].
     ///
     /// # Errors
-    /// If they cannot: with the name of the matrix.
+    /// If they are not: with the name of the matrix.
     pub fn check(self, places: &[Vector3]) -> Result<Self, ParameterError> {
         let size = self.mass.nrows();
         let least = 6 * places.len();
@@ -241,7 +242,7 @@ impl ReducedMatrices {
         Ok(Self { mass, stiffness, damping, preload: self.preload, geometric })
     }
 
-    /// The first natural frequency with an interface held [rad/s]; none where nothing swings then.
+    /// The first natural frequency with an interface fixed [rad/s]; none if there is no vibration.
     pub(super) fn first_frequency_held(&self, interface: usize) -> Option<f64> {
         let held = |matrix: &DMatrix<f64>| {
             matrix.clone().remove_rows(6 * interface, 6).remove_columns(6 * interface, 6)
@@ -260,8 +261,8 @@ impl ReducedMatrices {
         least.reduce(f64::min).map(f64::sqrt)
     }
 
-    /// Damping by which every mode of the free part has this ratio to critical damping: Σ 2 ζ ω M φ (M φ)ᵀ over the modes φ of
-    /// unit modal mass. Rigid motions are not damped.
+    /// Damping with this ratio to critical damping in every mode of the free part: Σ 2 ζ ω M φ (M φ)ᵀ over the modes φ of unit
+    /// modal mass. Rigid motions are not damped.
     ///
     /// # Errors
     /// If the mass is not positive definite.

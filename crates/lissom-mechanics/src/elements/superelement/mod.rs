@@ -10,13 +10,13 @@
 //! G = Tᵀ M,  T translations,  x_c centre of mass as G u displaces it (see `centre`)       weight  -m g·x_c
 //! ```
 //!
-//! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. With matrices that know the
-//! rigid motions the inertia of a rigid motion is exact. K acts on the relative motion alone, so that nothing changes when
-//! the element moves rigidly. What is omitted is of the square of the rate of rotation over the frequencies of the modes; where
-//! second-order matrices are given, `second_order` has another kinetic energy in place of this one.
+//! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. If the matrices contain the
+//! rigid motions, the inertia of a rigid motion is exact. K acts on the relative motion only, so that nothing changes when the
+//! element moves rigidly. Omitted terms are of the order of the square of the angular velocity over the natural frequencies;
+//! with given second-order matrices, `second_order` replaces this kinetic energy.
 //!
-//! Without the second term of the kinetic energy a part that moves fast and turns would be bent by that: η counts in turning
-//! axes, and displacements of modal coordinates do not turn with them.
+//! Without the second term of the kinetic energy a part that moves fast and rotates would be bent by it: η has components in
+//! rotating axes, and displacements of modal coordinates do not rotate with them.
 //!
 //! With p = (M - GᵀG/m) η, the equations of motion of the kinetic energy in body axes (Poincaré's) are
 //!
@@ -66,33 +66,33 @@ use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, split};
 
-/// Elastic rotation of an interface against the floating frame from which on a warning reports it [rad]: forces that grow by the square
-/// of the rotation are a few hundredths of the others.
+/// Elastic rotation of an interface relative to the floating frame that causes a warning [rad]: forces that grow by the square of
+/// the rotation are a few hundredths of the others.
 pub const MAX_ROTATION: f64 = 0.2;
-/// Elastic displacement of an interface from which on it does, as part of its distance from the floating frame.
+/// Elastic displacement of an interface that causes a warning, as a fraction of its distance from the floating frame.
 pub const MAX_DISPLACEMENT: f64 = 0.15;
 
-/// Rate of rotation from which on the stiffness by centrifugal forces is missed, over the first natural frequency with the
-/// floating interface held: its square is the part of the stiffness.
+/// Angular velocity at which the missing centrifugal stiffness causes a warning, over the first natural frequency with the
+/// floating interface fixed: its square is the relative change of stiffness.
 pub const MAX_SPIN: f64 = 0.25;
-/// The same with matrices that know it, to first order in the square.
+/// The same for matrices that include it, to first order in the square.
 pub const MAX_SPIN_KNOWN: f64 = 1.0;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
 pub struct Superelement {
     part: Part,
-    /// Rate of rotation up to which matrices are believed [rad/s]; none where nothing swings.
+    /// Angular velocity up to which matrices are valid [rad/s]; none without vibration.
     largest_spin: Option<f64>,
-    /// What estimates how loads change the stiffness; none where nobody asks.
+    /// Estimate of the change of stiffness by loads; none if not required.
     load_stiffness: Option<LoadStiffness>,
-    /// What estimates the forces of modes that are omitted; none where nobody asks.
+    /// Estimate of the forces of omitted modes; none if not required.
     left_out: Option<LeftOut>,
-    /// What is of second order in the deformation, where the matrices know it.
+    /// Second-order terms in the deformation, if the matrices contain them.
     second_order: Option<Box<SecondOrder>>,
 }
 
-/// Room of this thread, so that nothing is allocated once it is large enough.
+/// Scratch of a thread, so that nothing is allocated once it is large enough.
 #[derive(Default)]
 struct ThreadScratch {
     own: ElementScratch,
@@ -110,7 +110,7 @@ thread_local! {
 
 impl Superelement {
     /// The element between `nodes`, whose positions in the undeformed part are `places` [m], with the modal `coordinates`;
-    /// interface `frame` carries the floating frame. The matrices are taken as they are: see [`ReducedMatrices::check`].
+    /// interface `frame` carries the floating frame. The matrices are not checked: see [`ReducedMatrices::check`].
     pub fn new(
         (nodes, coordinates): (Vec<NodeId>, Vec<CoordinateId>),
         (frame, places): (usize, &[Vector3]),
@@ -124,7 +124,7 @@ impl Superelement {
         Self { part, largest_spin: None, load_stiffness: None, left_out: None, second_order }
     }
 
-    /// With a rate of rotation from which on a warning is reported [rad/s], and with one of loads that change the stiffness.
+    /// With an angular velocity that causes a warning [rad/s], and with a warning of loads that change the stiffness.
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
         let load_stiffness = Some(LoadStiffness::of(&self.part));
@@ -229,7 +229,7 @@ impl Element for Superelement {
     }
 
     fn has_positive_mass(&self, at: &Kinematics) -> bool {
-        // To first order it is a sum of squares.
+        // To first order the kinetic energy is a sum of squares.
         if self.second_order.is_none() {
             return true;
         }
@@ -311,7 +311,7 @@ impl Element for Superelement {
                     LinearLimit::Moment => {
                         estimate.share_of_moments(&self.part, (&scratch.displacement, &scratch.stress))?
                     }
-                    // Matrices of second order know it.
+                    // Second-order matrices include it.
                     _ if self.second_order.is_some() => return None,
                     _ => estimate.share(&self.part, (&scratch.displacement, &scratch.stress, &spin))?,
                 };

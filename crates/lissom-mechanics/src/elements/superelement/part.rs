@@ -1,4 +1,4 @@
-//! What a superelement is made of: its interfaces, matrices and rigid motion.
+//! The data of a superelement: its interfaces, matrices and rigid motion.
 
 use lissom_motion::Vector3;
 use nalgebra::{DMatrix, DVector, Matrix3xX};
@@ -48,7 +48,7 @@ impl Part {
             Damping::OfStiffness(time) => Some(&stiffness * time),
         };
         let size = mass.nrows();
-        // What is left of the mass without that of the centre sees no translation.
+        // The mass matrix without that of the centre has no translations.
         let mass = mass - carried.tr_mul(&carried) / total;
         let preload = if preload.is_empty() { DVector::zeros(size) } else { DVector::from_vec(preload) };
         Self {

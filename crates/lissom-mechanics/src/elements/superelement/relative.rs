@@ -1,7 +1,7 @@
-//! The frame of an interface seen from the floating frame.
+//! The frame of an interface relative to the floating frame.
 //!
 //! Legend: (E, r) frame of an interface in the floating frame, V and V_f twists in own axes, A = Ad((E, r)⁻¹), χ = δh - A δh_f
-//! variation of one frame seen from the other, (y, z) = V - A V_f, κ axial vector of E, which is log E to first order.
+//! variation of one frame relative to the other, (y, z) = V - A V_f, κ axial vector of E, which is log E to first order.
 //!
 //! ```text
 //! ṙ = E y,     κ̇ = J z,     J = ½ (tr E - Eᵀ),      r̈ = E (ẏ + z × y),      κ̈ = J ż + ax(E z̃ z̃)
@@ -33,7 +33,7 @@ pub(super) struct Relative {
     pub(super) carried_acceleration: Vector6,
 }
 
-/// How (ṙ, κ̇) and (r̈, κ̈) depend on the motion, as maps of χ and of the twist.
+/// Derivatives of (ṙ, κ̇) and (r̈, κ̈) with respect to χ and to the twist.
 pub(super) struct Slopes {
     /// ∂(ṙ, κ̇)/∂χ.
     pub(super) rate_by_place: Matrix6,
@@ -85,7 +85,7 @@ impl Relative {
         })
     }
 
-    /// ∂(r, κ)/∂χ, which maps (y, z) to (ṙ, κ̇), too.
+    /// ∂(r, κ)/∂χ, which also maps (y, z) to (ṙ, κ̇).
     pub(super) fn gradient(&self) -> Matrix6 {
         diagonal(&self.turn, &self.map)
     }
@@ -108,14 +108,14 @@ impl Relative {
         -z * self.axis.transpose() - 0.5 * skew(&self.turn.tr_mul(z))
     }
 
-    /// How rates and second rates depend on the motion.
+    /// Derivatives of rates and second rates with respect to the motion.
     pub(super) fn slopes(&self) -> Slopes {
         let (y, z) = (translation_part(&self.twist), rotation_part(&self.twist));
         let (ay, az) = (translation_part(&self.acceleration), rotation_part(&self.acceleration));
         let carried = lie_bracket_matrix(&self.carried);
         let own = lie_bracket_matrix(&self.twist);
         let map = self.gradient();
-        // ax(E (δz~ z̃ + z̃ δz~)), and by the rotation.
+        // ax(E (δz~ z̃ + z̃ δz~)), and its derivative with respect to the rotation.
         let mut squared = Matrix3::zeros();
         let mut squared_by_turn = Matrix3::zeros();
         for k in 0..3 {
@@ -142,7 +142,7 @@ impl Relative {
         }
     }
 
-    /// Adds what forces conjugate to (r, κ) do while their directions turn: ∂(Yᵀ f)/∂ position at constant f, for the interface `i`
+    /// Adds the terms due to the rotation of forces conjugate to (r, κ): ∂(Yᵀ f)/∂ position at constant f, for the interface `i`
     /// and the floating frame.
     pub(super) fn add_geometric(
         &self,

@@ -1,9 +1,9 @@
-//! A superelement whose second-order matrices are known: its kinetic energy is that of a part whose points are displaced along straight
-//! lines, and what bends is shortened without force.
+//! A superelement with known second-order matrices: its kinetic energy is that of a part whose points are displaced along
+//! straight lines, and bending shortens it without force.
 //!
-//! Legend: y = (r - X, κ, q) relative to the floating frame (see `relative`), v and ω its velocity and rate of rotation, γ = R_fᵀ g,
-//! U_k direction of a shortening. First moment s_k = s₀ + G_k y + ½ y·S_k y, T_t energy of turning, of points and of what their sections
-//! add (see `turning`), h_k = ½ y·D_k y (see [`GeometricMatrices`]), M mass of y.
+//! Legend: y = (r - X, κ, q) relative to the floating frame (see `relative`), v and ω its velocity and angular velocity, γ = R_fᵀ
+//! g, U_k direction of a shortening. First moment s_k = s₀ + G_k y + ½ y·S_k y, T_t energy of rotation, of points and of their
+//! sections' contribution (see `turning`), h_k = ½ y·D_k y (see [`GeometricMatrices`]), M mass of y.
 //!
 //! ```text
 //! L = ½ m v² + v·(ω × s + ṡ) + γ·(m x + s) + T_t(y, ẏ, ω) + ½ ẏ·M ẏ - h·(K y + ½ K h),      h = Σ h_k U_k
@@ -13,9 +13,9 @@
 //! dual to y       M ÿ + Σ a_k (G_k + S_k y) + that of T_t + Σ g_k D_k y + K h,      g_k = U_k·(K y + K h)
 //! ```
 //!
-//! The equations are those of Poincaré for L. The kinetic energy of the points is the integral ½∫ρ |v + ω × (X + Ψ y) + Ψ ẏ|² as a whole: terms
-//! of third order must not be omitted, or it would not stay positive where the inertia of a motion changes by as much as it is, such as that
-//! about the axis of a slender part. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive.
+//! The equations are Poincaré's for L. The kinetic energy of the points is the full integral ½∫ρ |v + ω × (X + Ψ y) + Ψ ẏ|²:
+//! terms of third order must not be omitted. Otherwise it would not remain positive if the inertia changes by as much as its own
+//! value, such as that about the axis of a slender part. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, rotation_part, screw, skew, translation_part};
 use nalgebra::{DMatrix, DVector, Matrix3xX, MatrixXx3};
@@ -31,7 +31,7 @@ use crate::elements::{Energy, Tangents};
 use crate::kinematics::Kinematics;
 use crate::round_off;
 
-/// What is shortened.
+/// A shortening.
 #[derive(Clone, Debug)]
 struct Shortened {
     /// U.
@@ -59,7 +59,7 @@ pub(super) struct SecondOrder {
 }
 
 impl SecondOrder {
-    /// Of an element with the mass matrix `mass`; `matrices` are scaled as that is.
+    /// For an element with the mass matrix `mass`; `matrices` are scaled likewise.
     pub(super) fn of(element: &Part, mass: &DMatrix<f64>, matrices: &GeometricMatrices) -> Self {
         let rigid =
             [0, 1, 2, 3, 4, 5].map(|k| DVector::from_vec(rigid_column(&element.places, element.size(), k)));
@@ -96,7 +96,7 @@ impl SecondOrder {
     }
 }
 
-/// Room for one element at one instant.
+/// Scratch for one element at one instant.
 #[derive(Default)]
 pub(super) struct Deformed {
     relatives: Vec<Option<Relative>>,
@@ -123,7 +123,7 @@ pub(super) struct Deformed {
     gravity: Vector3,
     /// a.
     against: Vector3,
-    /// Maps of the unknowns to y, and of positions to ẏ, of positions and of twists to ÿ.
+    /// Maps of the unknowns to y, of positions to ẏ, and of positions and twists to ÿ.
     gradient: Map,
     rate_by_place: Map,
     second_by_place: Map,
@@ -133,7 +133,7 @@ pub(super) struct Deformed {
 }
 
 impl Deformed {
-    /// Takes in the motion `at`.
+    /// Evaluates the motion `at`.
     fn enter(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics) {
         let (size, nodes) = (of.size(), of.nodes.len());
         for vector in [&mut self.place, &mut self.rate, &mut self.second, &mut self.force, &mut self.room] {
@@ -213,7 +213,7 @@ impl Deformed {
         ]
     }
 
-    /// Leaves the force dual to y in `force`.
+    /// Stores the force dual to y in `force`.
     fn fill_force(&mut self, law: &SecondOrder) {
         let force = &mut self.force;
         force.gemv(1.0, &law.mass, &self.second, 0.0);
@@ -323,7 +323,7 @@ impl Deformed {
         let (size, frame) = (of.size(), 6 * of.frame);
         let [s, _] = self.first_moment(law);
         let lever = skew(&s);
-        // Force and moment on f by ÿ, through Y; the mirror image on y.
+        // Force and moment on f due to ÿ, through Y; the transpose on y.
         let mut rows = DMatrix::zeros(6, size);
         for k in 0..3 {
             rows.row_mut(k).tr_copy_from(&self.moment[k]);
@@ -381,12 +381,12 @@ impl Deformed {
         }
     }
 
-    /// Adds the derivatives of the force dual to y by positions and twists.
+    /// Adds the derivatives of the force dual to y with respect to positions and twists.
     fn add_on_shape(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let frame = of.frame;
         let (mut by_place, by_rate) = (self.shape_by_place(of, law), &turning.dual[1]);
         by_place += &turning.dual[0];
-        // By a, as it depends on the floating frame's position and twist; by ω.
+        // With respect to a, which depends on the floating frame's pose and twist, and to ω.
         let moment = MatrixXx3::from_columns(&self.moment);
         let turned = -(&moment * skew(&self.gravity));
         let by_velocity = &moment * skew(&self.spin);
@@ -415,7 +415,7 @@ impl Deformed {
         self.gradient.add_before(&by_place, frame, &mut out.damping);
     }
 
-    /// Derivative of the force dual to y by y, without that of turning.
+    /// Derivative of the force dual to y with respect to y, without that of rotation.
     fn shape_by_place(&self, of: &Part, law: &SecondOrder) -> DMatrix<f64> {
         let size = of.size();
         let mut matrix = DMatrix::zeros(size, size);
@@ -443,7 +443,7 @@ impl Deformed {
         matrix
     }
 
-    /// Adds the derivatives of force and moment on the floating frame by positions and twists.
+    /// Adds the derivatives of force and moment on the floating frame with respect to positions and twists.
     fn add_on_frame(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let (w, dw) = (self.spin, self.spin_rate);

@@ -11,7 +11,7 @@ use super::vectors::{product, three};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::round_off;
 
-/// Turns below this lose digits in a difference of two logarithms [rad].
+/// Rotations below this lose digits in a difference of two logarithms [rad].
 const SMALL: f64 = 1e-3;
 
 impl Part {
@@ -32,11 +32,11 @@ impl Part {
             [0, 1].map(|j| self.weighted(&stages[j].rate).zip(&stages[j].rate).map(|(w, v)| w * v).sum());
         let (inverse, shares) = step.shares(squares);
         let noise = round_off::RIGID_MOTION * self.way(step, stages);
-        // The remainder lies in the stress of the start, which nothing else needs.
+        // The remainder is stored in the stress of the start, which is not needed otherwise.
         let size = self.weighted(&start.stress).zip(&start.stress).map(|(w, r)| w * r).sum::<f64>().sqrt();
         let weight = above_round_off(size, noise);
         start.stress.iter_mut().for_each(|missed| *missed *= weight);
-        // Rates with the remainder shared out lie where the start's own velocities and accelerations were.
+        // The corrected rates replace the start's own velocities and accelerations.
         for row in 0..self.size() {
             let rates = [0, 1].map(|j| stages[j].rate[row] + shares[j] * start.stress[row]);
             let values = step.at_stages(start.displacement[row], rates);
@@ -65,7 +65,8 @@ impl Part {
         }
     }
 
-    /// Leaves in the stress of the start what the rates at the stages miss of the change of u over the step.
+    /// Stores in the stress of the start the difference between the change of u over the step and the integral of the
+    /// rates at the stages.
     fn missed(&self, step: &StepStages<'_>, start: &mut ElementScratch, stages: &[ElementScratch; STAGES]) {
         let frame = self.nodes[self.frame];
         let base = step.start.nodes[frame].frame;
@@ -76,7 +77,7 @@ impl Part {
             let arm = start.turns[i] * seen.shift;
             let angles = three(&start.displacement, 6 * i + 3);
             let turn = if seen.turn.amax() < SMALL {
-                // From θ' = T(θ)⁻¹ η along the way, by one step of the classical Runge-Kutta method.
+                // By integrating θ' = T(θ)⁻¹ η with one step of the classical Runge-Kutta method.
                 let eta = rotation_part(&seen.small_logarithm());
                 let slope = |way: Vector3| rotation_inverse_tangent(&(angles + way)) * eta;
                 let one = slope(Vector3::zeros());
@@ -98,7 +99,7 @@ impl Part {
         }
     }
 
-    /// W times a vector like u: rotations weigh as arcs at the element's reach.
+    /// W times a vector like u: rotations are weighted as arcs at the element's largest distance.
     fn weighted<'a>(&self, values: &'a [f64]) -> impl Iterator<Item = f64> + use<'a> {
         let reach = self.reach();
         let (interfaces, radian) = (6 * self.nodes.len(), if reach > 0.0 { reach * reach } else { 1.0 });
@@ -109,7 +110,7 @@ impl Part {
             .map(move |(row, value)| if is_rotation(row) { radian * value } else { *value })
     }
 
-    /// How far the element comes over a step, in both directions [m].
+    /// Largest displacement of the element over a step, in both directions [m].
     fn way(&self, step: &StepStages<'_>, stages: &[ElementScratch; STAGES]) -> f64 {
         let of = |j: usize| {
             let square: f64 =
@@ -130,8 +131,8 @@ mod tests {
     use crate::elements::superelement::{Damping, ReducedMatrices};
     use crate::kinematics::{CoordinateMotion, Kinematics, MotionChange, NodeMotion};
 
-    /// Three interfaces that go straight on at the first stage and turn about the floating frame, the second of them, at the other:
-    /// the longer way counts, with turns as arcs of the size of the part, 5 m.
+    /// Three interfaces that translate up to the first stage and rotate about the floating frame, the second of them, up to the
+    /// other: the longer path counts, with rotations as arcs at the size of the part, 5 m.
     #[test]
     fn the_way_of_a_step_is_that_of_all_interfaces() {
         let places = [Vector3::new(2.0, 0.0, 0.0), Vector3::zeros(), Vector3::new(0.0, 4.0, 3.0)];
@@ -182,7 +183,8 @@ mod tests {
         }
     }
 
-    /// What rates miss is the change of u over the step less what they add up to, for turns that are small and large.
+    /// The error of rates is the change of u over the step minus their integral, for rotations that are small and
+    /// large.
     #[test]
     fn the_remainder_closes_the_change_over_the_step() {
         let places = [Vector3::zeros(), Vector3::new(2.0, 0.5, -1.0)];

@@ -1,9 +1,9 @@
-//! How the angular momentum of a part about its floating frame depends on its deformation.
+//! Dependence of the angular momentum of a part about its floating frame on its deformation.
 //!
-//! Legend: y displacements in the floating frame (see `second_order`), ω its rate of rotation. A part consists of points that are
-//! displaced along straight lines, with sections that do not turn, and of what the rotation of its sections adds. The first has p = ω and
-//! d = ẏ; the second is evaluated with the mean rotation p = ω + P ẏ and the rates without it, d = Q ẏ = ẏ - R P ẏ. R are the
-//! three rigid rotations and P the projection to them in the metric of the mass.
+//! Legend: y displacements in the floating frame (see `second_order`), ω its angular velocity. The momentum is the sum of two
+//! terms: that of points that are displaced along straight lines, with sections that do not rotate, and that of the rotation of
+//! sections. The first has p = ω and d = ẏ; the second is evaluated with the mean rotation p = ω + P ẏ and the rates without it,
+//! d = Q ẏ = ẏ - R P ẏ. R are the three rigid rotations and P the projection onto them in the metric of the mass.
 //!
 //! ```text
 //! T = ½ p·J p + p·c d        J_ij = J₀ + α_ij·y + ½ y·A_ij y       c_i = c₀ + B_iᵀ y
@@ -12,16 +12,16 @@
 //! dual to y                  Pᵀ l̇ + Qᵀ (c·p)˙ - ½ Σ p_i p_j (α_ij + A_ij y) - Σ p_i B_i d
 //! ```
 //!
-//! Sections that turn change the inertia of a slender part about its own axis, which is small, by as much as it is. A part that stays at rest
-//! while its floating frame turns has ẏ = -ω × (X + Ψ y) and no energy: the mean rotation is zero in this motion, and so is what
-//! sections add to it.
+//! The rotation of sections changes the inertia of a slender part about its own axis, which is small, by as much as its own
+//! value. A part that remains at rest while its floating frame rotates has ẏ = -ω × (X + Ψ y) and no energy: the mean rotation is
+//! zero in this motion, and so is the sections' contribution.
 
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::{DMatrix, DVector, Matrix3xX, MatrixXx3};
 
 use super::geometric::{PAIRS, TurningMatrices};
 
-/// Part of the largest inertia that is added to all: a straight line of points has none about its own axis.
+/// Fraction of the largest inertia that is added to all: a straight line of points has none about its own axis.
 const NO_INERTIA: f64 = 1e-12;
 
 /// The mean rotation of a deformation.
@@ -34,8 +34,8 @@ pub(super) struct MeanRotation {
 }
 
 impl MeanRotation {
-    /// The rotation of the rigid motion that is nearest in the metric of `mass`; `rigid` has three translations and three rotations.
-    /// None without mass.
+    /// The nearest rigid rotation in the metric of `mass`; `rigid` contains three translations and three rotations. None without
+    /// mass.
     pub(super) fn of(mass: &DMatrix<f64>, rigid: &[DVector<f64>; 6]) -> Option<Self> {
         let columns = DMatrix::from_columns(rigid);
         let momenta = mass * &columns;
@@ -83,7 +83,7 @@ pub(super) struct TurningLaw {
 }
 
 impl TurningLaw {
-    /// Of points, with the rigid rotations `turns` and their momenta.
+    /// For points, with the rigid rotations `turns` and their momenta.
     pub(super) fn of_points(
         matrices: &TurningMatrices,
         turns: [&DVector<f64>; 3],
@@ -93,7 +93,7 @@ impl TurningLaw {
         Self { at_rest, momentum_at_rest: momenta, ..Self::of_sections(matrices, None) }
     }
 
-    /// Of what sections add.
+    /// For the contribution of sections.
     pub(super) fn of_sections(matrices: &TurningMatrices, mean: Option<MeanRotation>) -> Self {
         Self {
             at_rest: Matrix3::zeros(),
@@ -143,11 +143,12 @@ pub(super) struct Turning {
     conjugate: [DVector<f64>; 3],
 }
 
-/// Derivatives by y, ẏ, ÿ and ω of the moment on the floating frame (three rows) and of the force dual to y (all rows).
+/// Derivatives with respect to y, ẏ, ÿ and ω of the moment on the floating frame (three rows) and of the force dual to
+/// y (all rows).
 pub(super) struct TurningSlopes {
     pub(super) moment: [Matrix3xX<f64>; 3],
     pub(super) moment_by_spin: Matrix3,
-    /// By y and by ẏ.
+    /// With respect to y and ẏ.
     pub(super) dual: [DMatrix<f64>; 2],
     pub(super) dual_by_spin: MatrixXx3<f64>,
     /// Part of the mass among y.
@@ -171,7 +172,7 @@ impl std::ops::AddAssign for TurningSlopes {
     }
 }
 
-/// Parts of the mass matrix: of ω̇; of ÿ on the floating frame, and among y.
+/// Parts of the mass matrix: of ω̇; of ÿ on the floating frame, and for y with itself.
 pub(super) struct TurningMass {
     pub(super) inertia: Matrix3,
     pub(super) coupling: Matrix3xX<f64>,
@@ -271,7 +272,7 @@ impl Turning {
             out.axpy(-both * p[i] * p[j], &self.slope[k], 1.0);
         }
         if let Some(mean) = &law.mean {
-            // Qᵀ = 1 - Pᵀ Rᵀ of what Q multiplies.
+            // Qᵀ = 1 - Pᵀ Rᵀ of the factor of Q.
             let mut along = self.angular_momentum_rate();
             for k in 0..3 {
                 let turn = mean.turns.column(k);
@@ -310,7 +311,7 @@ impl Turning {
         let turn = skew(&self.spin);
         let momentum = rows(&self.momentum);
         let momentum_rate = rows(&self.momentum_rate);
-        // l by y; l̇ by y.
+        // l with respect to y; l̇ with respect to y.
         let by_place = self.along(&p) + rows(&self.conjugate);
         let mut rate_by_place = self.along(&dp);
         let mut own = DVector::zeros(size);
@@ -358,7 +359,7 @@ impl Turning {
         let projection = &mean.projection;
         let by_second = mean.rows_without(&momentum) + self.inertia * projection;
         let rate_by_rate = &by_place + mean.rows_without(&momentum_rate) + self.inertia_rate * projection;
-        // Of ½ Σ p_i p_j (α + A y) + Σ p_i B_i d by ẏ, and of (c·p)˙.
+        // Derivative of ½ Σ p_i p_j (α + A y) + Σ p_i B_i d with respect to ẏ, and of (c·p)˙.
         let back = mean.without(&gyroscopic.transpose()) + by_place.tr_mul(projection);
         let forth = gyroscopic + momentum_rate.tr_mul(projection);
         let dual_by_spin = projection.tr_mul(&self.inertia_rate)

@@ -1,21 +1,21 @@
-//! Vectors over the unknowns of a superelement: six numbers of each interface, then the modal coordinates.
+//! Vectors over the unknowns of a superelement: six components per interface, then the modal coordinates.
 
 use lissom_motion::Vector3;
 use nalgebra::DMatrix;
 
-/// Three numbers of a vector.
+/// Three components of a vector.
 pub(super) fn three(values: &[f64], first: usize) -> Vector3 {
     Vector3::new(values[first], values[first + 1], values[first + 2])
 }
 
-/// Adds to three numbers of a vector.
+/// Adds to three components of a vector.
 pub(super) fn add(values: &mut [f64], first: usize, vector: &Vector3) {
     for k in 0..3 {
         values[first + k] += vector[k];
     }
 }
 
-/// Replaces three numbers of a vector.
+/// Replaces three components of a vector.
 pub(super) fn set(values: &mut [f64], first: usize, vector: &Vector3) {
     values[first..first + 3].copy_from_slice(vector.as_slice());
 }
