@@ -1,5 +1,5 @@
-//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, contact and signals. Knows no system, no scheme
-//! and no time step.
+//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, contact and signals. Independent of system,
+//! scheme and time step.
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 

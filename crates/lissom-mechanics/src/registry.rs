@@ -1,6 +1,5 @@
-//! What a kind of joint or force element declares about itself: its name, one sentence, a
-//! sample, and the parameters it takes. Parser, manual, schema and conformance tests read these
-//! tables; nothing here knows mechanics or files.
+//! Description of a kind of joint or force element: its name, one sentence, a sample, and its parameters. Parser,
+//! manual, schema and conformance tests read these tables; this module is independent of mechanics and files.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,12 +19,12 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn first_derivative(&self, time: f64) -> f64;
     /// Second derivative with respect to time at `time` [s].
     fn second_derivative(&self, time: f64) -> f64;
-    /// Times at which it is known not to be smooth [s], in ascending order. Default: none.
+    /// Known breakpoints [s], in ascending order. Default: none.
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
-    /// An argument at which value or slope jump, if one is known; NaN if only that there are some. Default: the first of the
-    /// [`breakpoints`](Self::breakpoints).
+    /// An argument at which value or slope jump, if one is known; NaN if only their existence is known. Default: the first
+    /// of the [`breakpoints`](Self::breakpoints).
     fn first_kink(&self) -> Option<f64> {
         self.breakpoints().first().copied()
     }
@@ -33,7 +32,7 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn bounds(&self, _from: f64, _to: f64) -> Option<[f64; 2]> {
         None
     }
-    /// Whether the value is the same at all times. Default: it is not.
+    /// Whether the value is constant. Default: it is not.
     fn is_constant(&self) -> bool {
         false
     }
@@ -42,7 +41,7 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
 /// A shared function of time.
 pub type Function = Arc<dyn TimeFunction>;
 
-/// The same value at all times.
+/// A constant function of time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constant(pub f64);
 
@@ -63,17 +62,17 @@ impl TimeFunction for Constant {
 
 /// A force, or moment, over two quantities such as an elongation and its rate, with exact derivatives.
 pub trait ForceFunction: Send + Sync + fmt::Debug {
-    /// The force and its derivatives by the first and by the second quantity.
+    /// The force and its derivatives with respect to the first and the second quantity.
     fn evaluate(&self, first: f64, second: f64) -> [f64; 3];
     /// Whether it depends on the second quantity. Default: it does not.
     fn depends_on_second(&self) -> bool {
         false
     }
-    /// Values of the first quantity at which it is known not to be smooth, in ascending order. Default: none.
+    /// Known breakpoints in the first quantity, in ascending order. Default: none.
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
-    /// Number of its switching functions, which change sign where it has a kink or a jump. Steps of chosen size end there.
+    /// Number of its switching functions, which change sign where it has a kink or a jump. Adaptive steps end there.
     /// Default: none.
     fn switch_count(&self) -> usize {
         0
@@ -81,7 +80,7 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     /// Passes the values of its switching functions to `visit`, in their order.
     fn switches(&self, _first: f64, _second: f64, _sides: &[f64], _visit: &mut dyn FnMut(f64)) {}
     /// The same as [`evaluate`](Self::evaluate), continued smoothly from the given sides of its switching functions: 1 above
-    /// zero, -1 below, 0 where the function itself decides. `sides` is empty where no side is known.
+    /// zero, -1 below, 0 if the function itself decides. `sides` is empty if no side is known.
     fn continued(&self, first: f64, second: f64, _sides: &[f64]) -> [f64; 3] {
         self.evaluate(first, second)
     }
@@ -142,7 +141,8 @@ pub enum ParameterType {
     /// A number or an expression in the time `t`.
     Function,
     /// The size of a load, a factor of all its forces: a number or an expression in the time `t`, inputs, signals,
-    /// states and outputs. A load receives functions of time only: where there is more in the expression, the load of
+    /// states and outputs. A load receives functions of time only: if the expression contains more, it multiplies the
+    /// unit load.
     /// size one is multiplied.
     Size,
     /// A force over the two named quantities: a number, an expression of them, or a table over the first.
@@ -173,7 +173,7 @@ impl ParameterType {
     pub fn is_in_model_axes(self) -> bool {
         match self {
             Self::GlobalVector | Self::Direction | Self::DirectionOr(_) => true,
-            // Matrices of kinds are expressed in the axes of their own, which directions give.
+            // Matrices of kinds are expressed in axes of their own, which are given by directions.
             Self::Vector
             | Self::Matrix
             | Self::Number
@@ -200,18 +200,18 @@ impl ParameterType {
 pub struct Parameter {
     /// Key in the model file.
     pub name: &'static str,
-    /// What it holds.
+    /// Type of its value.
     pub holds: ParameterType,
     /// Whether it must be given.
     pub required: bool,
-    /// Unit, as in `N m/rad`; empty for none.
+    /// Unit, such as `N m/rad`; empty for none.
     pub unit: &'static str,
     /// One sentence.
     pub summary: &'static str,
 }
 
 impl Parameter {
-    /// A parameter that must be given.
+    /// A required parameter.
     pub const fn required(
         name: &'static str,
         holds: ParameterType,
@@ -221,7 +221,7 @@ impl Parameter {
         Self { name, holds, required: true, unit, summary }
     }
 
-    /// A parameter that may be omitted.
+    /// An optional parameter.
     pub const fn optional(
         name: &'static str,
         holds: ParameterType,
@@ -232,7 +232,7 @@ impl Parameter {
     }
 }
 
-/// The relative rotation of a joint when it starts.
+/// The initial relative rotation of a joint.
 pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
     "angle",
     ParameterType::Number,
@@ -240,7 +240,7 @@ pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
     "Value of the relative rotation at the start; default 0.",
 );
 
-/// The relative displacement of a joint when it starts.
+/// The initial relative displacement of a joint.
 pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
     "displacement",
     ParameterType::Number,
@@ -299,7 +299,7 @@ pub enum Value {
     Numbers(Vec<f64>),
     /// A square matrix of any size.
     SquareMatrix(DMatrix<f64>),
-    /// An input, by its position among the held values.
+    /// An input, by its index among the held values.
     Input(HeldId),
 }
 
@@ -367,10 +367,10 @@ impl Parameters {
         self.values.contains_key(name)
     }
 
-    /// A number that must be there.
+    /// A required number.
     ///
     /// # Errors
-    /// If it is missing or no number.
+    /// If it is missing or not a number.
     pub fn number(&self, name: &str) -> Result<f64, ParameterError> {
         match self.values.get(name) {
             Some(Value::Number(value)) => Ok(*value),
@@ -378,18 +378,18 @@ impl Parameters {
         }
     }
 
-    /// A number, or `default` where it is not given.
+    /// A number, or `default` if it is not given.
     ///
     /// # Errors
-    /// If it is given and no number.
+    /// If it is given and not a number.
     pub fn number_or(&self, name: &str, default: f64) -> Result<f64, ParameterError> {
         if self.has(name) { self.number(name) } else { Ok(default) }
     }
 
-    /// A vector that must be there.
+    /// A required vector.
     ///
     /// # Errors
-    /// If it is missing or no vector.
+    /// If it is missing or not a vector.
     pub fn vector(&self, name: &str) -> Result<Vector3, ParameterError> {
         match self.values.get(name) {
             Some(Value::Vector(value)) => Ok(*value),
@@ -397,18 +397,18 @@ impl Parameters {
         }
     }
 
-    /// A vector, or `default` where it is not given.
+    /// A vector, or `default` if it is not given.
     ///
     /// # Errors
-    /// If it is given and no vector.
+    /// If it is given and not a vector.
     pub(crate) fn vector_or(&self, name: &str, default: Vector3) -> Result<Vector3, ParameterError> {
         if self.has(name) { self.vector(name) } else { Ok(default) }
     }
 
-    /// An equation between coordinates that must be there.
+    /// A required equation between coordinates.
     ///
     /// # Errors
-    /// If it is missing or something else.
+    /// If it is missing or not an equation.
     pub fn relation(&self, name: &str) -> Result<Arc<dyn Relation>, ParameterError> {
         match self.values.get(name) {
             Some(Value::Relation(value)) => Ok(Arc::clone(value)),
@@ -416,10 +416,10 @@ impl Parameters {
         }
     }
 
-    /// A flag, or `default` where it is not given.
+    /// A flag, or `default` if it is not given.
     ///
     /// # Errors
-    /// If it is given and no flag.
+    /// If it is given and not a flag.
     pub fn flag_or(&self, name: &str, default: bool) -> Result<bool, ParameterError> {
         match self.values.get(name) {
             None => Ok(default),
@@ -428,10 +428,10 @@ impl Parameters {
         }
     }
 
-    /// Several words that must be there.
+    /// Several required words.
     ///
     /// # Errors
-    /// If they are missing or something else.
+    /// If they are missing or not words.
     pub fn words(&self, name: &str) -> Result<&[String], ParameterError> {
         match self.values.get(name) {
             Some(Value::Words(words)) => Ok(words),
@@ -439,7 +439,7 @@ impl Parameters {
         }
     }
 
-    /// A function of time that must be there; a number counts as a constant.
+    /// A required function of time; a number is a constant function.
     ///
     /// # Errors
     /// If it is missing or neither function nor number.
@@ -451,7 +451,7 @@ impl Parameters {
         }
     }
 
-    /// A force, if it is given; a number counts as a constant force.
+    /// A force, if it is given; a number is a constant force.
     ///
     /// # Errors
     /// If it is given and neither force nor number.
@@ -467,7 +467,7 @@ impl Parameters {
     /// Two ascending numbers, if they are given.
     ///
     /// # Errors
-    /// If they are given and no range, or do not ascend.
+    /// If they are given and not a range, or do not ascend.
     pub fn range(&self, name: &str) -> Result<Option<[f64; 2]>, ParameterError> {
         match self.values.get(name) {
             None => Ok(None),
@@ -476,10 +476,10 @@ impl Parameters {
         }
     }
 
-    /// A 6 x 6 matrix, or zeros where it is not given.
+    /// A 6 x 6 matrix, or zeros if it is not given.
     ///
     /// # Errors
-    /// If it is given and no matrix.
+    /// If it is given and not a matrix.
     pub(crate) fn matrix_or_zero(&self, name: &str) -> Result<Matrix6, ParameterError> {
         match self.values.get(name) {
             None => Ok(Matrix6::zeros()),
@@ -488,10 +488,10 @@ impl Parameters {
         }
     }
 
-    /// Several numbers that must be there.
+    /// Several required numbers.
     ///
     /// # Errors
-    /// If they are missing or something else.
+    /// If they are missing or not numbers.
     pub fn numbers(&self, name: &str) -> Result<&[f64], ParameterError> {
         match self.values.get(name) {
             Some(Value::Numbers(values)) => Ok(values),
@@ -499,10 +499,10 @@ impl Parameters {
         }
     }
 
-    /// A square matrix that must be there.
+    /// A required square matrix.
     ///
     /// # Errors
-    /// If it is missing or something else.
+    /// If it is missing or not a square matrix.
     pub fn square_matrix(&self, name: &str) -> Result<&DMatrix<f64>, ParameterError> {
         match self.values.get(name) {
             Some(Value::SquareMatrix(matrix)) => Ok(matrix),
@@ -510,10 +510,10 @@ impl Parameters {
         }
     }
 
-    /// An input that must be there.
+    /// A required input.
     ///
     /// # Errors
-    /// If it is missing or something else.
+    /// If it is missing or not an input.
     pub fn input(&self, name: &str) -> Result<HeldId, ParameterError> {
         match self.values.get(name) {
             Some(Value::Input(held)) => Ok(*held),
@@ -524,7 +524,7 @@ impl Parameters {
     /// A word, if it is given.
     ///
     /// # Errors
-    /// If it is given and no text.
+    /// If it is given and not text.
     pub fn word(&self, name: &str) -> Result<Option<&str>, ParameterError> {
         match self.values.get(name) {
             None => Ok(None),
@@ -533,7 +533,7 @@ impl Parameters {
         }
     }
 
-    /// A function of time, or the constant `default` where it is not given.
+    /// A function of time, or the constant `default` if it is not given.
     ///
     /// # Errors
     /// If it is given and neither function nor number.

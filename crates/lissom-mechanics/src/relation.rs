@@ -1,11 +1,11 @@
-//! Equations between coordinates and time, by which joints are coupled.
+//! Equations between coordinates and time, which couple joints.
 
 use std::fmt::Debug;
 
-/// Most coordinates that one relation may name.
+/// Maximum number of coordinates of a relation.
 pub const MAX_COUPLED: usize = 16;
 
-/// One number per coordinate; those that are not there stay zero.
+/// One value per coordinate; unused ones are zero.
 pub type Coupled = [f64; MAX_COUPLED];
 
 /// An instant: time [s] and coordinates [rad, m]; or a direction in both.
@@ -17,7 +17,7 @@ pub trait Relation: Send + Sync + Debug {
     fn jet(&self, at: RelationPoint<'_>, direction: RelationPoint<'_>) -> [f64; 3];
 
     /// Change from one instant to another without cancellation, `elapsed` [s] and `change` later. Default: the
-    /// difference of the values, or over short ways, where that is round-off, the integral of the derivative.
+    /// difference of the values, or for small changes, where that is round-off, the integral of the derivative.
     fn change(&self, from: RelationPoint<'_>, elapsed: f64, change: &[f64]) -> f64 {
         const OFFSET: f64 = 0.774_596_669_241_483_4;
         let (time, start) = from;
@@ -33,7 +33,7 @@ pub trait Relation: Send + Sync + Debug {
         let integral = (5.0 * (slope(-OFFSET) + slope(OFFSET)) + 8.0 * slope(0.0)) / 18.0;
         let ([before, ..], [after, ..]) = (at(0.0), at(1.0));
         let difference = after - before;
-        // What values round, and what they do because their arguments are rounded.
+        // Round-off of values, and that due to the rounding of their arguments.
         let by_arguments: f64 = (0..start.len())
             .map(|k| {
                 let mut unit = Coupled::default();

@@ -1,16 +1,16 @@
-//! Round-off tolerances by purpose. They are relative to what the comment names; a tolerance that is a choice, not round-off, stands where
-//! it is used.
+//! Round-off tolerances by purpose, relative to the quantity in the comment. Tolerances that are chosen for other reasons are
+//! defined where they are used.
 
-/// A number that is the result of a few operations on numbers of one size.
+/// The result of a few operations on numbers of one magnitude.
 pub const OPERATIONS: f64 = 16.0 * f64::EPSILON;
-/// A sum, relative to the terms that it is made of.
+/// A sum, relative to its terms.
 pub const SUM: f64 = 4.0 * f64::EPSILON;
-/// Forces of a system, relative to the terms that they are made of.
+/// Forces of a system, relative to their terms.
 pub const FORCES: f64 = 64.0 * f64::EPSILON;
-/// A stiffness of a system, relative to the terms that it is made of.
+/// A stiffness of a system, relative to its terms.
 pub const STIFFNESS: f64 = 256.0 * f64::EPSILON;
-/// Strains and deformations that rates miss, relative to how far the nodes of an element move, in element lengths. Where an element
-/// moves nearly as a rigid body its relative rates are round-off of the twists of its nodes.
+/// Errors of rates of strains and deformations, relative to the displacement of an element's nodes, in element lengths. If an
+/// element moves nearly as a rigid body its relative rates are round-off of the twists of its nodes.
 pub const RIGID_MOTION: f64 = 4096.0 * f64::EPSILON;
 /// Changes of the point of contact, relative to the radius of the wheel.
 pub const CURVATURE_CENTRE: f64 = 1e-15;
@@ -18,13 +18,14 @@ pub const CURVATURE_CENTRE: f64 = 1e-15;
 pub const PIVOT: f64 = 1e-14;
 /// Violations of constraints, of angles and relative to the length of the model.
 pub const VIOLATION: f64 = 1e-14;
-/// Corrections of Newton's method, scaled: some hundred roundings of numbers of the size of one.
+/// Corrections of Newton's method, scaled: some hundred roundings of numbers of magnitude one.
 pub const CORRECTION: f64 = 1e-13;
-/// What of a vector does not depend on others, relative to it; eigenvalues, relative to the largest, as squares.
+/// The part of a vector that is independent of others, relative to it; eigenvalues, relative to the largest, as
+/// squares.
 pub const PREDICTION: f64 = 1e-13;
-/// Increments that a step is solved for [-, rad].
+/// Increments determined by a step [-, rad].
 pub const INCREMENT: f64 = 1e-12;
-/// Values of a function of time, relative to its size.
+/// Values of a function of time, relative to its magnitude.
 pub const FUNCTION: f64 = 1e-12;
 /// Eigenvalues of symmetric matrices relative to the largest, and forces of rigid displacements relative to the norm of the stiffness.
 pub const EIGENVALUE: f64 = 1e-12;
@@ -32,13 +33,14 @@ pub const EIGENVALUE: f64 = 1e-12;
 pub const MATRIX_ENTRY: f64 = 1e-11;
 /// An energy, relative to the largest single one.
 pub const ENERGY: f64 = 1e-10;
-/// Eigenvalues of given matrices relative to the largest, couplings of two stiffnesses, imaginary parts relative to the size of a number.
+/// Eigenvalues of given matrices relative to the largest, couplings of two stiffnesses, imaginary parts relative to the magnitude
+/// of a number.
 pub const COUPLING: f64 = 1e-10;
-/// Forces and entries of gradients, relative to the largest: they follow from solutions.
+/// Forces and entries of gradients, relative to the largest: they are computed from solutions.
 pub const FORCE: f64 = 1e-9;
-/// Eigenvalues that an iteration finds, relative to the largest, and their imaginary parts.
+/// Eigenvalues computed by iteration, relative to the largest, and their imaginary parts.
 pub const ITERATED_EIGENVALUE: f64 = 1e-9;
 /// Accelerations in steady motion relative to the squares of rates, and corrections of it that no longer decrease.
 pub const STEADY_MOTION: f64 = 1e-8;
-/// Derivatives by numbers of the model, relative to the largest.
+/// Derivatives with respect to model parameters, relative to the largest.
 pub const DERIVATIVE: f64 = 1e-7;

@@ -129,20 +129,20 @@ impl Coordinate {
     }
 }
 
-/// The joint's own coordinates now, and their change since the start of the step [rad, m].
+/// The joint's own coordinates, and their change since the start of the step [rad, m].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointCoordinates {
-    /// Values now.
+    /// Present values.
     pub value: [f64; MAX_COORDINATES],
     /// Change since the start of the step.
     pub change: [f64; MAX_COORDINATES],
 }
 
-/// One number per equation.
+/// One value per equation.
 pub type Equations = [f64; MAX_EQUATIONS];
 
-/// Derivatives of the equations: with respect to the body variation η of the relative motion
-/// (translation, rotation), and to the joint's own coordinates. Unused rows and columns stay zero.
+/// Derivatives of the equations with respect to the body variation η of the relative motion (translation, rotation),
+/// and to the joint's own coordinates. Unused rows and columns are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient {
     /// ∂c/∂η.
@@ -161,35 +161,35 @@ impl Gradient {
 /// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
 pub type ConstraintHessian = SMatrix<f64, 8, 8>;
 
-/// The equations of a joint. What is evaluated often is written over one number or several side by side.
+/// The equations of a joint. Frequently evaluated formulas are written for one number or several side by side.
 pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Its algebraic coordinates.
     const COORDINATES: &'static [Coordinate] = &[];
-    /// Most equations that a joint of the kind has; what is said of further ones is not looked at.
+    /// Maximum number of equations of the kind; results for further ones are ignored.
     const MAX_ROWS: usize = MAX_EQUATIONS;
-    /// How many equations are lengths; they come first, angles follow.
+    /// Number of equations that are lengths; they are first, followed by angles.
     const LENGTHS: usize = 3;
 
     /// Name of each equation.
     fn equations(&self) -> &'static [&'static str];
 
-    /// Numbers of its own that the equations hold.
+    /// Constants in the equations.
     fn constants(&self) -> [f64; MAX_CONSTANTS] {
         [0.0; MAX_CONSTANTS]
     }
 
-    /// Coordinates at the start, and the relative motion for which they satisfy the equations.
+    /// Initial coordinates, and the relative motion for which they satisfy the equations.
     fn initial(&self) -> ([f64; MAX_COORDINATES], Motion) {
         ([0.0; MAX_COORDINATES], Motion::identity())
     }
 
-    /// For joints with an equation that vanishes in a pose they can reach, and beyond which it has a second branch of solutions: a
-    /// number that is positive on the branch of the joint and negative on the other. Default: there is no such pose.
+    /// For joints with an equation that vanishes in a pose they can reach, beyond which it has a second branch of solutions: a
+    /// function that is positive on the branch of the joint and negative on the other. Default: there is no such pose.
     fn branch(&self) -> Option<Branch> {
         None
     }
 
-    /// The contact in which the tip does not slide on the base, for joints that roll. Default: it is none of them.
+    /// The contact in which the tip does not slide on the base, for rolling joints. Default: none.
     fn contact(&self) -> Option<Contact> {
         None
     }
@@ -198,14 +198,15 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn violation(&self, relative: &Relative, own: &JointCoordinates) -> Equations;
 
     /// Change of the violation since the start of the step, from the changes of `increment` and `own`, without
-    /// cancellation. Hot: inlined always.
+    /// cancellation. Called often: inlined always.
     fn violation_change<R: Real>(
         increment: &RelativeIncrement<R>,
         own: &CoordinateIncrement<R>,
         constants: &[R; MAX_CONSTANTS],
     ) -> [R; MAX_EQUATIONS];
 
-    /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Hot: inlined always.
+    /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Called often: inlined
+    /// always.
     fn wrench<R: Real>(
         increment: &RelativeIncrement<R>,
         own: &CoordinateIncrement<R>,

@@ -1,5 +1,5 @@
-//! Parallel axes: an axis of the tip stays parallel to one of the base, R = Q(φ). The rotation about it is an algebraic
-//! coordinate; the tip's point moves freely.
+//! Parallel axes: an axis of the tip remains parallel to one of the base, R = Q(φ). The rotation about it is an
+//! algebraic coordinate; the tip's point moves freely.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};

@@ -1,9 +1,9 @@
-//! Perpendicular axes: an axis of the base and one of the tip stay at a right angle, -R_12 = 0.
+//! Perpendicular axes: an axis of the base and one of the tip remain at a right angle, -R_12 = 0.
 
 use super::generic::locking;
 use super::kind::{Build, Frames, JointKind};
 
-/// Registry entry: the generic joint that locks the rotation about the third axis alone.
+/// Registry entry: the generic joint that locks only the rotation about the third axis.
 pub const KIND: JointKind = JointKind {
     name: "perpendicular_axes",
     summary: "Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.",

@@ -1,5 +1,5 @@
-//! Planar joint: the tip moves in a plane of the base and turns about its normal, x·e₃ = 0 and R = Q(φ). The rotation
-//! is an algebraic coordinate.
+//! Planar joint: the tip moves in a plane of the base and rotates about its normal, x·e₃ = 0 and R = Q(φ). The
+//! rotation is an algebraic coordinate.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};

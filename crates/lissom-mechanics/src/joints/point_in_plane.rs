@@ -1,9 +1,9 @@
-//! Point in plane: the tip's point stays in a plane of the base, x·e₃ = 0.
+//! Point in plane: the tip's point remains in a plane of the base, x·e₃ = 0.
 
 use super::generic::locking;
 use super::kind::{Build, Frames, JointKind};
 
-/// Registry entry: the generic joint that locks the translation along the third axis alone.
+/// Registry entry: the generic joint that locks only the translation along the third axis.
 pub const KIND: JointKind = JointKind {
     name: "point_in_plane",
     summary: "The tip's point moves in the base's plane perpendicular to `axis`; the tip turns freely.",

@@ -1,5 +1,5 @@
-//! Point on a line: the tip's point slides along a line of the base and the tip turns freely. The displacement along
-//! the line is an algebraic coordinate: x = d e₃ in the base's axes.
+//! Point on a line: the tip's point slides along a line of the base and the tip rotates freely. The displacement
+//! along the line is an algebraic coordinate: x = d e₃ in the base's axes.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};

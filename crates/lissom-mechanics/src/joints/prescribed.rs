@@ -6,7 +6,7 @@ use crate::registry::Function;
 /// A driven coordinate.
 #[derive(Clone, Debug)]
 pub struct Prescribed {
-    /// The coordinate that is driven.
+    /// The driven coordinate.
     pub coordinate: CoordinateId,
     /// Its value as a function of time [rad, m].
     pub value: Function,
@@ -18,15 +18,14 @@ impl Prescribed {
         coordinate - self.value.value(time)
     }
 
-    /// Change of the violation over the time `elapsed` [s] that ends at `time`.
+    /// Change of the violation over the time interval `elapsed` [s] that ends at `time`.
     pub fn violation_change(&self, change: f64, time: f64, elapsed: f64) -> f64 {
         change - function_change(&self.value, time, elapsed)
     }
 }
 
-/// `f(time) - f(time - elapsed)`. Over short times the difference cancels; the integral of the
-/// derivative, by three Gauss points, does not. The two are distinguished by their agreement within
-/// round-off.
+/// `f(time) - f(time - elapsed)`. Over short times the difference cancels; the integral of the derivative, by three
+/// Gauss points, does not. The integral is used if both agree within round-off.
 fn function_change(function: &Function, time: f64, elapsed: f64) -> f64 {
     const OFFSET: f64 = 0.774_596_669_241_483_4;
     let (start, end) = (function.value(time - elapsed), function.value(time));

@@ -1,18 +1,19 @@
-//! Prescribed motion: displacements and rotations of the tip relative to the base are functions of time, as of a shaking
-//! table or a platform on the ground.
+//! Prescribed motion: displacements and rotations of the tip relative to the base are functions of time, such as those
+//! of a shaking table or a platform on the ground.
 //!
 //! ```text
 //! R = Rx(rx) Ry(ry) Rz(rz),      x = (x, y, z) in the base's axes
 //! ```
 //!
-//! Built of joints that are there: slides along the axes, then hinges about them, one after the other with frames without
-//! mass between them, each with a drive. What is not given is held, so that the reaction has all six components.
+//! Consists of existing joints: prismatic joints along the axes, then revolute joints about them, in series with massless
+//! frames between them, each with a drive. Components that are not given are locked, so that the reaction has all six
+//! components.
 
 use super::kind::{Build, JointKind};
 use crate::kinematics::Quantity;
 use crate::registry::{Parameter, ParameterType};
 
-/// The components, in the order in which they move.
+/// The components, in the order of their joints.
 pub const COMPONENTS: [(&str, Quantity); 6] = [
     ("x", Quantity::Length),
     ("y", Quantity::Length),

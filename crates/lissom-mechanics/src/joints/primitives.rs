@@ -13,11 +13,11 @@ use lissom_motion::{Matrix3, Real, Screw, Triple, Vector3, axial, skew};
 use super::relative_increment::{Angle, Axes, RelativeIncrement};
 use super::{ConstraintHessian, Equations, Gradient, MAX_COORDINATES, Relative};
 
-/// Names of three equations that hold two points together.
+/// Names of the three equations of coincident points.
 pub(crate) const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
 
-/// Rows `row..row + 3`: the tip's point lies at the base's point, c = Rᵀ x in the tip's axes. There the
-/// gradient of a tip that turns about a point of the ground stays constant.
+/// Rows `row..row + 3`: the tip's point coincides with the base's point, c = Rᵀ x in the tip's axes. In these axes
+/// the gradient of a tip that rotates about a point of the ground is constant.
 pub(crate) fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
     out[row..row + 3].copy_from_slice(relative.rotation.tr_mul(&relative.position).as_slice());
 }
@@ -40,7 +40,7 @@ pub(crate) fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gra
     }
 }
 
-/// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which lies at -Rᵀ x from the tip's.
+/// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which is at -Rᵀ x from the tip's.
 #[inline(always)]
 pub(crate) fn coincident_wrench<R: Real>(increment: &RelativeIncrement<R>, mu: Triple<R>) -> Screw<R> {
     Screw::new(mu, mu.cross(increment.place))
@@ -56,9 +56,9 @@ pub(crate) fn coincident_hessian(relative: &Relative, mu: &Vector3, out: &mut Co
     view += turning;
 }
 
-/// Rows `row..row + 3`: the tip's point lies on the base's third axis at the displacement d, c = Rᵀ x - d e₃. Like
-/// [`coincident`] except for a constant gradient by d, so that gradient and Hessian by the relative motion are the same.
-/// The axes of base and tip agree, by other rows.
+/// Rows `row..row + 3`: the tip's point is on the base's third axis at the displacement d, c = Rᵀ x - d e₃. This is
+/// [`coincident`] except for a constant gradient with respect to d, so that gradient and Hessian by the relative motion
+/// are the same. The axes of base and tip agree, by other rows.
 pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
     coincident(relative, row, out);
     out[row + 2] -= displacement;
@@ -69,7 +69,7 @@ pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, 
 pub(crate) struct JointRotation<R> {
     /// Q(φ).
     pub rotation: Axes<R>,
-    /// Change of Q since the start of the step, free of cancellation.
+    /// Change of Q since the start of the step, without cancellation.
     pub change: Axes<R>,
     /// Axis vectors of Qᵀ ∂Q/∂φ_k, one per coordinate.
     pub axes: [Triple<R>; MAX_COORDINATES],
@@ -80,7 +80,7 @@ pub(crate) struct JointRotation<R> {
 }
 
 impl<R: Real> JointRotation<R> {
-    /// No rotation of its own; `kind` only gives the kind of number.
+    /// No rotation of its own; `kind` only determines the type of number.
     #[inline(always)]
     pub(crate) fn none(kind: R) -> Self {
         let (zero, one) = (kind.like(0.0), kind.like(1.0));
@@ -106,7 +106,7 @@ impl<R: Real> JointRotation<R> {
         Self { rotation, change, axes: [none.rotation.0[2], none.axes[1]], count: 1, ..none }
     }
 
-    /// Rotation about the first axis, then about the turned second axis.
+    /// Rotation about the first axis, then about the rotated second axis.
     #[inline(always)]
     pub(crate) fn about_first_and_second_axis([a, b]: &[Angle<R>; 2]) -> Self {
         let none = Self::none(a.sine);
@@ -153,7 +153,7 @@ impl<R: Real> JointRotation<R> {
         (m, own)
     }
 
-    /// Change of the violations of a joint that holds a point, then this rotation: [`coincident_change`] and
+    /// Change of the violations of a joint that locks a point and this rotation: [`coincident_change`] and
     /// [`Self::matches_change`].
     #[inline(always)]
     pub(crate) fn held_change(&self, increment: &RelativeIncrement<R>) -> [R; 6] {
@@ -162,7 +162,7 @@ impl<R: Real> JointRotation<R> {
         [a, b, c, d, e, f]
     }
 
-    /// Wrench on the tip of a joint that holds a point, then this rotation, and forces on the coordinates:
+    /// Wrench on the tip of a joint that locks a point and this rotation, and forces on the coordinates:
     /// [`coincident_wrench`] and [`Self::matches_moments`].
     #[inline(always)]
     pub(crate) fn held_wrench(
@@ -211,7 +211,7 @@ impl JointRotation<f64> {
         view += dm;
         for k in 0..self.count {
             let axis = e.tr_mul(&self.axis(k));
-            // The moment -Sᵀ E m on φ_k changes with ρ as Sᵀ E (m̃ - ∂m/∂ρ).
+            // The derivative of the moment -Sᵀ E m on φ_k with respect to ρ is Sᵀ E (m̃ - ∂m/∂ρ).
             let by_rho = axis.transpose() * (skew(&m) - dm);
             let column = dm * axis;
             for i in 0..3 {

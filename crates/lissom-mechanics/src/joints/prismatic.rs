@@ -1,5 +1,5 @@
-//! Prismatic joint: the tip slides along an axis of the base and does not turn against it. The displacement along
-//! the axis is an algebraic coordinate: x = d e₃ in the joint frame, R = I.
+//! Prismatic joint: the tip slides along an axis of the base without relative rotation. The displacement along the
+//! axis is an algebraic coordinate: x = d e₃ in the joint frame, R = I.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
@@ -14,7 +14,7 @@ use super::{
 };
 use crate::registry::DISPLACEMENT_AT_START;
 
-/// The displacement's position among the coordinates.
+/// Index of the displacement among the coordinates.
 const SLIDE: usize = 0;
 
 /// Registry entry.
@@ -28,7 +28,7 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// A slide.
+/// A prismatic joint.
 #[derive(Clone, Copy, Debug)]
 pub struct Prismatic {
     /// Relative displacement at the start [m].

@@ -1,5 +1,5 @@
-//! What a joint sees of its frames' motion, over one number or several side by side: rotation, position and own
-//! coordinates now, and their changes since the start of the step without cancellation.
+//! Relative motion of a joint's frames, for one number or several side by side: present rotation, position and own
+//! coordinates, and their changes since the start of the step without cancellation.
 //!
 //! With (E, p_E) and (F, p_F) the changes of base and tip joint frame, (R, x) at the start and P = Rᵀx:
 //!
@@ -115,7 +115,7 @@ pub struct FrameChange<R> {
 }
 
 impl<R: Real> FrameChange<R> {
-    /// The same change of a frame carried at `offset`, with its axes.
+    /// The same change for a frame fixed at `offset`, with its axes.
     #[inline(always)]
     #[must_use]
     pub(crate) fn carried_at(self, axes: Option<Axes<R>>, offset: Triple<R>) -> Self {
@@ -137,7 +137,7 @@ pub struct RelativeIncrement<R> {
     pub start_rotation: Axes<R>,
     /// Its change.
     pub rotation_change: Axes<R>,
-    /// P: relative position in the tip's axes, now [m].
+    /// P: present relative position in the tip's axes [m].
     pub place: Triple<R>,
     /// Its change [m].
     pub place_change: Triple<R>,
@@ -164,7 +164,7 @@ impl<R: Real> RelativeIncrement<R> {
         }
     }
 
-    /// Relative rotation now.
+    /// Present relative rotation.
     #[inline(always)]
     pub fn rotation(&self) -> Axes<R> {
         self.start_rotation.plus(self.rotation_change)
@@ -190,9 +190,9 @@ impl From<&Relative> for RelativeIncrement<f64> {
 /// An angle by its sine and cosine, and their changes since the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Angle<R> {
-    /// Sine now.
+    /// Present sine.
     pub sine: R,
-    /// Cosine now.
+    /// Present cosine.
     pub cosine: R,
     /// Change of the sine.
     pub sine_change: R,

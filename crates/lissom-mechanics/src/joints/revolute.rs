@@ -1,5 +1,5 @@
-//! Revolute joint: two nodes share a point and an axis; the relative rotation about the axis is an
-//! algebraic coordinate, so that springs, drives and outputs can use it.
+//! Revolute joint: two nodes share a point and an axis; the relative rotation about the axis is an algebraic
+//! coordinate, which springs, drives and outputs can use.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Screw, Vector3};

@@ -3,7 +3,7 @@
 use super::clamp::Clamp;
 use super::kind::{Build, Frames, JointKind};
 
-/// Registry entry. The joint frames of a clamp may lie anywhere: here, at the tip node.
+/// Registry entry. The joint frames of a clamp may be anywhere: here, at the tip node.
 pub const KIND: JointKind = JointKind {
     name: "rigid_link",
     summary: "Joins two nodes at different positions by a massless rigid link.",

@@ -8,7 +8,7 @@
 //! c = ±x₃ - r S - ρ = 0,      ∂c/∂η = (N, r u/S a × N)
 //! ```
 //!
-//! keeps the distance; this is the equation here. That the point of contact does not slide is said of velocities, see
+//! This equation maintains the distance. That the point of contact does not slide is a velocity constraint, see
 //! [`super::contact`] and `elements::rolling`.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -68,7 +68,7 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// Gaps below this fraction of the wheel's size are round-off of the positions given.
+/// Gaps below this fraction of the wheel's size are round-off of the given positions.
 const CLOSED: f64 = 1e-6;
 
 fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, ParameterError> {
@@ -146,7 +146,7 @@ impl Joint for Rolling {
         ([0.0; MAX_COORDINATES], Motion::new(Rotation::identity(), self.centre))
     }
 
-    /// Measured from the start, where the wheel touches to the accuracy of the positions given.
+    /// Relative to the start, where the wheel touches to the accuracy of the given positions.
     fn violation(&self, relative: &Relative, _: &JointCoordinates) -> Equations {
         let Contact { axis, side, radius, .. } = self.contact;
         let cosine = relative.rotation.row(2).transpose().dot(&axis);
@@ -211,7 +211,7 @@ impl Joint for Rolling {
         let cosine = normal.dot(&axis);
         let upright = upright(cosine);
         let turned = skew(&normal);
-        // d(u/S)/du = 1/S³ except for the round-off that S is kept away from zero with.
+        // d(u/S)/du = 1/S³, apart from the round-off that keeps S from vanishing.
         let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
         let tilting = slope * axis.cross(&normal) * (axis.transpose() * turned)
             + cosine / upright * skew(&axis) * turned;

@@ -1,5 +1,5 @@
-//! Joints whose equations are no formulas over the lanes of a vector register, such as those with a search inside: they
-//! are evaluated one by one.
+//! Joints whose equations cannot be evaluated in the lanes of a vector register, such as those that contain a search:
+//! they are evaluated one by one.
 
 use std::any::Any;
 use std::ops::Range;

@@ -1,5 +1,5 @@
-//! Screw joint: the tip turns about an axis of the base and moves along it by `lead` per turn. The rotation is an
-//! algebraic coordinate: x = (lead/2π) φ e₃ in the joint frame, R = Q(φ).
+//! Screw joint: the tip rotates about an axis of the base and moves along it by `lead` per revolution. The rotation
+//! is an algebraic coordinate: x = (lead/2π) φ e₃ in the joint frame, R = Q(φ).
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::f64::consts::TAU;

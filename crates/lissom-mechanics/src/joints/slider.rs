@@ -1,4 +1,4 @@
-//! Slider along a beam: a point of the tip stays on the line through the beam's nodes, wherever along it.
+//! Slider along a beam: a point of the tip remains on the line through the beam's nodes, at any position along it.
 //!
 //! Legend: x_t the tip's point, s the coordinate, x(s) = Σ w_k(s) x_k the line (see `centerline`), R_k rotation of a node, o_k
 //! its section's point in its axes, m_k = R_kᵀ μ, a_k and v_k acceleration and velocity of a point.
@@ -8,9 +8,9 @@
 //! forces Bᵀ μ: tip [m_t, o_t × m_t],   node k: -w_k [m_k, o_k × m_k],   s: -Σ w_k' x_k · μ
 //! ```
 //!
-//! The beam takes the force at its point x(s), without moments on sections: Σ w_k = 1 and Σ w_k x_k = x(s) leave momentum and
-//! angular momentum what they were. The row of s says that the force is across the line. Equations of a tip that turns with the
-//! line or with the sections are those of `alignment`.
+//! The force on the beam acts at its point x(s), without moments on sections: with Σ w_k = 1 and Σ w_k x_k = x(s) momentum and
+//! angular momentum are conserved. The row of s requires that the force is perpendicular to the line. Equations of a tip that
+//! rotates with the line or with the sections are those of `alignment`.
 
 use lissom_motion::{Matrix3, Vector3, Vector6, skew};
 
@@ -37,21 +37,21 @@ pub const KIND: JointKind = JointKind {
     build: Build::AlongBeams,
 };
 
-/// Equations that hold the point on the line.
+/// Number of equations that keep the point on the line.
 pub(crate) const ON_LINE: usize = 3;
-/// Most equations of a slider, those of directions included.
+/// Maximum number of equations of a slider, those of directions included.
 pub const MAX_EQUATIONS: usize = 6;
-/// The tip among the local nodes.
+/// Index of the tip among the local nodes.
 pub const TIP: usize = SUPPORT;
-/// The coordinate's local unknown.
+/// Index of the coordinate among the local unknowns.
 pub const OWN: usize = 6 * (SUPPORT + 1);
-/// Local unknowns: four nodes of the beam, the tip, the coordinate.
+/// Number of local unknowns: four nodes of the beam, the tip, the coordinate.
 pub const LOCAL: usize = OWN + 1;
 
-/// One number per local unknown.
+/// One value per local unknown.
 pub type Row = [f64; LOCAL];
 
-/// A point that a node carries.
+/// A point fixed to a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedPoint {
     /// The node.
@@ -78,18 +78,18 @@ impl CarriedPoint {
     }
 }
 
-/// What the tip of a slider turns with.
+/// Orientation of the tip of a slider.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Orientation {
-    /// Nothing.
+    /// Free rotation.
     Free,
-    /// The tangent, about which it turns freely.
+    /// Aligned with the tangent, about which it rotates freely.
     Tangent,
-    /// The sections, of which each node carries this axis, in its own axes; it is across the line.
+    /// Aligned with the sections: each node carries this axis, in its own axes, perpendicular to the line.
     Section(Vec<Vector3>),
 }
 
-/// A slider with its position in the system.
+/// A slider with its location in the system.
 #[derive(Debug)]
 pub struct Slider {
     /// Name in the model.
@@ -98,23 +98,23 @@ pub struct Slider {
     pub nodes: Vec<CarriedPoint>,
     /// The line through the nodes.
     pub line: Centerline,
-    /// What slides.
+    /// The sliding point.
     pub tip: CarriedPoint,
     /// Arc length of the undeformed beams up to the point [m].
     pub coordinate: CoordinateId,
-    /// Directions of the tip that stay across the line or an axis of the sections.
+    /// Directions of the tip that remain perpendicular to the line or to an axis of the sections.
     pub alignments: Vec<Alignment>,
-    /// Its first multiplier among all; there are three, the force on the beam in inertial axes [N], and one for each direction.
+    /// Its first multiplier among all; three are the force on the beam in inertial axes [N], and one is for each direction.
     pub first_multiplier: usize,
 }
 
-/// Where a slider is.
+/// Location of a slider on the line.
 pub struct Place {
     pub(super) support: Support,
 }
 
 impl Place {
-    /// Local nodes of the beam, each with its weight in a derivative by s.
+    /// Local nodes of the beam, each with its weight in a derivative with respect to s.
     pub(super) fn weights(&self, derivative: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let Support { count, weights, .. } = self.support;
         (0..count).map(move |k| (k, weights[derivative][k]))
@@ -122,7 +122,7 @@ impl Place {
 }
 
 impl Slider {
-    /// How many equations it has.
+    /// Number of equations.
     pub fn equations(&self) -> usize {
         ON_LINE + self.alignments.len()
     }
@@ -145,7 +145,7 @@ impl Slider {
         self.line.length()
     }
 
-    /// Where it is.
+    /// Its present location.
     pub fn place(&self, at: &Kinematics) -> Place {
         let s = at.coordinates[self.coordinate].value;
         Place { support: self.line.at(s) }
@@ -155,17 +155,17 @@ impl Slider {
         if local == TIP { &self.tip } else { &self.nodes[place.support.first + local] }
     }
 
-    /// Local nodes of the beam, each with the factor of its position in a derivative of c by s.
+    /// Local nodes of the beam, each with the factor of its position in a derivative of c with respect to s.
     fn on_beam(place: &Place, derivative: usize) -> impl Iterator<Item = (usize, f64)> {
         place.weights(derivative).map(|(k, weight)| (k, -weight))
     }
 
-    /// The same for c itself, and the tip.
+    /// The same for c itself, including the tip.
     fn all(place: &Place) -> impl Iterator<Item = (usize, f64)> {
         Self::on_beam(place, 0).chain([(TIP, 1.0)])
     }
 
-    /// Violations, evaluated from absolute positions [m, rad]; those that it does not have are zero.
+    /// Violations, evaluated from absolute positions [m, rad]; those of missing equations are zero.
     fn violations(&self, at: &Kinematics) -> Vector6 {
         let place = self.place(at);
         let beside = self.tip.place(at) - self.along(&place, 0, at);
@@ -191,7 +191,7 @@ impl Slider {
         violation
     }
 
-    /// A derivative of x(s) by s.
+    /// A derivative of x(s) with respect to s.
     fn along(&self, place: &Place, derivative: usize, at: &Kinematics) -> Vector3 {
         place.support.sum(derivative, |node| self.nodes[node].place(at))
     }
@@ -253,13 +253,13 @@ impl Slider {
         out
     }
 
-    /// Nodes on whose motion it depends: those along the beams, and what slides.
+    /// Nodes on whose motion it depends: those along the beams, and that of the sliding point.
     pub fn carriers(&self) -> impl Iterator<Item = NodeId> + '_ {
         self.nodes.iter().chain([&self.tip]).map(|point| point.node)
     }
 
-    /// s̈ as it follows from the accelerations of nodes, by the least squares of c̈ = 0 [m/s²]. Schemes know that of a massless
-    /// coordinate to a lower order.
+    /// s̈ from the accelerations of nodes, by the least squares of c̈ = 0 [m/s²]. Schemes compute that of a massless coordinate
+    /// to a lower order.
     pub fn coordinate_acceleration(&self, at: &Kinematics) -> f64 {
         let place = self.place(at);
         let gradient = self.rows(&place, at);
@@ -274,7 +274,7 @@ impl Slider {
         tangent.dot(&missing) / tangent.norm_squared()
     }
 
-    /// What c̈ holds besides B v̇ [m/s², rad/s²].
+    /// The terms of c̈ other than B v̇ [m/s², rad/s²].
     fn accelerations(&self, at: &Kinematics) -> Vector6 {
         let place = self.place(at);
         let rate = at.coordinates[self.coordinate].rate;
@@ -337,7 +337,7 @@ impl Constraint for Slider {
         LOCAL
     }
 
-    /// What slides, and all nodes of the beams together: of these it acts on others as it moves on.
+    /// The sliding node, and all nodes of the beams together: it acts on different ones of these as it moves.
     fn sides(&self) -> Vec<Vec<NodeId>> {
         vec![vec![self.tip.node], self.nodes.iter().map(|point| point.node).collect()]
     }
@@ -364,7 +364,7 @@ impl Constraint for Slider {
     }
 }
 
-/// Numbers by equation, of which the first are known.
+/// Values by equation, of which the first are given.
 fn filled(on_line: &Vector3) -> Vector6 {
     let mut all = Vector6::zeros();
     all.fixed_rows_mut::<ON_LINE>(0).copy_from(on_line);

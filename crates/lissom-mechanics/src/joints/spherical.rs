@@ -1,4 +1,4 @@
-//! Spherical joint: two nodes share a point and turn freely about it.
+//! Spherical joint: two nodes share a point and rotate freely about it.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Real, Screw, Triple, Vector3};

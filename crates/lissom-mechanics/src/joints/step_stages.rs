@@ -65,14 +65,14 @@ impl AttachedJoint {
         let missed = SVector::<f64, MAX_EQUATIONS>::from_column_slice(&change) - step.whole(rates);
         let (mut inverse, mut shares) = step.shares(squares);
         if self.is_rigid() {
-            // No relative motion is left: the rates are round-off, and so is what they miss.
+            // No relative motion remains: the rates and their error are round-off.
             inverse = 0.0;
         }
         let whole: f64 = step.lasting.iter().sum();
         if inverse == 0.0 {
             shares = [1.0 / whole; STAGES];
         }
-        // What is below round-off counts in the violations but would be noise in the forces.
+        // A value below round-off is included in the violations but would be noise in the forces.
         let known = missed.map(|value| value * above_round_off(value.abs(), round_off::OPERATIONS * way));
         let before = SVector::<f64, MAX_EQUATIONS>::from_column_slice(before);
         let violations =
@@ -83,7 +83,7 @@ impl AttachedJoint {
         })
     }
 
-    /// Whether it leaves no relative motion: six equations and no coordinate of its own.
+    /// Whether it allows no relative motion: six equations and no coordinate of its own.
     fn is_rigid(&self) -> bool {
         self.joint().equations().len() == 6 && self.joint().coordinates().is_empty()
     }

@@ -1,5 +1,5 @@
 //! Revolute-spherical link: a massless rigid link, hinged to the base, that carries the tip's point. The angle of the
-//! arm is an algebraic coordinate: x = Q(φ) a, with Q the rotation about the hinge's axis.
+//! link is an algebraic coordinate: x = Q(φ) a, with Q the rotation about the hinge's axis.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
@@ -34,19 +34,19 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// A hinged massless arm.
+/// A hinged massless link.
 #[derive(Clone, Copy, Debug)]
 pub struct SwingArm {
-    /// The arm at φ = 0, in the base's joint frame [m].
+    /// The vector a of the link at φ = 0, in the base's joint frame [m].
     arm: Vector3,
     /// φ at the start [rad].
     angle: f64,
-    /// Three, or two where the tip can only move in the plane of the hinge.
+    /// Three, or two if the tip can move only in the plane of the hinge.
     equations: usize,
 }
 
 impl SwingArm {
-    /// Multipliers as a vector, zero where there is no equation.
+    /// Multipliers as a vector, zero for missing equations.
     fn forces(&self, mu: &Equations) -> Vector3 {
         Vector3::new(mu[0], mu[1], if self.equations == 3 { mu[2] } else { 0.0 })
     }
@@ -66,7 +66,7 @@ impl Joint for SwingArm {
         &POINT_EQUATIONS[..self.equations]
     }
 
-    /// The arm, and 1 where there is a third equation.
+    /// The vector of the link, and 1 if there is a third equation.
     fn constants(&self) -> [f64; MAX_CONSTANTS] {
         let mut constants = [0.0; MAX_CONSTANTS];
         constants[..3].copy_from_slice(self.arm.as_slice());

@@ -1,5 +1,5 @@
-//! Universal joint: two nodes share a point; the tip turns about an axis of the base, then about an
-//! axis of its own. Both angles are algebraic coordinates.
+//! Universal joint: two nodes share a point; the tip rotates about an axis of the base, then about an axis of its
+//! own. Both angles are algebraic coordinates.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{Real, Screw, Vector3};

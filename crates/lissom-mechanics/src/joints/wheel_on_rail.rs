@@ -1,11 +1,11 @@
-//! A wheel that runs on a rail: it does not leave it, and creeps on it.
+//! A wheel that rolls on a rail: it remains in contact, with creep.
 //!
 //! ```text
 //! c = g - g_start,      ∂c/∂η = (N, p × N)
 //! ```
 //!
 //! g gap along the common normal N, p point of contact from the tip's origin, both in the tip's axes: see [`contact`]. The
-//! multiplier is the normal force that pulls. Forces of creep depend on it, see `elements::creep_force`.
+//! multiplier is the normal force, positive if it pulls. Creep forces depend on it, see `elements::creep_force`.
 
 use lissom_motion::{Motion, Rotation, Vector3, Vector6};
 use nalgebra::SVector;
@@ -23,13 +23,13 @@ use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::kinematics::Quantity;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 
-/// Gaps below this fraction of the wheel's radius are round-off of the positions given.
+/// Gaps below this fraction of the wheel's radius are round-off of the given positions.
 const CLOSED: f64 = 1e-6;
 
-/// Half the width of a tread that is not given, in radii of the wheel.
+/// Default half width of a tread, in radii of the wheel.
 const TREAD: f64 = 0.5;
 
-/// Parameters that only creep needs.
+/// Parameters that are used only with creep.
 const OF_CREEP: [&str; 7] =
     ["shear_modulus", "poisson_number", "kalker", "ellipse", "velocity", "wheel_spin", "directions"];
 
@@ -239,7 +239,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     };
     let pose = start_pose(geometry);
     if !parameters.has("radius") {
-        // The gap falls by nearly as much as the radius grows.
+        // The gap decreases by nearly as much as the radius increases.
         for _ in 0..60 {
             contact.radius += contact.gap(&pose);
         }
@@ -309,7 +309,7 @@ pub struct WheelOnRail {
     creep: Option<CreepLaw>,
     /// The tip at the start, in the base's axes [m].
     centre: Vector3,
-    /// The gap at the start, round-off of the positions given [m].
+    /// The gap at the start, round-off of the given positions [m].
     start: f64,
 }
 

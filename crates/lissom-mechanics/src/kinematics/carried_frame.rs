@@ -1,14 +1,14 @@
-//! Frames carried by nodes.
+//! Frames fixed to nodes.
 
 use lissom_motion::Motion;
 
 use super::motion::NodeId;
 
-/// A joint frame: a frame carried by a node.
+/// A joint frame: a frame fixed to a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedFrame {
-    /// The node that carries it.
+    /// Its node.
     pub node: NodeId,
-    /// The frame in the node's frame.
+    /// The frame relative to the node's frame.
     pub offset: Motion,
 }

@@ -1,5 +1,5 @@
-//! Several numbers side by side in the lanes of a vector register: gathering the motions of several nodes, and working
-//! on as many of them at once as the processor's vectors hold.
+//! Several numbers side by side in the lanes of a vector register: gathers the motions of several nodes, and evaluates
+//! as many of them at once as the processor's vectors contain.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -8,15 +8,16 @@ use pulp::Simd;
 
 use crate::kinematics::{Kinematics, NodeId};
 
-/// What evaluates so many elements soonest: vectors, or for one or two, which would leave most lanes empty, none.
+/// The fastest instructions for this number of elements: vectors, or none for one or two, which would leave most
+/// lanes empty.
 pub fn processor_for(count: usize) -> pulp::Arch {
     if count > FEW { pulp::Arch::new() } else { pulp::Arch::Scalar }
 }
 
-/// As many elements take longer in lanes than one after the other.
+/// This number of elements takes longer in lanes than one by one.
 const FEW: usize = 2;
 
-/// How many parts of a block hold `count` elements, and how many lanes these parts have.
+/// Number of parts of a block with `count` elements, and number of lanes of these parts.
 #[inline(always)]
 pub fn parts<S: Simd>(count: usize) -> (usize, usize) {
     let parts = count.div_ceil(S::F64_LANES);
@@ -29,18 +30,18 @@ pub type Frames = [Block; 7];
 /// Components of twists or wrenches.
 pub type Screws = [Block; 6];
 
-/// A part of every block: as much of it as the processor's vectors hold.
+/// A part of every block: as many lanes as the processor's vectors contain.
 #[derive(Clone, Copy)]
 pub struct Part<S> {
     /// Instructions of the processor.
     pub simd: S,
-    /// Which of the parts of a block.
+    /// Index of the part in a block.
     pub index: usize,
 }
 
 impl<S: Simd> Part<S> {
     #[inline(always)]
-    /// Reads one number of each of the part's lanes.
+    /// Reads one number for each of the part's lanes.
     pub fn number(self, block: &Block) -> Lanes<S> {
         Lanes::load(self.simd, block, self.index)
     }
@@ -65,7 +66,7 @@ impl<S: Simd> Part<S> {
         Screw::from_components(components)
     }
 
-    /// A matrix, row after row, times a twist.
+    /// The product of a matrix, row by row, and a twist.
     #[inline(always)]
     pub fn product(self, matrix: &[Screws; 6], twist: Screw<Lanes<S>>) -> Screw<Lanes<S>> {
         let twist = twist.components();
@@ -98,7 +99,7 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// Lays out the numbers of `count` elements lane by lane; lanes beyond, as far as vectors reach, repeat the first.
+/// Arranges the numbers of `count` elements lane by lane; further lanes of the last vector repeat the first.
 #[inline(always)]
 pub fn gather<const N: usize>(
     count: usize,

@@ -1,4 +1,4 @@
-//! Which row of the equations belongs to which unknown, and what a person calls it.
+//! Numbering of the unknowns and equations, with their names.
 
 use std::ops::Range;
 
@@ -6,10 +6,10 @@ use super::motion::{CoordinateId, NodeId};
 use super::subject::Subject;
 use crate::kinematics::Quantity;
 
-/// Marks a freedom that is locked: it has no row.
+/// Marks a locked degree of freedom: it has no row.
 pub const LOCKED: u32 = u32::MAX;
 
-/// Which degrees of freedom of a node are free.
+/// The free degrees of freedom of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedoms {
     /// None: the ground, or a frame fixed to it.
@@ -23,7 +23,7 @@ pub enum Freedoms {
 }
 
 impl Freedoms {
-    /// Whether freedom `k` (0..3 translations, 3..6 rotations) is free.
+    /// Whether degree of freedom `k` (0..3 translations, 3..6 rotations) is free.
     pub fn is_free(self, k: usize) -> bool {
         match self {
             Self::Fixed => false,
@@ -37,7 +37,7 @@ impl Freedoms {
 /// Numbering of all unknowns: node degrees of freedom, algebraic coordinates, then multipliers.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
-    /// Row of each freedom of each node, or [`LOCKED`].
+    /// Row of each degree of freedom of each node, or [`LOCKED`].
     pub node_rows: Vec<[u32; 6]>,
     /// Row of each algebraic coordinate.
     pub coordinate_rows: Vec<u32>,
@@ -51,11 +51,11 @@ pub struct Layout {
     pub coordinate_names: Vec<String>,
     /// Name and equation of every multiplier.
     pub multiplier_names: Vec<(String, &'static str)>,
-    /// What every coordinate row is, then every constraint.
+    /// Quantity of every coordinate row, then of every constraint.
     pub quantities: Vec<Quantity>,
     /// Coordinate and magnitude of every first-order state.
     pub states: Vec<(CoordinateId, f64)>,
-    /// Coordinates whose rates are forces of constraints between velocities.
+    /// Coordinates whose rates are forces of velocity constraints.
     pub impulses: Vec<CoordinateId>,
 }
 
@@ -65,12 +65,12 @@ impl Layout {
         self.coordinate_count + self.multiplier_count
     }
 
-    /// Number of rows that belong to node degrees of freedom and algebraic coordinates.
+    /// Number of rows of node degrees of freedom and algebraic coordinates.
     pub fn coordinate_count(&self) -> usize {
         self.coordinate_count
     }
 
-    /// What the unknown of every coordinate row is, then the equation of every multiplier.
+    /// The quantity of the unknown of every coordinate row, then of the equation of every multiplier.
     pub fn quantities(&self) -> &[Quantity] {
         &self.quantities
     }
@@ -93,7 +93,7 @@ impl Layout {
         &self.node_names[node]
     }
 
-    /// Rows of a node's six degrees of freedom, [`LOCKED`] where it has none.
+    /// Rows of a node's six degrees of freedom, [`LOCKED`] for locked ones.
     pub fn rows_of_node(&self, node: NodeId) -> &[u32; 6] {
         &self.node_rows[node]
     }
@@ -108,7 +108,7 @@ impl Layout {
         &self.coordinate_names[coordinate]
     }
 
-    /// What an algebraic coordinate is.
+    /// Quantity of an algebraic coordinate.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.quantities[self.row_of_coordinate(coordinate)]
     }
@@ -125,12 +125,12 @@ impl Layout {
             .map(|&(coordinate, magnitude)| (self.row_of_coordinate(coordinate), coordinate, magnitude))
     }
 
-    /// Row and coordinate of every impulse, whose rate is the force of a constraint between velocities.
+    /// Row and coordinate of every impulse, whose rate is the force of a velocity constraint.
     pub fn impulses(&self) -> impl Iterator<Item = (usize, CoordinateId)> + '_ {
         self.impulses.iter().map(|&coordinate| (self.row_of_coordinate(coordinate), coordinate))
     }
 
-    /// Rows of states and impulses: their equations are of rates, not of positions.
+    /// Rows of states and impulses: their equations are for rates, not for positions.
     pub fn rate_rows(&self) -> impl Iterator<Item = usize> + '_ {
         self.states().map(|(row, ..)| row).chain(self.impulses().map(|(row, _)| row))
     }
@@ -144,12 +144,12 @@ impl Layout {
         (joint, equation)
     }
 
-    /// Name of a node, as a person would call it.
+    /// Name of a node, as in the model.
     pub fn name_of_node(&self, node: NodeId) -> &str {
         &self.node_names[node]
     }
 
-    /// Name of the unknown in `row`, as a person would call it.
+    /// Name of the unknown in `row`, as in the model.
     pub fn name_of(&self, row: usize) -> String {
         self.subject_of(row).to_string()
     }

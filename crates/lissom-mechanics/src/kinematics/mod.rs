@@ -1,5 +1,5 @@
-//! The vocabulary of elements, joints and signals: indices, motions and their changes, frames, numbering, and the stages of a
-//! step. Knows no element, joint or system.
+//! Basic types of elements, joints and signals: indices, motions and their changes, frames, numbering, and the stages of a
+//! step. Independent of elements, joints and the system.
 
 mod carried_frame;
 pub mod lanes;

@@ -1,4 +1,4 @@
-//! Motion of nodes and coordinates, in SI. Knows neither topology nor time step.
+//! Motion of nodes and coordinates, in SI. Independent of topology and time step.
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, axial, skew};
 
@@ -12,10 +12,10 @@ pub type HeldId = usize;
 /// The ground: node 0 of every system, without degrees of freedom.
 pub const GROUND: NodeId = 0;
 
-/// A node: position, twist and acceleration of its body frame.
+/// A node: pose, twist and acceleration of its body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeMotion {
-    /// Position of the body frame in the inertial frame.
+    /// Pose of the body frame in the inertial frame.
     pub frame: Motion,
     /// Twist in the body frame: velocity [m/s], angular velocity [rad/s].
     pub twist: Vector6,
@@ -54,7 +54,7 @@ pub fn split(screw: &Vector6) -> (Vector3, Vector3) {
     (Vector3::new(screw[0], screw[1], screw[2]), Vector3::new(screw[3], screw[4], screw[5]))
 }
 
-/// A change of motion H⁻¹ H' = (E, p), kept as E - I and p so that small changes keep their digits.
+/// A change of motion H⁻¹ H' = (E, p), stored as E - I and p so that small changes keep their digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionChange {
     /// E - I.
@@ -83,7 +83,7 @@ impl MotionChange {
         Self { turn, shift: motion.position }
     }
 
-    /// This change, then `next` seen from the changed frame: (E₁ E₂ - I, p₁ + E₁ p₂).
+    /// This change, then `next` relative to the changed frame: (E₁ E₂ - I, p₁ + E₁ p₂).
     #[must_use]
     pub fn then(&self, next: &Self) -> Self {
         Self {
@@ -108,7 +108,7 @@ impl MotionChange {
         Motion::new(Rotation::exponential(&theta), self.shift).logarithm()
     }
 
-    /// The same change of a frame carried at `offset`: O⁻¹ (E, p) O.
+    /// The same change for a frame fixed at `offset`: O⁻¹ (E, p) O.
     #[must_use]
     pub(crate) fn carried_at(&self, offset: &Motion) -> Self {
         if offset.rotation == Rotation::IDENTITY {
@@ -138,7 +138,7 @@ pub struct CoordinateMotion {
 pub struct Kinematics {
     /// Time [s].
     pub time: f64,
-    /// Time since the start of the step [s]; exact where `time` is rounded.
+    /// Time since the start of the step [s]; exact although `time` is rounded.
     pub elapsed: f64,
     /// One entry per node; node 0 is the ground.
     pub nodes: Vec<NodeMotion>,
@@ -146,12 +146,12 @@ pub struct Kinematics {
     pub coordinates: Vec<CoordinateMotion>,
     /// Held values, constant within a step: inputs, and signals between two samples.
     pub held: Vec<f64>,
-    /// Multipliers as elements see them whose forces depend on them [N, N m]; empty where there are none of these.
+    /// Multipliers for elements whose forces depend on them [N, N m]; empty if there are no such elements.
     pub multipliers: Vec<f64>,
 }
 
 impl Kinematics {
-    /// Lets elements see these multipliers, if any of them does.
+    /// Makes these multipliers available to elements, if any depends on them.
     pub fn show_multipliers(&mut self, multipliers: &[f64]) {
         if !self.multipliers.is_empty() {
             self.multipliers.copy_from_slice(multipliers);

@@ -1,6 +1,6 @@
-//! What a coordinate or an equation measures.
+//! Quantity of a coordinate or an equation.
 
-/// What an equation or a coordinate of a joint is.
+/// Quantity of an equation or of a coordinate of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// [m]
@@ -12,7 +12,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// What a joint's relative coordinate of this quantity is called.
+    /// Name of a joint's relative coordinate of this quantity.
     pub fn relative(self) -> &'static str {
         match self {
             Self::Length => "displacement",

@@ -1,12 +1,13 @@
-//! A step as those see it whose strains, violations or potentials are integrated from their rates at two stages.
+//! A step for strains, violations or potentials that are integrated from their rates at two stages.
 //!
 //! ```text
 //! e_i = e_start + Σ_j d_ij ė_j,      e_end = e_start + Σ_j D_j ė_j,      ė_j = B̃_j V_j
 //! B̃_j = B_j + r (W σ_j)ᵀ / Q,        Q = Σ_j D_j σ_j·W σ_j,              r = Δe - Σ_j D_j B_j V_j
 //! ```
 //!
-//! d_ij, D_j durations; B_j gradient at stage j and V_j the velocities there; σ_j ⊂ V_j the part that no rigid motion
-//! has, W a metric. So e_end is exactly the strain of the configuration at the end; r is of fourth order in the step.
+//! d_ij, D_j durations; B_j gradient at stage j and V_j the velocities there; σ_j ⊂ V_j the part that vanishes in
+//! rigid motions, W a metric. So e_end is exactly the strain of the configuration at the end; r is of fourth order in
+//! the step.
 //! Forces B̃ᵀ C e at the stages do the work of an algebraically stable method, see
 //! `docs/theory/energy-decaying.md`.
 
@@ -22,17 +23,17 @@ pub const STAGES: usize = 2;
 /// From the start of a step through two stages to its end.
 #[derive(Clone, Copy, Debug)]
 pub struct StepStages<'a> {
-    /// Where it begins.
+    /// Its start.
     pub start: &'a Kinematics,
     /// Positions, velocities and accelerations at the stages.
     pub stages: [&'a Kinematics; STAGES],
-    /// Where it ends.
+    /// Its end.
     pub end: &'a Kinematics,
     /// Change of every node's motion from start to end.
     pub changes: &'a [MotionChange],
-    /// How long the rates of stage j last on the way to stage i: `durations[i][j]` [s]; may be negative.
+    /// Integration time of the rates of stage j up to stage i: `durations[i][j]` [s]; may be negative.
     pub durations: [[f64; STAGES]; STAGES],
-    /// How long they last on the way to the end [s].
+    /// Integration times up to the end [s].
     pub lasting: [f64; STAGES],
     /// Weights of the stages' changes of position in that at the end.
     pub reached: [f64; STAGES],
@@ -41,7 +42,7 @@ pub struct StepStages<'a> {
 }
 
 impl StepStages<'_> {
-    /// What is reached at the stages from `start` with the rates there.
+    /// Values at the stages, integrated from `start` with the rates there.
     pub(crate) fn at_stages<T>(&self, start: T, rates: [T; STAGES]) -> [T; STAGES]
     where
         T: Copy + Add<Output = T> + Mul<f64, Output = T>,
@@ -57,8 +58,8 @@ impl StepStages<'_> {
         rates[0] * self.lasting[0] + rates[1] * self.lasting[1]
     }
 
-    /// 1/Q and the rates σ·Wσ/Q at which the stages share a remainder, from their squares σ·Wσ. Where nothing
-    /// moves there is nothing to share.
+    /// 1/Q and the rates σ·Wσ/Q by which a remainder is distributed to the stages, from their squares σ·Wσ. Without
+    /// motion nothing is distributed.
     pub fn shares(&self, squares: [f64; STAGES]) -> (f64, [f64; STAGES]) {
         let whole = self.whole(squares);
         if whole > f64::MIN_POSITIVE {
@@ -69,14 +70,14 @@ impl StepStages<'_> {
     }
 }
 
-/// Weight of a remainder of the given size: 1 well above round-off, and smoothly 0 below, where the remainder
-/// is noise that would be divided by rates that may be small themselves.
+/// Weight of a remainder of the given size: 1 well above round-off, and smoothly 0 below, where the remainder is
+/// noise that would be divided by rates that may be small themselves.
 pub(crate) fn above_round_off(size: f64, round_off: f64) -> f64 {
     let ratio = (size / round_off).powi(4);
     if ratio.is_finite() { ratio / (1.0 + ratio) } else { 1.0 }
 }
 
-/// Rotations weighed with a length, so that the sum has one unit.
+/// A twist with rotations multiplied by a length, so that the sum has one unit.
 pub fn weigh(twist: &Vector6, length: f64) -> Vector6 {
     let mut weighted = *twist;
     for k in 3..6 {

@@ -1,11 +1,11 @@
-//! What a message is about.
+//! Subject of a message.
 
 use std::borrow::Cow;
 use std::fmt::{self, Display};
 
 use serde::{Deserialize, Serialize};
 
-/// What a message is about: the kind and the name of an entry of the model, and how sentences refer to it.
+/// Subject of a message: the kind and the name of an entry of the model, and the words for it in sentences.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
     /// Kind of the entry: `node`, `joint`, `load`, `signal`; empty if it has none.

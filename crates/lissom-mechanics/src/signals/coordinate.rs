@@ -3,7 +3,7 @@
 use super::measurement::{Gradient, Measurement};
 use crate::kinematics::{CoordinateId, Kinematics};
 
-/// What of a coordinate is measured.
+/// Measured quantity of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Of {
     /// Its value [m, rad].

@@ -1,4 +1,4 @@
-//! Events: instants at which a signal passes through zero. They may end a run, and change held values.
+//! Events: instants at which a signal crosses zero. They may end a run, and change held values.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Graph, HeldId, SignalId};
 use crate::kinematics::{Kinematics, Subject};
 
-/// Which way a signal passes through zero.
+/// Direction in which a signal crosses zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// From below.
@@ -19,7 +19,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// Whether a signal that is then above zero, or below, has passed it this way.
+    /// Whether a signal that is above zero after the crossing, or below, has crossed it in this direction.
     pub fn allows(self, is_above: bool) -> bool {
         match self {
             Self::Rising => is_above,
@@ -29,25 +29,25 @@ impl Direction {
     }
 }
 
-/// What happens when a signal passes through zero.
+/// Actions when a signal crosses zero.
 #[derive(Clone, Debug)]
 pub struct Event {
-    /// What messages and results call it.
+    /// Name in messages and results.
     pub name: String,
-    /// The signal that passes through zero.
+    /// The signal that crosses zero.
     pub root: SignalId,
-    /// Which way.
+    /// Direction of the crossing.
     pub direction: Direction,
     /// Whether the run ends there.
     pub stops: bool,
-    /// Held values that change there, and the signals whose values they take.
+    /// Held values that change there, and the signals that are assigned to them.
     pub sets: Vec<(HeldId, SignalId)>,
 }
 
 /// An event that happened.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Occurrence {
-    /// Which one, in the order of the system's events.
+    /// Its index in the order of the system's events.
     pub event: usize,
     /// When [s].
     pub time: f64,
@@ -69,8 +69,8 @@ impl Graph {
         &self.events
     }
 
-    /// Appends the values whose crossings of zero are events, in the order of the events: as they are, since one that is continued
-    /// from a side never jumps, and passes through zero where it only touches it.
+    /// Appends the values whose crossings of zero are events, in the order of the events. They are not continued from a side,
+    /// because a continued one never jumps, and crosses zero where the signal only touches it.
     pub fn event_values(&self, at: &Kinematics, out: &mut Vec<f64>) {
         if !self.events.is_empty() {
             self.evaluate_as_they_are(at, |values| {
@@ -79,7 +79,7 @@ impl Graph {
         }
     }
 
-    /// What each switch of a signal belongs to, in the order of the switches.
+    /// Subject of each switch of a signal, in the order of the switches.
     pub fn names_of_switches(&self) -> Vec<Subject> {
         let sampled_apart = self.signals.iter().filter(|signal| signal.sampling.is_none());
         let names =
@@ -87,7 +87,8 @@ impl Graph {
         sampled_apart.flat_map(names).collect()
     }
 
-    /// Appends numbers that change their sign where a signal has a kink or a jump, in the order of the sides.
+    /// Appends switching functions, which change their sign where a signal has a kink or a jump, in the order of the
+    /// sides.
     pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         if self.first_sides.last() == self.first_sides.first() {
             return;

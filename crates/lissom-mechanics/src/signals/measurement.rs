@@ -1,16 +1,17 @@
-//! What a signal may know of the motion: one number, with its derivatives by positions and velocities.
+//! Measurement of the motion for signals: one number, with its derivatives with respect to positions and velocities.
 
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
-/// Most unknowns a measurement may touch: two nodes and two coordinates.
+/// Maximum number of unknowns of a measurement: two nodes and two coordinates.
 pub const MAX_TOUCHED: usize = 14;
 
-/// Derivatives of a measurement: six per node it touches, by body variations and twists, then one per coordinate.
+/// Derivatives of a measurement: six per node on which it depends, by body variations and twists, then one per
+/// coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient {
-    /// By positions.
+    /// With respect to positions.
     pub by_place: [f64; MAX_TOUCHED],
-    /// By velocities.
+    /// With respect to velocities.
     pub by_rate: [f64; MAX_TOUCHED],
 }
 
@@ -21,14 +22,14 @@ impl Gradient {
     }
 }
 
-/// One number measured of the motion. A new one is a file with a type that implements this.
+/// One number measured from the motion. A new one is a file with a type that implements this.
 pub trait Measurement: Send + Sync {
-    /// Nodes it touches, at most two.
+    /// Nodes on which it depends, at most two.
     fn nodes(&self) -> &[NodeId] {
         &[]
     }
 
-    /// Coordinates it touches, at most two.
+    /// Coordinates on which it depends, at most two.
     fn coordinates(&self) -> &[CoordinateId] {
         &[]
     }

@@ -30,32 +30,32 @@ pub type SignalId = usize;
 /// Index of a measurement.
 pub type MeasurementId = usize;
 
-/// Most arguments of one signal.
+/// Maximum number of arguments of a signal.
 pub const MAX_ARGUMENTS: usize = 64;
 
-/// Numbers that fit on the stack; larger graphs allocate when they are evaluated.
+/// Number of values stored on the stack; larger graphs allocate when they are evaluated.
 const ON_STACK: usize = 64;
 
-/// A function of time and of arguments, with exact derivatives by the arguments.
+/// A function of time and of arguments, with exact derivatives with respect to the arguments.
 pub trait SignalFunction: Send + Sync + fmt::Debug {
-    /// Value at `time` [s], continued from known `sides` of the function's switches; 0, or no sides, for not known.
+    /// Value at `time` [s], continued from known `sides` of the function's switches; 0, or no sides, if unknown.
     fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64;
-    /// Derivatives by the arguments at `time` [s], written to `out`, one for each argument.
+    /// Derivatives with respect to the arguments at `time` [s], written to `out`, one for each argument.
     fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]);
-    /// How many kinks and jumps [`switches`](Self::switches) reports. Default: it has none.
+    /// Number of kinks and jumps that [`switches`](Self::switches) reports. Default: none.
     fn switch_count(&self) -> usize {
         0
     }
-    /// Appends numbers that change their sign where the function has a kink or a jump; 0 at all times where these are among
-    /// the known [`breakpoints`](Self::breakpoints).
+    /// Appends switching functions, which change their sign where the function has a kink or a jump; 0 at all times if
+    /// these are among the known [`breakpoints`](Self::breakpoints).
     fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<f64>) {}
-    /// Times at which it is known not to be smooth [s], whatever its arguments. Default: none is known.
+    /// Known breakpoints [s], for all arguments. Default: none.
     fn breakpoints(&self) -> &[f64] {
         &[]
     }
 }
 
-/// Where an argument of a signal comes from.
+/// Source of an argument of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// A held value.
@@ -66,25 +66,25 @@ pub enum Argument {
     Measured(MeasurementId),
 }
 
-/// A signal that is evaluated at samples only, and held in between.
+/// A signal that is evaluated only at samples, and constant in between.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Where its value is held.
+    /// The held value that stores it.
     pub held: HeldId,
-    /// Time from sample to sample, from the start of the simulation [s].
+    /// Sample period, from the start of the simulation [s].
     pub period: f64,
 }
 
 /// A signal of a system.
 #[derive(Clone, Debug)]
 pub struct Signal {
-    /// What messages are about: the signal, or the entry of which this is an expression.
+    /// Subject of messages: the signal, or the entry of which this is an expression.
     pub subject: Subject,
     /// Its expression, for messages.
     pub text: String,
-    /// How it is computed.
+    /// Its function.
     pub function: Arc<dyn SignalFunction>,
-    /// From what.
+    /// Its arguments.
     pub arguments: Vec<Argument>,
     /// For a sampled signal.
     pub sampling: Option<Sampling>,
@@ -108,19 +108,19 @@ pub struct SignalError {
     pub time: f64,
 }
 
-/// All signals of a system, each after those it names.
+/// All signals of a system, each after those to which it refers.
 #[derive(Default)]
 pub struct Graph {
-    /// Signals, each after those that it depends on.
+    /// Signals, each after those on which it depends.
     pub signals: Vec<Signal>,
-    /// Measurements of the motion that signals depend on.
+    /// Measurements of the motion on which signals depend.
     pub measurements: Vec<Box<dyn Measurement>>,
-    /// Names of the held values, and what they are at the start.
+    /// Names of the held values, and their initial values.
     pub held: Vec<(String, f64)>,
     /// Events.
     pub events: Vec<event::Event>,
-    /// Where the sides of each signal's switches begin among the held values, after inputs and samples, and where the
-    /// last ones end; those of elements follow.
+    /// Offsets of the sides of each signal's switches among the held values, after inputs and samples, and the end of
+    /// the last ones; those of elements follow.
     first_sides: Vec<usize>,
 }
 
@@ -130,7 +130,7 @@ impl Graph {
         &self.signals
     }
 
-    /// Names of the inputs: held values that are no samples.
+    /// Names of the inputs: held values that are not samples.
     pub fn input_names(&self) -> impl Iterator<Item = &str> {
         let is_input = |&held: &HeldId| {
             !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
@@ -159,7 +159,7 @@ impl Graph {
         self.evaluate_with(at, |signal| self.sides(signal, at), with)
     }
 
-    /// The same, each switch on the side where its number is.
+    /// The same, each switch on the side of its present value.
     pub(crate) fn evaluate_as_they_are<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
         self.evaluate_with(at, |_| &[], with)
     }
@@ -191,7 +191,7 @@ impl Graph {
         self.measurements[measurement].value(at)
     }
 
-    /// The expression of a signal, evaluated whether it is sampled or not.
+    /// The expression of a signal, evaluated even if it is sampled.
     fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
         let signal = &self.signals[index];
         let mut arguments = [0.0; MAX_ARGUMENTS];
@@ -199,7 +199,7 @@ impl Graph {
         signal.function.value(at.time, &arguments[..signal.arguments.len()], sides)
     }
 
-    /// Held values at the start: inputs, samples, and the sides of the switches of signals, which are not known.
+    /// Initial held values: inputs, samples, and the sides of the switches of signals, which are unknown.
     pub fn held_at_start(&mut self) -> Vec<f64> {
         let mut values: Vec<f64> = self.held.iter().map(|&(_, start)| start).collect();
         self.first_sides.clear();
@@ -212,7 +212,7 @@ impl Graph {
         values
     }
 
-    /// Where the sides of switches begin among the held values.
+    /// Index of the first side of a switch among the held values.
     pub fn first_side(&self) -> usize {
         self.held.len()
     }
@@ -235,8 +235,8 @@ impl Graph {
         }
     }
 
-    /// Hands the derivative of a signal by each of its measurements, where it is not zero, to `add`; `values` are those
-    /// of all signals.
+    /// Passes the derivatives of a signal with respect to its measurements, if nonzero, to `add`; `values` are those of
+    /// all signals.
     pub fn differentiate(
         &self,
         root: SignalId,
@@ -251,7 +251,7 @@ impl Graph {
         });
     }
 
-    /// The same by each of its held values, too.
+    /// The same, with respect to its held values as well.
     pub fn differentiate_by_all(
         &self,
         root: SignalId,
@@ -281,7 +281,7 @@ impl Graph {
         });
     }
 
-    /// Nodes and coordinates that an argument of a signal depends on between samples.
+    /// Nodes and coordinates on which an argument of a signal depends between samples.
     pub fn touched_by(&self, argument: Argument) -> (BTreeSet<NodeId>, BTreeSet<CoordinateId>) {
         let measurements = match argument {
             Argument::Held(_) => BTreeSet::new(),
@@ -294,7 +294,7 @@ impl Graph {
         (nodes, coordinates)
     }
 
-    /// Measurements that a signal depends on between samples.
+    /// Measurements on which a signal depends between samples.
     pub fn measurements_of(&self, root: SignalId) -> BTreeSet<MeasurementId> {
         let reached = self.reached_from(std::iter::once(root));
         let arguments = reached.iter().flat_map(|&index| &self.signals[index].arguments);
@@ -305,13 +305,13 @@ impl Graph {
         measured.collect()
     }
 
-    /// Times at which signals are known not to be smooth between samples [s], themselves or by those they depend on.
+    /// Known breakpoints of signals between samples [s], their own or those of signals on which they depend.
     pub fn breakpoints_of(&self, roots: impl Iterator<Item = SignalId>) -> Vec<f64> {
         let reached = self.reached_from(roots);
         reached.iter().flat_map(|&index| self.signals[index].function.breakpoints()).copied().collect()
     }
 
-    /// Signals that some depend on between samples, themselves among them.
+    /// Signals on which some depend between samples, including themselves.
     fn reached_from(&self, roots: impl Iterator<Item = SignalId>) -> BTreeSet<SignalId> {
         let (mut open, mut seen): (Vec<_>, _) = (roots.collect(), BTreeSet::new());
         while let Some(index) = open.pop() {
@@ -326,10 +326,10 @@ impl Graph {
         seen
     }
 
-    /// Takes the first samples, at the start, where they are sampled from their values before the first.
+    /// Takes the first samples, at the start, from the initial values of the samples.
     ///
     /// # Errors
-    /// If a signal is not finite; all held values are then as they were.
+    /// If a signal is not finite; all held values are then unchanged.
     pub fn begin(&self, at: &mut Kinematics) -> Result<(), SignalError> {
         let before = at.held.clone();
         for Sampling { held, .. } in self.signals.iter().filter_map(|signal| signal.sampling) {
@@ -343,10 +343,10 @@ impl Graph {
     }
 
     /// Takes the samples that are due `elapsed` [s] after the start. Signals are sampled in their order, so that a
-    /// sample sees those taken before it at the same instant.
+    /// sample uses those taken before it at the same instant.
     ///
     /// # Errors
-    /// If a signal is not finite; all held values are then as they were.
+    /// If a signal is not finite; all held values are then unchanged.
     pub fn sample(&self, at: &mut Kinematics, elapsed: f64) -> Result<(), SignalError> {
         let before = at.held.clone();
         let mut values = vec![0.0; self.signals.len()];
@@ -380,13 +380,13 @@ impl Graph {
         })
     }
 
-    /// For each signal that is sampled, the instant of a sample that is nearest to `time` [s].
+    /// For each sampled signal, the sampling instant that is nearest to `time` [s].
     pub fn nearest_samples(&self, origin: f64, time: f64) -> impl Iterator<Item = f64> + '_ {
         let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
         periods.map(move |period| origin + ((time - origin) / period).round().max(0.0) * period)
     }
 
-    /// The first instant after `time` [s] at which a sample is due, where the first samples are taken at `origin` [s].
+    /// The first instant after `time` [s] at which a sample is due, if the first samples are taken at `origin` [s].
     pub fn next_sample(&self, origin: f64, time: f64) -> Option<f64> {
         let next = |period: f64| {
             let aside = instants::tolerance(time, period);
@@ -403,7 +403,7 @@ fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
     (elapsed - nearest).abs() <= instants::tolerance(time, period)
 }
 
-/// Calls `with` with so many zeros.
+/// Calls `with` with this number of zeros.
 fn with_scratch<T>(count: usize, with: impl FnOnce(&mut [f64]) -> T) -> T {
     if count <= ON_STACK { with(&mut [0.0; ON_STACK][..count]) } else { with(&mut vec![0.0; count]) }
 }

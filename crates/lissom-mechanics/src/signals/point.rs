@@ -1,4 +1,4 @@
-//! A component of the position, displacement or velocity of a point that a node carries, in global axes.
+//! A component of the position, displacement or velocity of a point fixed to a node, in global axes.
 //!
 //! Legend: x position of the node, R its rotation, o the point in the node's axes, v and w twist, n the axis.
 //!
@@ -12,10 +12,10 @@ use lissom_motion::Vector3;
 use super::measurement::{Gradient, Measurement};
 use crate::kinematics::{Kinematics, NodeId};
 
-/// What of a point is measured.
+/// Measured quantity of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Of {
-    /// Its position less this one [m].
+    /// Its position minus this one [m].
     PositionFrom(Vector3),
     /// Its velocity [m/s].
     Velocity,

@@ -12,7 +12,7 @@ use lissom_motion::{Rotation, Vector3, inverse_tangent_times, rotation_part, scr
 use super::measurement::{Gradient, Measurement};
 use crate::kinematics::{Kinematics, NodeId};
 
-/// What of a rotation is measured.
+/// Measured quantity of a rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Of {
     /// Rotation vector since this rotation [rad].
