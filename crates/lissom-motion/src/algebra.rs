@@ -1,5 +1,5 @@
-//! Vectors, skew matrices, twists and wrenches, and the Lie bracket of twists.
-//! Knows neither rotations nor the exponential.
+//! Vectors, skew matrices, twists and wrenches, and the Lie bracket of twists. Independent of rotations and the
+//! exponential.
 
 use crate::dual::{DualMatrix, DualVector};
 use crate::screw::Screw;
@@ -17,7 +17,7 @@ pub fn axial(m: &Matrix3) -> Vector3 {
     Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]) * 0.5
 }
 
-/// The twist (translation; rotation); as well the wrench (force; moment).
+/// The twist (translation; rotation), or the wrench (force; moment).
 #[inline]
 pub fn screw(translation: &Vector3, rotation: &Vector3) -> Vector6 {
     Vector6::new(translation.x, translation.y, translation.z, rotation.x, rotation.y, rotation.z)

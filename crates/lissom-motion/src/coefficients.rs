@@ -1,6 +1,6 @@
-//! The scalar coefficients of the exponential and its tangent as functions of `q = θ²`, with derivatives by `q`.
-//! Knows scalars only, no vectors.
-//! Over several arguments side by side the longest series that one of them needs serves all.
+//! The scalar coefficients of the exponential and its tangent as functions of `q = θ²`, with derivatives with respect
+//! to `q`. Scalar functions only. For several arguments side by side the longest series that any of them needs is
+//! used for all.
 //!
 //! Legend: `S_k(q) = Σ_j (-q)ʲ/(2j + k)!`, so `S_0 = cos θ`, `S_1 = sin θ/θ`, `b = S_2 = (1 - cos θ)/θ²`,
 //! `c = S_3 = (θ - sin θ)/θ³` (Stumpff's functions), `e = (1 - (θ/2) cot(θ/2))/θ²`.
@@ -20,9 +20,9 @@ const TERMS: usize = 20;
 
 /// From here on the closed form of the values is more accurate than their series,
 const CLOSED_VALUES_FROM: f64 = 9.0;
-/// from here on that of the first derivatives,
+/// above this that of the first derivatives,
 const CLOSED_SLOPES_FROM: f64 = 22.0;
-/// and from here on (a whole turn) that of all derivatives. Each derivative costs the closed form more digits by
+/// and above this (a whole turn) that of all derivatives. Each derivative costs the closed form more digits by
 /// cancellation, the series fewer.
 const CLOSED_FROM: f64 = 40.0;
 
@@ -43,7 +43,7 @@ const SERIES: [[[f64; 2]; 4]; TERMS] = {
     table
 };
 
-/// Series of `cos` and `sin(x)/x` by `x²`.
+/// Series of `cos` and `sin(x)/x` in `x²`.
 const CIRCULAR: [[f64; 2]; SMALL_TERMS] = {
     let mut table = [[0.0; 2]; SMALL_TERMS];
     let mut j = 0;
@@ -60,7 +60,7 @@ const fn factorial(n: usize) -> f64 {
     falling_product(n, n)
 }
 
-/// `n (n - 1) …` of `count` factors.
+/// `n (n - 1) …` with `count` factors.
 #[inline]
 const fn falling_product(n: usize, count: usize) -> f64 {
     let mut product = 1.0;
@@ -110,7 +110,7 @@ fn half_angle_of_any([q]: [f64; 1]) -> [[f64; 2]; 1] {
     [[cosine, sine / angle]]
 }
 
-/// `[b, c]` and their derivatives by `q` up to order `ORDERS - 1` (at most 3).
+/// `[b, c]` and their derivatives with respect to `q` up to order `ORDERS - 1` (at most 3).
 #[inline(always)]
 pub(crate) fn exponential_coefficients<R: Real, const ORDERS: usize>(q: R) -> [[R; 2]; ORDERS] {
     if q.all_below(TINY) {
@@ -141,7 +141,7 @@ fn exponential_coefficients_of_any<const ORDERS: usize>([q]: [f64; 1]) -> [[f64;
     result
 }
 
-/// `[b, c]`, where the half angle is known already.
+/// `[b, c]`, if the half angle is already known.
 #[inline(always)]
 pub(crate) fn exponential_values<R: Real>(q: R, half: HalfAngle<R>) -> [R; 2] {
     let [values] = if q.all_below(CLOSED_VALUES_FROM) {
@@ -263,7 +263,7 @@ const REMAINDER_TERMS: usize = 16;
 
 const REMAINDER_SERIES: [[f64; 4]; REMAINDER_TERMS] = derivatives(&REMAINDER);
 
-/// Of a series: entry `[j][m]` is the coefficient of `qʲ` in the `m`-th derivative.
+/// Derivatives of a series: entry `[j][m]` is the coefficient of `qʲ` in the `m`-th derivative.
 const fn derivatives<const TERMS: usize>(series: &[f64]) -> [[f64; 4]; TERMS] {
     let mut table = [[0.0; 4]; TERMS];
     let mut j = 0;
@@ -278,11 +278,11 @@ const fn derivatives<const TERMS: usize>(series: &[f64]) -> [[f64; 4]; TERMS] {
     table
 }
 
-/// `e` and its derivatives by `q` up to order `ORDERS - 1` (at most 3).
+/// `e` and its derivatives with respect to `q` up to order `ORDERS - 1` (at most 3).
 ///
 /// From Euler's expansion of the cotangent, `e = 2 Σ_n 1/(4π²n² - q)`: every term is positive below the first pole,
-/// so neither `e` nor a derivative of it loses a digit, whatever the angle. At the pole itself (a whole turn, where
-/// the tangent has no inverse) the distance to it is replaced by its rounding error, so that values stay finite.
+/// so neither `e` nor its derivatives lose a digit at any angle. At the pole itself (a whole turn, where the tangent
+/// has no inverse) the distance to it is replaced by its rounding error, so that values remain finite.
 #[inline(always)]
 pub(crate) fn inverse_coefficients<R: Real, const ORDERS: usize>(q: R) -> [R; ORDERS] {
     if q.all_below(TINY) {
@@ -378,7 +378,7 @@ mod tests {
         sum
     }
 
-    /// Dense in `q` from underflow to beyond a whole turn, with both sides of every switch.
+    /// Dense in `q` from underflow to beyond a whole turn, with values on both sides of every switch.
     fn squares() -> Vec<f64> {
         let mut squares = vec![0.0, f64::MIN_POSITIVE, 1e-200, 1e-16, 1e-8, 1e-4];
         squares.extend((1..4000).map(|i| f64::from(i) * 0.0125));

@@ -1,6 +1,6 @@
 //! Dual numbers `a + ε b` with `ε² = 0`, and vectors and matrices of them.
-//! A twist `(u; θ)` is the dual vector `θ + ε u`, a wrench `(n; m)` the dual vector `n + ε m`.
-//! Knows no rotation and no exponential.
+//! A twist `(u; θ)` is the dual vector `θ + ε u`, a wrench `(n; m)` the dual vector `n + ε m`. Independent of
+//! rotations and the exponential.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::{Add, Mul, Neg, Sub};
@@ -25,7 +25,7 @@ pub(crate) struct DualVector<R> {
     pub(crate) dual: Triple<R>,
 }
 
-/// The matrix `real + ε dual` of dual numbers: as the twist matrix `[[A, B], [0, A]]` of `A + ε B` it takes twists to
+/// The matrix `real + ε dual` of dual numbers. As the twist matrix `[[A, B], [0, A]]` of `A + ε B` it maps twists to
 /// twists, as the wrench matrix `[[0, A], [A, B]]` twists to wrenches.
 #[derive(Clone, Copy, Debug)]
 pub struct DualMatrix<R> {
@@ -152,7 +152,7 @@ impl<R: Real> DualMatrix<R> {
         Self { real: self.real.plus_scaled(m.real, factor), dual: self.dual.plus_scaled(m.dual, factor) }
     }
 
-    /// The transposed matrix of dual numbers; of a wrench matrix it is the transposed one.
+    /// The transpose as a matrix of dual numbers; for a wrench matrix also its transpose.
     #[inline(always)]
     pub fn transposed(self) -> Self {
         Self { real: self.real.transposed(), dual: self.dual.transposed() }

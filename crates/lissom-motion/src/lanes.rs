@@ -1,4 +1,4 @@
-//! Several numbers side by side in the lanes of one vector register. Knows numbers only.
+//! Several numbers side by side in the lanes of one vector register.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -10,11 +10,11 @@ use crate::real::Real;
 /// Numbers in a [`Block`].
 pub const WIDTH: usize = 8;
 
-/// As many numbers as the widest vector has lanes. Narrower vectors take a block in [`Lanes::PARTS`] parts, so that
-/// what is stored in blocks does not depend on the processor.
+/// As many numbers as the widest vector has lanes. Narrower vectors process a block in [`Lanes::PARTS`] parts, so
+/// that data stored in blocks are independent of the processor.
 pub type Block = [f64; WIDTH];
 
-/// As many numbers side by side as the processor's vectors of kind `S` hold.
+/// As many numbers side by side as the processor's vectors of kind `S` contain.
 #[derive(Clone, Copy, Debug)]
 pub struct Lanes<S: Simd> {
     simd: S,
@@ -25,13 +25,13 @@ impl<S: Simd> Lanes<S> {
     /// Vectors in a block.
     pub const PARTS: usize = WIDTH / S::F64_LANES;
 
-    /// The same number in each lane.
+    /// The same number in all lanes.
     #[inline(always)]
     pub fn splat(simd: S, value: f64) -> Self {
         Self { simd, values: simd.splat_f64s(value) }
     }
 
-    /// One part of a block.
+    /// Loads one part of a block.
     ///
     /// # Panics
     /// If `part` is not below [`Self::PARTS`].
@@ -40,7 +40,7 @@ impl<S: Simd> Lanes<S> {
         Self { simd, values: S::as_simd_f64s(block).0[part] }
     }
 
-    /// Into one part of a block.
+    /// Stores to one part of a block.
     ///
     /// # Panics
     /// If `part` is not below [`Self::PARTS`].

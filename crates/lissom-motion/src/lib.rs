@@ -1,20 +1,20 @@
 //! Rotations and rigid motions: exponential, logarithm, adjoint and tangent operators with their derivatives.
 //!
-//! Pure geometry: this crate knows no mass, no force law and no time step, and it never allocates.
+//! Pure geometry: this crate is independent of mass, forces and time steps, and it never allocates.
 //!
-//! Conventions, the same everywhere:
+//! Conventions:
 //! - a twist is a [`Vector6`] (translation `u`; rotation `θ`), a wrench is a [`Vector6`] (force `n`; moment `m`),
 //!   and their power is the plain dot product;
 //! - a motion `H = (R, x)` maps body coordinates `X` to `x + R X`;
-//! - increments and variations are taken in the body frame: `H_new = H exp(ψ)`, `δh = vee(H⁻¹ δH)`;
+//! - increments and variations are in the body frame: `H_new = H exp(ψ)`, `δh = vee(H⁻¹ δH)`;
 //! - the tangent operator is the one of the body frame: `vee(exp(d)⁻¹ δexp(d)) = T(d) δd`.
 //!
-//! Every SE(3) operator is the SO(3) formula read over dual numbers (principle of transference: Kotelnikov 1895,
-//! Study 1903), so each formula is written once, in the private modules `dual` and `operator`.
+//! Every SE(3) operator is the SO(3) formula over dual numbers (principle of transference: Kotelnikov 1895, Study
+//! 1903), so each formula is written once, in the private modules `dual` and `operator`.
 //!
-//! What is evaluated often is written over any [`Real`]: a number, or [`Lanes`], several numbers side by side in one
-//! vector register. [`Pose`], [`Versor`], [`Screw`] and [`Triple`] are [`Motion`], [`Rotation`], twist or wrench, and
-//! vector over them; those of plain numbers call the same formulas.
+//! Frequently evaluated formulas are written over any [`Real`]: a number, or [`Lanes`], several numbers side by side
+//! in one vector register. [`Pose`], [`Versor`], [`Screw`] and [`Triple`] are [`Motion`], [`Rotation`], twist or
+//! wrench, and vector over them; those of plain numbers call the same formulas.
 
 mod algebra;
 mod coefficients;

@@ -1,5 +1,5 @@
-//! Rigid motions: exponential, logarithm, composition, and their adjoint action on twists and wrenches.
-//! Knows no derivative of the exponential.
+//! Rigid motions: exponential, logarithm, composition, and their adjoint action on twists and wrenches. Derivatives
+//! of the exponential are elsewhere.
 
 use std::ops::Mul;
 
@@ -8,7 +8,8 @@ use crate::pose::{Pose, stretch};
 use crate::screw::Screw;
 use crate::{Matrix3, Matrix6, Rotation, Vector3, Vector6, skew};
 
-/// A rigid motion, or the frame it moves the base frame to: body coordinates `X` go to `position + rotation X`.
+/// A rigid motion, or the frame to which it moves the base frame: it maps body coordinates `X` to `position +
+/// rotation X`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     /// Rotation of the body frame.
@@ -18,10 +19,10 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// No motion.
+    /// The identity.
     pub const IDENTITY: Self = Self { rotation: Rotation::IDENTITY, position: Vector3::new(0.0, 0.0, 0.0) };
 
-    /// No motion.
+    /// The identity.
     #[inline]
     pub fn identity() -> Self {
         Self::IDENTITY
@@ -53,13 +54,13 @@ impl Motion {
         Pose::from(self).logarithm().into()
     }
 
-    /// The motion back.
+    /// The inverse motion.
     #[inline]
     pub fn inverse(&self) -> Self {
         Pose::from(self).inverse().into()
     }
 
-    /// This motion as seen from `base`: `base⁻¹ self`. Exactly free of the common position.
+    /// This motion relative to `base`: `base⁻¹ self`. Exactly independent of the common position.
     #[inline]
     pub fn relative_to(&self, base: &Self) -> Self {
         Pose::from(self).relative_to(base.into()).into()
@@ -87,7 +88,7 @@ impl Motion {
         stretch(u.plus_cross(theta, point.into()), theta, b, c).into()
     }
 
-    /// `Ad_H = [[R, x̃R], [0, R]]`: takes body twists to the base frame.
+    /// `Ad_H = [[R, x̃R], [0, R]]`: maps body twists to the base frame.
     #[inline]
     pub fn adjoint(&self) -> Matrix6 {
         let rotation: Matrix3 = self.rotation.matrix();

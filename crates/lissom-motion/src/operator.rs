@@ -1,5 +1,5 @@
-//! The operator `I + β d̃ + γ d̃²` over dual numbers, with `β`, `γ` functions of `q = d·d`, and its derivatives.
-//! Does not know which functions `β` and `γ` are: the tangent, its inverse and their transposes all have this form.
+//! The operator `I + β d̃ + γ d̃²` over dual numbers, with `β`, `γ` functions of `q = d·d`, and its derivatives. It
+//! applies to any functions `β` and `γ`: the tangent, its inverse and their transposes all have this form.
 //!
 //! Legend: `d` argument, `a` vector acted upon, `w` vector (or wrench) contracted with the result, `p = d × a`,
 //! `r = d × (d × a) = d (d·a) - q a`. The transpose has `-β` in place of `β`.
@@ -12,7 +12,7 @@ use crate::coefficients::{exponential_coefficients, inverse_coefficients};
 use crate::dual::{Dual, DualMatrix, DualVector};
 use crate::real::Real;
 
-/// The coefficients `β` of `d̃` and `γ` of `d̃²`, or one of their derivatives by `q`.
+/// The coefficients `β` of `d̃` and `γ` of `d̃²`, or one of their derivatives with respect to `q`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair<R> {
     pub(crate) linear: Dual<R>,
@@ -20,8 +20,8 @@ pub(crate) struct Pair<R> {
 }
 
 impl<R: Real> Pair<R> {
-    /// A function known by value and slope at the real part of `q`, continued to the dual number:
-    /// `f(q₀ + ε q₁) = f(q₀) + ε q₁ f'(q₀)`.
+    /// A function given by value and slope at the real part of `q`, extended to the dual number: `f(q₀ + ε q₁) =
+    /// f(q₀) + ε q₁ f'(q₀)`.
     #[inline(always)]
     fn lift(value: [R; 2], slope: [R; 2], q: Dual<R>) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl<R: Real> Pair<R> {
     }
 }
 
-/// The coefficients of `T = I - b d̃ + c d̃²` and their derivatives by `q = d·d`.
+/// The coefficients of `T = I - b d̃ + c d̃²` and their derivatives with respect to `q = d·d`.
 #[inline(always)]
 pub(crate) fn tangent_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
     q: Dual<R>,
@@ -68,7 +68,7 @@ pub(crate) fn tangent_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
     pairs
 }
 
-/// The same of `T⁻¹ = I + d̃/2 + e d̃²`.
+/// The same for `T⁻¹ = I + d̃/2 + e d̃²`.
 #[inline(always)]
 pub(crate) fn inverse_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
     q: Dual<R>,

@@ -1,5 +1,5 @@
-//! Rigid motions over any [`Real`]: exponential, logarithm, composition and adjoint action.
-//! Knows no derivative of the exponential.
+//! Rigid motions over any [`Real`]: exponential, logarithm, composition and adjoint action. Derivatives of the
+//! exponential are elsewhere.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::Mul;
@@ -73,13 +73,13 @@ impl<R: Real> Pose<R> {
         (d, InverseTangent::with_coefficients(d, coefficients))
     }
 
-    /// The motion back.
+    /// The inverse motion.
     #[inline(always)]
     pub fn inverse(self) -> Self {
         Self { rotation: self.rotation.inverse(), position: -self.rotation.apply_inverse(self.position) }
     }
 
-    /// This motion as seen from `base`: `base⁻¹ self`. Exactly free of the common position.
+    /// This motion relative to `base`: `base⁻¹ self`. Exactly independent of the common position.
     #[inline(always)]
     pub fn relative_to(self, base: Self) -> Self {
         Self {
@@ -105,7 +105,7 @@ impl<R: Real> Pose<R> {
         )
     }
 
-    /// `Ad_H⁻¹ v - v`, without cancellation where the motion is small.
+    /// `Ad_H⁻¹ v - v`, without cancellation for small motions.
     #[inline(always)]
     pub fn adjoint_inverse_gain(self, twist: Screw<R>) -> Screw<R> {
         let Screw { translation: u, rotation: theta } = twist;
@@ -116,7 +116,7 @@ impl<R: Real> Pose<R> {
         )
     }
 
-    /// The twist matrix `Ad_H⁻¹ = [[Rᵀ, -Rᵀx̃], [0, Rᵀ]]`: takes base twists to the body frame.
+    /// The twist matrix `Ad_H⁻¹ = [[Rᵀ, -Rᵀx̃], [0, Rᵀ]]`: maps base twists to the body frame.
     #[inline(always)]
     pub fn adjoint_inverse(self) -> DualMatrix<R> {
         let one = Square::diagonal(self.position.x.like(1.0));

@@ -1,7 +1,7 @@
-//! A number, or several side by side: what the hot formulas are written over, so that they are there once.
+//! A number, or several side by side: frequently evaluated formulas are written over this trait, and so only once.
 //!
-//! Everything that is generic over [`Real`] is inlined to the last function: only then a caller compiled for wider
-//! vectors uses them. For the same reason it calls no closures, iterators or foreign vector types.
+//! Everything that is generic over [`Real`] is inlined to the last function: only then does a caller compiled for
+//! wider vectors use them. For the same reason it calls no closures, iterators or foreign vector types.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -16,7 +16,7 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// `value` in each lane; `self` only gives the kind.
+    /// `value` in each lane; `self` only determines the type.
     fn like(self, value: f64) -> Self;
 
     /// `self` times a constant.
@@ -31,17 +31,17 @@ pub trait Real:
     /// The square root.
     fn square_root(self) -> Self;
 
-    /// Whether all lanes are below `limit`; not if one is not a number.
+    /// Whether all lanes are below `limit`; false if one is not a number.
     fn all_below(self, limit: f64) -> bool;
 
-    /// A function of one lane at a time, for arguments that are too rare for formulas of their own.
+    /// A function evaluated one lane at a time, for arguments that are too rare for formulas of their own.
     fn one_by_one<const K: usize, const M: usize, const N: usize>(
         arguments: [Self; K],
         function: fn([f64; K]) -> [[f64; N]; M],
     ) -> [[Self; N]; M];
 
-    /// Does what is asked in a function of its own, for long formulas with many callers that are seldom evaluated; `self`
-    /// only gives the kind.
+    /// Evaluates `work` in a separate function, for long formulas with many callers that are seldom evaluated; `self`
+    /// only determines the type.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()

@@ -1,5 +1,5 @@
-//! Rotations as unit quaternions: exponential, logarithm, Cayley map, matrices.
-//! Knows no translation and no tangent operator.
+//! Rotations as unit quaternions: exponential, logarithm, Cayley map, matrices. Independent of translations and
+//! tangent operators.
 
 use std::ops::Mul;
 
@@ -9,7 +9,7 @@ use crate::{Matrix3, Vector3, skew};
 
 /// A rotation, stored as a unit quaternion.
 ///
-/// `q` and `-q` are the same rotation but compare as different; compare `a.inverse() * b` to the identity instead.
+/// `q` and `-q` are the same rotation but compare as different; compare `a.inverse() * b` with the identity instead.
 /// Products are not renormalised: call [`Rotation::normalized`] after long chains of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotation {
@@ -21,10 +21,10 @@ pub struct Rotation {
 const PARALLEL: f64 = 1e-10;
 
 impl Rotation {
-    /// No rotation.
+    /// The identity.
     pub const IDENTITY: Self = Self { scalar: 1.0, vector: Vector3::new(0.0, 0.0, 0.0) };
 
-    /// No rotation.
+    /// The identity.
     #[inline]
     pub fn identity() -> Self {
         Self::IDENTITY
@@ -61,7 +61,7 @@ impl Rotation {
         }
     }
 
-    /// The rotation back.
+    /// The inverse rotation.
     #[inline]
     pub fn inverse(&self) -> Self {
         Self { scalar: self.scalar, vector: -self.vector }
@@ -149,8 +149,8 @@ impl Rotation {
             .then(|| Self::from_matrix(&Matrix3::from_columns(&[*first, *second, *third])))
     }
 
-    /// The rotation whose first axis points along `axis`, and whose second axis lies in the plane of `axis` and
-    /// `reference`, on the side of `reference`. Lengths do not matter; `None` if one is zero or both are parallel.
+    /// The rotation whose first axis points along `axis`, and whose second axis is in the plane of `axis` and
+    /// `reference`, on the side of `reference`. Lengths have no effect; `None` if one is zero or both are parallel.
     #[inline]
     pub fn from_axis_and_reference(axis: &Vector3, reference: &Vector3) -> Option<Self> {
         let first = direction(axis)?;
@@ -159,7 +159,8 @@ impl Rotation {
         if length.is_nan() || length <= PARALLEL {
             return None;
         }
-        // A reference nearly along the axis leaves a normal not quite square to the axis; two more products are.
+        // If the reference is nearly along the axis, the normal is not quite perpendicular; two further products
+        // correct that.
         let second = normal.cross(&first).normalize();
         Self::from_columns(&first, &second, &first.cross(&second))
     }
@@ -181,7 +182,7 @@ impl Rotation {
 
     /// The vector `r` with `cayley(r)` equal to this rotation, `|r| = 2 tan(angle/2)`.
     ///
-    /// A half turn has none: there `r` is a finite vector so long that its Cayley map is the half turn to the last
+    /// A half turn has none: `r` is then a finite vector so long that its Cayley map is the half turn to the last
     /// digit.
     #[inline]
     pub fn inverse_cayley(&self) -> Vector3 {
@@ -189,7 +190,7 @@ impl Rotation {
         vector * (2.0 / scalar.max(1e-100))
     }
 
-    /// The same rotation with the length of the quaternion set back to one.
+    /// The same rotation with the quaternion normalised.
     #[inline]
     pub fn normalized(&self) -> Self {
         let factor = 1.0 / (self.scalar * self.scalar + self.vector.norm_squared()).sqrt();

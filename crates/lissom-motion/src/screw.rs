@@ -1,4 +1,4 @@
-//! Twists and wrenches over any [`Real`], and what the tangent operator makes of them.
+//! Twists and wrenches over any [`Real`], and the tangent operator applied to them.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::{Add, Mul, Neg, Sub};
@@ -39,7 +39,7 @@ impl<R: Real> Screw<R> {
         [u.x, u.y, u.z, theta.x, theta.y, theta.z]
     }
 
-    /// Zero; `kind` only gives the kind of number.
+    /// Zero; `kind` only determines the type of number.
     #[inline(always)]
     pub fn zero(kind: R) -> Self {
         Self::from_components([kind.like(0.0); 6])
@@ -219,7 +219,7 @@ impl<R: Real> TangentOperator<R> {
     }
 }
 
-/// What [`TangentOperator::new`] gives, and second derivatives.
+/// The operator of [`TangentOperator::new`], and second derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct CurvedTangent<R> {
     /// The operator `T(d)`.
@@ -260,7 +260,7 @@ impl<R: Real> InverseTangent<R> {
         Self { d, quadratic: Pair::of_inverse(d.dot(d)).quadratic }
     }
 
-    /// At the twist `d`, where `e` and its derivative by `θ²` are known.
+    /// At the twist `d`, with given `e` and its derivative with respect to `θ²`.
     #[inline(always)]
     pub(crate) fn with_coefficients(d: Screw<R>, [e, slope]: [R; 2]) -> Self {
         let d = DualVector::from_twist(d);

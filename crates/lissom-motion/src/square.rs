@@ -10,7 +10,7 @@ use crate::triple::Triple;
 /// A 3 x 3 matrix.
 #[derive(Clone, Copy, Debug)]
 pub struct Square<R> {
-    /// Row after row.
+    /// Rows.
     pub rows: [Triple<R>; 3],
 }
 
@@ -57,7 +57,7 @@ impl<R: Real> Square<R> {
         Self { rows: [Triple::new(a.x, b.x, c.x), Triple::new(a.y, b.y, c.y), Triple::new(a.z, b.z, c.z)] }
     }
 
-    /// `selfᵀ v`, which is as well the row `vᵀ self`.
+    /// `selfᵀ v`, which is also the row `vᵀ self`.
     #[inline(always)]
     pub fn transpose_times(self, v: Triple<R>) -> Triple<R> {
         let [a, b, c] = self.rows;

@@ -1,8 +1,8 @@
 //! The tangent operator `T(d)` of the exponential, its inverse, and the derivatives of both.
-//! Chooses coefficients and packs twists and wrenches; the formulas are in `operator`.
+//! Selects coefficients and packs twists and wrenches; the formulas are in `operator`.
 //!
-//! `T = I - b d̃ + c d̃²` and `T⁻¹ = I + d̃/2 + e d̃²` with `d` the rotation vector for SO(3), and the twist read as a
-//! dual vector for SE(3).
+//! `T = I - b d̃ + c d̃²` and `T⁻¹ = I + d̃/2 + e d̃²` with `d` the rotation vector for SO(3), and the twist as a dual
+//! vector for SE(3).
 
 use crate::dual::DualVector;
 use crate::operator::{self, Pair};

@@ -1,5 +1,5 @@
-//! Unit quaternions over any [`Real`]: product, action on vectors, exponential and logarithm.
-//! Knows no translation.
+//! Unit quaternions over any [`Real`]: product, action on vectors, exponential and logarithm. Independent of
+//! translations.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::Mul;
@@ -17,7 +17,7 @@ pub struct Versor<R> {
     pub vector: Triple<R>,
 }
 
-/// Series of `atan(x)/x` by `-x²`.
+/// Series of `atan(x)/x` in `-x²`.
 const ARC_TANGENT: [f64; 14] = {
     let mut series = [0.0; 14];
     let mut k = 0;
@@ -27,7 +27,7 @@ const ARC_TANGENT: [f64; 14] = {
     }
     series
 };
-/// Below these squares of the tangent of half the angle so many terms are enough;
+/// Below these squares of the tangent of half the angle this number of terms is sufficient;
 const SHORT: (f64, usize) = (1.0 / 1024.0, 6);
 const LONG: (f64, usize) = (1.0 / 64.0, 9);
 /// and below this one all of them, for a quarter of the angle.
@@ -80,7 +80,7 @@ impl<R: Real> Versor<R> {
         Triple::new(x, y, z)
     }
 
-    /// The rotation back.
+    /// The inverse rotation.
     #[inline(always)]
     pub fn inverse(self) -> Self {
         Self { scalar: self.scalar, vector: -self.vector }
@@ -100,7 +100,7 @@ impl<R: Real> Versor<R> {
         v.plus_scaled(t, self.scalar).plus_cross(t, self.vector)
     }
 
-    /// `Rᵀ v - v`, without cancellation where the angle is small.
+    /// `Rᵀ v - v`, without cancellation for small angles.
     #[inline(always)]
     pub fn apply_inverse_gain(self, v: Triple<R>) -> Triple<R> {
         let t = v.cross(self.vector).scaled(2.0);
@@ -114,8 +114,8 @@ impl<R: Real> Versor<R> {
         [Triple::new(a, b, c), Triple::new(d, e, f), Triple::new(g, h, i)]
     }
 
-    /// The matrix `R - I`, row after row, without cancellation where the angle is small: with the quaternion
-    /// `(w, v)` it is `2 (w ṽ + ṽ²)`.
+    /// The matrix `R - I`, row by row, without cancellation for small angles: with the quaternion `(w, v)` it is `2
+    /// (w ṽ + ṽ²)`.
     #[inline(always)]
     pub fn minus_identity(self) -> [R; 9] {
         let double = self.vector.scaled(2.0);

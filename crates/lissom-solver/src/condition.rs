@@ -1,8 +1,7 @@
-//! Estimate of the condition number of a factored matrix in the 1-norm, from a few solves. Knows no solver.
+//! Estimate of the condition number of a factored matrix in the 1-norm, from a few solves with any solver.
 //!
-//! Hager 1984, with the refinements of Higham 1988 (ACM Trans. Math. Softw. 14, 381): a lower bound, nearly
-//! always within a factor of three. Complex numbers take their direction x/|x| for the sign [Higham and Tisseur
-//! 2000].
+//! Hager 1984, with the refinements of Higham 1988 (ACM Trans. Math. Softw. 14, 381): a lower bound, nearly always
+//! within a factor of three. For complex numbers the sign is their direction x/|x| [Higham and Tisseur 2000].
 
 use crate::pattern::Pattern;
 use crate::scalar::Scalar;
@@ -11,7 +10,7 @@ use crate::solver::LinearSolver;
 /// More rounds hardly ever change the estimate (Higham 1988, section 3).
 const ROUNDS: usize = 5;
 
-/// Estimates `‖A‖₁ ‖A⁻¹‖₁` for the matrix with these values, which the solver has factored last.
+/// Estimates `‖A‖₁ ‖A⁻¹‖₁` for the matrix with these values, which the solver factored last.
 ///
 /// # Panics
 /// If the number of values is not that of the entries in the pattern.
@@ -89,7 +88,7 @@ fn one_norm<S: Scalar>(vector: &[S]) -> f64 {
     vector.iter().map(|&value| modulus(value)).sum()
 }
 
-/// Writes the signs of the numbers and returns whether they were so before.
+/// Writes the signs of the numbers and returns whether they are unchanged.
 fn update_signs<S: Scalar>(vector: &[S], signs: &mut [S]) -> bool {
     let mut unchanged = true;
     for (sign, &value) in signs.iter_mut().zip(vector) {

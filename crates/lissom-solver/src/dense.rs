@@ -1,4 +1,4 @@
-//! LU of a dense matrix with partial pivoting: the reference the others are compared with. Ignores groups.
+//! LU of a dense matrix with partial pivoting: the reference for the other solvers. Ignores groups.
 
 use std::sync::Arc;
 

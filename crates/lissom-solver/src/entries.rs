@@ -1,4 +1,4 @@
-//! First look at the values of a matrix: are they numbers, and how large is the largest.
+//! Checks of the values of a matrix: whether they are finite, and the largest magnitude.
 
 use crate::pattern::Pattern;
 use crate::report::FactorError;
@@ -17,7 +17,7 @@ pub(crate) fn largest_entry<S: Scalar>(pattern: &Pattern, values: &[S]) -> Resul
 pub(crate) fn largest_magnitude<S: Scalar>(values: &[S]) -> Option<f64> {
     const LANES: usize = 32;
     let mut largest = [0.0_f64; LANES];
-    // Zero times a finite number is zero, and anything else is not.
+    // Zero times a finite number is zero; any other product is not.
     let mut probe = [0.0_f64; LANES];
     let (chunks, rest) = values.as_chunks::<LANES>();
     for chunk in chunks {
@@ -38,7 +38,7 @@ pub(crate) fn largest_magnitude<S: Scalar>(values: &[S]) -> Option<f64> {
     None
 }
 
-/// Names the column of the first value that is not finite.
+/// The column of the first value that is not finite.
 #[cold]
 pub(crate) fn first_not_finite<S: Scalar>(pattern: &Pattern, values: &[S]) -> FactorError {
     let entry = values.iter().position(|value| !value.magnitude().is_finite()).unwrap_or(0);

@@ -1,5 +1,5 @@
-//! Numbers of twice double precision, as unevaluated sums of two doubles: some 32 digits with the range of a
-//! double. Slow, for measuring what double precision loses; no solver computes with them.
+//! Numbers of twice double precision, as unevaluated sums of two doubles: some 32 digits with the range of a double.
+//! Slow, for measuring the errors of double precision; no solver computes with them.
 //!
 //! Error-free sums and products [Dekker 1971; Knuth 1969, section 4.2.2], arithmetic after Hida, Li and Bailey
 //! 2001 with the error bounds of Joldes, Muller and Popescu 2017.

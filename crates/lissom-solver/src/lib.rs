@@ -1,10 +1,9 @@
-//! Sparse direct solvers for families of matrices that share one structurally symmetric pattern: symbolic
-//! analysis once, many factorisations into preallocated memory, solves without allocation.
+//! Sparse direct solvers for families of matrices that share one structurally symmetric pattern: one symbolic
+//! analysis, many factorisations into preallocated memory, solves without allocation.
 //!
-//! The matrices they are made for are saddle-point matrices `[A + p BᵀB, Bᵀ; B, 0]` whose first block is
-//! definite: eliminated in an order that keeps every multiplier behind the coordinates its equations act on,
-//! they need no pivoting, and all of the elimination is known before the first number is. The solvers know
-//! nothing of mechanics or of time.
+//! They are designed for saddle-point matrices `[A + p BᵀB, Bᵀ; B, 0]` whose first block is definite. Eliminated in
+//! an order in which every multiplier follows the coordinates of its equations, these need no pivoting, and the whole
+//! elimination is known before the values are. The solvers are independent of mechanics and of time.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -1,9 +1,9 @@
-//! Structurally symmetric sparse patterns in compressed columns. Knows positions, never values.
+//! Structurally symmetric sparse patterns in compressed columns. Positions only, no values.
 
 use crate::scalar::Scalar;
 
-/// Positions of the entries of a structurally symmetric matrix: compressed columns, rows sorted, the whole
-/// diagonal present. Values are kept elsewhere, one per entry, in the order of [`Pattern::row_indices`].
+/// Positions of the entries of a structurally symmetric matrix: compressed columns, rows sorted, the whole diagonal
+/// present. Values are stored elsewhere, one per entry, in the order of [`Pattern::row_indices`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern {
     size: usize,
@@ -12,7 +12,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern in which every clique couples all of its unknowns with one another.
+    /// The pattern in which every clique couples all of its unknowns with each other.
     ///
     /// # Panics
     /// If a clique names an unknown that is not below `size`.
@@ -43,7 +43,7 @@ impl Pattern {
         for column in 0..size {
             let begin = row_indices.len();
             let cliques = &memberships[column];
-            // The coordinates of one node sit in the same cliques: their columns are copies of one another.
+            // The coordinates of one node are in the same cliques: their columns are copies of each other.
             if column > 0 && !cliques.is_empty() && *cliques == memberships[column - 1] {
                 row_indices.extend_from_within(column_starts[column - 1]..begin);
             } else {
@@ -64,8 +64,8 @@ impl Pattern {
         Pattern { size, column_starts, row_indices }
     }
 
-    /// The smallest structurally symmetric pattern with a full diagonal that holds the given `(row, column)`
-    /// positions. Repetitions are welcome.
+    /// The smallest structurally symmetric pattern with a full diagonal that contains the given `(row, column)`
+    /// positions, which may be repeated.
     ///
     /// # Panics
     /// If a position is not below `size`.
@@ -106,13 +106,13 @@ impl Pattern {
         &self.row_indices[self.column_starts[column]..self.column_starts[column + 1]]
     }
 
-    /// Where each column begins among the values; `size + 1` numbers.
+    /// Offset of each column in the values; `size + 1` numbers.
     #[inline]
     pub fn column_starts(&self) -> &[usize] {
         &self.column_starts
     }
 
-    /// The row of every entry, column after column.
+    /// The row of every entry, column by column.
     #[inline]
     pub fn row_indices(&self) -> &[usize] {
         &self.row_indices

@@ -1,8 +1,8 @@
-//! Sparse LU with partial pivoting: what to fall back on when a matrix does not bear elimination without pivoting.
+//! Sparse LU with partial pivoting: the alternative for matrices that cannot be eliminated without pivoting.
 //!
-//! Columns are eliminated in an order that suits all choices of pivots (`ordering::column_order`). Each is solved with the
-//! columns of L before it, which a depth-first search finds (Gilbert and Peierls 1988, SIAM J. Sci. Stat. Comput. 9, 862);
-//! its pivot is its largest entry.
+//! Columns are eliminated in an order that is suitable for all choices of pivots (`ordering::column_order`). Each is
+//! solved with the earlier columns of L that a depth-first search finds (Gilbert and Peierls 1988, SIAM J. Sci. Stat.
+//! Comput. 9, 862); its pivot is its largest entry.
 
 use std::sync::Arc;
 
@@ -16,9 +16,9 @@ use crate::structure::Structure;
 
 pub(crate) const NAME: &str = "pivoting";
 
-/// Backward error of the solve behind the report above which the factors are rejected.
+/// Backward error of the solve for the report above which the factors are rejected.
 const UNUSABLE: f64 = 1e-6;
-/// A row that no pivot has been taken from, or an unknown without a position.
+/// A row without a pivot, or an unknown without a position.
 const NONE: u32 = u32::MAX;
 
 /// Sparse LU with partial pivoting.
@@ -29,13 +29,13 @@ pub struct Pivoting<S> {
     /// By step, the row of its pivot, and by row the step.
     rows: Vec<u32>,
     steps: Vec<u32>,
-    /// Columns of L by steps, without the ones on its diagonal; of rows, and when all are known of steps.
+    /// Columns of L by steps, without its unit diagonal; indices are rows, and steps once all are known.
     lower: Columns<S>,
     /// Columns of U by steps, without the pivots.
     upper: Columns<S>,
     pivots: Vec<S>,
     search: Search,
-    /// A column at work by rows, a vector at work by steps.
+    /// A column by rows, or a vector by steps, during the computation.
     work: Vec<S>,
     factored: bool,
     probe: Vec<S>,
@@ -43,7 +43,7 @@ pub struct Pivoting<S> {
     product: Vec<S>,
 }
 
-/// Sparse columns, one after the other.
+/// Sparse columns, concatenated.
 struct Columns<S> {
     starts: Vec<usize>,
     indices: Vec<u32>,
@@ -83,9 +83,9 @@ impl<S: Scalar> Columns<S> {
 struct Search {
     /// By row, the last step that has reached it.
     reached: Vec<u32>,
-    /// Rows under way, with how many of their column's entries have been looked at.
+    /// Rows on the path, with the number of entries of their columns that have been examined.
     path: Vec<(u32, usize)>,
-    /// Steps whose columns of L act on the column, the last first; rows without a pivot.
+    /// Steps whose columns of L change the column, the last first; rows without a pivot.
     before: Vec<u32>,
     candidates: Vec<u32>,
 }
@@ -96,7 +96,7 @@ impl Search {
         self.candidates.clear();
     }
 
-    /// Reaches a row and all rows that follow from it.
+    /// Reaches a row and all rows that depend on it.
     fn reach<S>(&mut self, row: u32, mark: u32, steps: &[u32], lower: &Columns<S>) {
         let is_new =
             |reached: &mut [u32], row: u32| std::mem::replace(&mut reached[row as usize], mark) != mark;
@@ -134,7 +134,7 @@ impl<S: Scalar> Pivoting<S> {
         let pattern = Arc::clone(&structure.pattern);
         let size = pattern.size();
         let order = structure.unknowns_in_order(&column_order(structure));
-        // Numbers without a short binary form, of one size, so that every direction is tried.
+        // Numbers without a short binary form, of one magnitude, so that every direction is excited.
         let probe = (0..size).map(|unknown| S::from_real((1.0 + unknown as f64).sin() + 2.0)).collect();
         Pivoting {
             order: order.into_iter().map(|unknown| unknown as u32).collect(),
@@ -158,7 +158,7 @@ impl<S: Scalar> Pivoting<S> {
         }
     }
 
-    /// Factors column after column; returns the largest magnitude in U.
+    /// Factorises column by column; returns the largest magnitude in U.
     fn eliminate(&mut self, values: &[S]) -> Result<f64, FactorError> {
         self.lower.clear();
         self.upper.clear();
@@ -192,14 +192,14 @@ impl<S: Scalar> Pivoting<S> {
             self.upper.end_column();
             largest = largest.max(self.take_pivot(step, column)?);
         }
-        // From now on L is read by steps.
+        // From now on L is indexed by steps.
         for row in &mut self.lower.indices {
             *row = self.steps[*row as usize];
         }
         Ok(largest)
     }
 
-    /// Chooses the pivot among the rows that are left, and stores the column of L below it. Returns its magnitude.
+    /// Selects the pivot among the remaining rows, and stores the column of L below it. Returns its magnitude.
     fn take_pivot(&mut self, step: usize, column: usize) -> Result<f64, FactorError> {
         let (mut largest, mut chosen) = (0.0, NONE);
         for &row in &self.search.candidates {
@@ -207,7 +207,7 @@ impl<S: Scalar> Pivoting<S> {
             if !magnitude.is_finite() {
                 return Err(FactorError::NotFinite { unknown: column });
             }
-            // Ties go to the lower row, in whatever order the search has come by.
+            // Of equal candidates the lower row is chosen, independent of the order of the search.
             if magnitude > largest || (magnitude == largest && magnitude > 0.0 && row < chosen) {
                 (largest, chosen) = (magnitude, row);
             }
@@ -229,7 +229,7 @@ impl<S: Scalar> Pivoting<S> {
         Ok(pivot.magnitude())
     }
 
-    /// Solves once and looks at the size of the solution and of the residual.
+    /// Solves once and checks the magnitude of the solution and of the residual.
     fn inspect(&mut self, values: &[S], largest: f64, growth: f64) -> Result<FactorReport, FactorError> {
         let mut solution = std::mem::take(&mut self.solution);
         solution.copy_from_slice(&self.probe);
@@ -237,7 +237,7 @@ impl<S: Scalar> Pivoting<S> {
         self.pattern.multiply(values, &solution, &mut self.product);
         let (mut size, mut unknown) = (0.0, 0);
         for (index, value) in solution.iter().enumerate() {
-            // What is not a number is worse than any number.
+            // A value that is not a number counts as the largest.
             if value.magnitude() > size || value.magnitude().is_nan() {
                 (size, unknown) = (value.magnitude(), index);
             }

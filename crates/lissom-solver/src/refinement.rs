@@ -1,20 +1,20 @@
-//! Solutions to more digits than a solver gives: iterative refinement with residuals and solution in extended
-//! precision. For measuring the error of a solution. Knows no algorithm of a solver.
+//! Solutions to more digits than those of a solver: iterative refinement with residuals and solution in extended
+//! precision, for measuring the error of a solution of any solver.
 
 use crate::extended::Extended;
 use crate::pattern::Pattern;
 use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
 
-/// Most rounds; each gains as many digits as the solver gives.
+/// Maximum number of rounds; each adds as many digits as the solver has.
 const ROUNDS: usize = 40;
-/// Corrections below this fraction of the solution are beyond what anyone compares with.
+/// Corrections below this fraction of the solution are irrelevant for any comparison.
 const ENOUGH: f64 = 1e-20;
 
-/// A solution by the solver, and the same made exact.
+/// A solution by the solver, and its error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refined<S> {
-    /// What the solver gave.
+    /// Solution of the solver.
     pub solved: Vec<S>,
     /// Error of each unknown, `solved - exact`.
     pub errors: Vec<S>,
@@ -22,8 +22,8 @@ pub struct Refined<S> {
     pub converged: bool,
 }
 
-/// Solves `A x = b` for the matrix with these values, which the solver has factored last, and finds the error of
-/// the solution [Wilkinson 1963; Higham 2002, chapter 12].
+/// Solves `A x = b` for the matrix with these values, which the solver factored last, and computes the error of the
+/// solution [Wilkinson 1963; Higham 2002, chapter 12].
 ///
 /// # Panics
 /// If a slice has the wrong length.
@@ -44,7 +44,7 @@ pub fn refined_solution<S: Scalar>(
     for _ in 0..ROUNDS {
         residual(pattern, values, &exact, right_hand_side, &mut correction);
         solver.solve(&mut correction);
-        // Every unknown for itself: those of small size are not to hide behind the large ones.
+        // Each unknown individually, so that large ones do not hide the errors of small ones.
         let size = exact
             .iter()
             .zip(&correction)
@@ -113,7 +113,7 @@ mod tests {
     use super::*;
     use crate::{Structure, kind};
 
-    /// Hilbert matrices times 360360: exact integers up to size 8 of great condition (1e10).
+    /// Hilbert matrices times 360360: exact integers up to size 8 with a large condition number (1e10).
     fn matrix(size: usize) -> (Structure, Vec<f64>) {
         let pattern = Pattern::from_entries(size, (0..size).flat_map(|i| (0..size).map(move |j| (i, j))));
         let values = (0..size * size).map(|k| 360_360.0 / (1 + k / size + k % size) as f64).collect();

@@ -1,17 +1,17 @@
-//! What a factorisation reports about itself, and why it may fail. Knows unknowns by number only.
+//! Report of a factorisation, and the causes of its failure. Unknowns are identified by index only.
 
 use crate::scalar::Scalar;
 
-/// A pivot is rejected when elimination has cancelled it down to this fraction of the terms it is the sum of:
-/// `|pivot| ≤ TINY_PIVOT (|a_ii| + Σ |l_ik u_ki|)`.
+/// A pivot is rejected if elimination has cancelled it down to this fraction of the sum of its terms: `|pivot| ≤
+/// TINY_PIVOT (|a_ii| + Σ |l_ik u_ki|)`.
 ///
-/// About 45 units of round-off: what is left then is noise. The comparison is with the terms of the pivot's own
-/// diagonal, so it does not change when rows and columns are scaled: in an unscaled index-3 matrix a
-/// good pivot may be 1e-27 of the largest one.
+/// About 45 units of round-off: the remainder is then noise. The comparison is with the terms of the pivot's own
+/// diagonal, so it is invariant under scaling of rows and columns: in an unscaled index-3 matrix a good pivot may be
+/// 1e-27 of the largest one.
 pub const TINY_PIVOT: f64 = 1e-14;
 
-/// Monitor of a factorisation that went through. The solver `pivoting` gives what the size of a
-/// solution shows instead of its pivots, which do not see every near singularity.
+/// Monitor of a successful factorisation. The solver `pivoting` reports values derived from the size of a solution
+/// instead of its pivots, which do not reveal every near singularity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorReport {
     /// Smallest magnitude of a pivot.
@@ -20,18 +20,18 @@ pub struct FactorReport {
     pub smallest_pivot_unknown: usize,
     /// Largest magnitude of a pivot.
     pub largest_diagonal: f64,
-    /// Largest `|u_ij|` over largest `|a_ij|`. Not a number where the solver does not know.
+    /// Largest `|u_ij|` over largest `|a_ij|`. Not a number if the solver does not compute it.
     pub growth: f64,
-    /// Smallest ratio of a pivot to the sum of the magnitudes of the terms it is made of: 1 where nothing
-    /// cancels, near the round-off unit for a redundant constraint. It does not change when rows and columns are scaled. Solvers
-    /// that pivot report the ratio of the smallest to the largest pivot here.
+    /// Smallest ratio of a pivot to the sum of the magnitudes of its terms: 1 without cancellation, near the round-off unit for
+    /// a redundant constraint. It is invariant under scaling of rows and columns. Solvers that pivot report the ratio of the
+    /// smallest to the largest pivot here.
     pub worst_cancellation: f64,
     /// The unknown of that pivot.
     pub worst_cancellation_unknown: usize,
-    /// How many pivots are negative. Of a symmetric matrix that is how many negative eigenvalues it has (Sylvester's law of
-    /// inertia): a saddle-point matrix `[A, Bᵀ; B, 0]` has one for each equation, and one for each direction allowed by
-    /// them in which A is not stable. Of other matrices only whether it is odd has a meaning: the sign of the determinant.
-    /// None for complex matrices and from solvers that exchange rows.
+    /// Number of negative pivots. For a symmetric matrix this is the number of negative eigenvalues (Sylvester's law of
+    /// inertia): a saddle-point matrix `[A, Bᵀ; B, 0]` has one for each equation, and one for each direction that satisfies
+    /// them in which A is not stable. For other matrices only its parity has a meaning: the sign of the determinant. None
+    /// for complex matrices and from solvers that exchange rows.
     pub negative_pivots: Option<usize>,
 }
 
@@ -42,7 +42,7 @@ impl FactorReport {
     }
 }
 
-/// Why a factorisation stopped. The factors are then not to be used.
+/// Why a factorisation failed. The factors must then not be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum FactorError {
     /// A pivot is zero, or round-off: the matrix is singular, or this unknown needs pivoting.
@@ -52,10 +52,10 @@ pub enum FactorError {
         unknown: usize,
         /// Magnitude of the pivot.
         pivot: f64,
-        /// Sum of the magnitudes of the terms the pivot is made of.
+        /// Sum of the magnitudes of the terms of the pivot.
         largest: f64,
     },
-    /// An entry, or a number on the way, is infinite or not a number.
+    /// An entry, or an intermediate number, is infinite or not a number.
     #[error("a number in the equations of unknown {unknown} is infinite or not a number")]
     NotFinite {
         /// The unknown: column of the entry, or of the pivot.
@@ -63,7 +63,7 @@ pub enum FactorError {
     },
 }
 
-/// Collects the report while pivots come in.
+/// Collects the report during elimination.
 #[derive(Clone, Copy, Debug)]
 pub struct Monitor {
     smallest: (f64, usize),
@@ -77,7 +77,7 @@ impl Monitor {
         Monitor { smallest: (f64::INFINITY, 0), largest: 0.0, cancellation: (f64::INFINITY, 0), negative: 0 }
     }
 
-    /// Records a pivot, or rejects it; `terms` is the sum of the magnitudes it was made of. Returns its magnitude.
+    /// Records a pivot, or rejects it; `terms` is the sum of the magnitudes of its terms. Returns its magnitude.
     #[inline]
     pub(crate) fn pivot<S: Scalar>(
         &mut self,
@@ -87,7 +87,7 @@ impl Monitor {
     ) -> Result<f64, FactorError> {
         self.negative += usize::from(pivot.parts()[0] < 0.0);
         let pivot = pivot.magnitude();
-        // Infinite terms with a finite pivot cannot be; a pivot that is not a number fails both comparisons.
+        // Infinite terms with a finite pivot are impossible; a pivot that is not a number fails both comparisons.
         if pivot > TINY_PIVOT * terms && pivot < f64::INFINITY {
             if pivot < self.smallest.0 {
                 self.smallest = (pivot, unknown);
@@ -101,7 +101,7 @@ impl Monitor {
         Err(refusal(unknown, pivot, terms))
     }
 
-    /// Records what another monitor has seen.
+    /// Merges the records of another monitor.
     pub(crate) fn join(&mut self, other: &Monitor) {
         if other.smallest.0 < self.smallest.0 {
             self.smallest = other.smallest;
@@ -113,7 +113,7 @@ impl Monitor {
         self.negative += other.negative;
     }
 
-    /// What has been seen of a matrix of numbers `S`.
+    /// The report for a matrix of numbers `S`.
     pub(crate) fn report<S: Scalar>(&self, largest_upper: f64, largest_entry: f64) -> FactorReport {
         let growth = if largest_entry > 0.0 { largest_upper / largest_entry } else { 0.0 };
         FactorReport {

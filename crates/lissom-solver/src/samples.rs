@@ -1,6 +1,6 @@
-//! Saddle-point systems like those of mechanisms, for tests and benches: nodes of six coordinates in elements,
-//! joints with a coordinate of their own that nothing but constraints acts on, and multipliers. Random values;
-//! knows nothing of any solver.
+//! Saddle-point systems like those of mechanisms, for tests and benches: nodes of six coordinates in elements, joints
+//! with a coordinate of their own on which only constraints act, and multipliers. Random values; independent of any
+//! solver.
 
 use std::sync::Arc;
 
@@ -8,9 +8,9 @@ use num_complex::Complex64;
 
 use crate::{Group, Pattern, Scalar, Structure};
 
-/// Small random numbers in (-1, 1), the same everywhere (`SplitMix64`, Steele et al. 2014).
+/// Small random numbers in (-1, 1), reproducible on every platform (`SplitMix64`, Steele et al. 2014).
 pub struct Random(
-    /// State; any number will do to begin with.
+    /// State; any initial value is valid.
     pub u64,
 );
 
@@ -57,13 +57,13 @@ impl Sample for Complex64 {
 
 /// Constraint equations.
 pub struct Constraint {
-    /// Unknowns its equations act on.
+    /// Unknowns on which its equations act.
     pub coordinates: Vec<usize>,
-    /// Unknowns its equations belong to.
+    /// Unknowns to which its equations belong.
     pub multipliers: Vec<usize>,
 }
 
-/// Groups, elements and constraints from which matrices are made.
+/// Groups, elements and constraints of a sample matrix.
 #[derive(Default)]
 pub struct Model {
     /// Groups of unknowns, numbered as they were added.
@@ -72,14 +72,14 @@ pub struct Model {
     pub size: usize,
     /// Unknowns of each element; its matrix is definite.
     pub elements: Vec<Vec<usize>>,
-    /// What acts between coordinates without stiffness.
+    /// Constraints between coordinates without stiffness.
     pub constraints: Vec<Constraint>,
     /// Relative coordinates of joints: no element acts on them.
     pub massless: Vec<usize>,
 }
 
 impl Model {
-    /// Adds a group of so many unknowns.
+    /// Adds a group of `count` unknowns.
     pub fn group(&mut self, count: usize, hosts: &[usize]) -> usize {
         let unknowns = (self.size..self.size + count).collect();
         self.size += count;
@@ -119,7 +119,7 @@ impl Model {
         angle
     }
 
-    /// Cubic beam elements one after the other from a node; returns the last node.
+    /// Consecutive cubic beam elements from a node; returns the last node.
     pub fn beam(&mut self, from: usize, elements: usize) -> usize {
         (0..elements).fold(from, |start, _| {
             let nodes = [start, self.node(), self.node(), self.node()];
@@ -131,7 +131,7 @@ impl Model {
     /// Pattern and groups.
     ///
     /// # Panics
-    /// If the hosts of the groups are not well formed.
+    /// If the hosts of the groups are not valid.
     pub fn structure(&self) -> Structure {
         let coupled: Vec<Vec<usize>> = self
             .constraints
@@ -279,8 +279,7 @@ pub fn closed_loop(unknowns: usize) -> Model {
     model
 }
 
-/// Residual against what its terms could be expected to leave: `max |b - A x| / (‖A‖ ‖x‖ + ‖b‖)` in the
-/// maximum norm.
+/// Residual relative to the expected round-off of its terms: `max |b - A x| / (‖A‖ ‖x‖ + ‖b‖)` in the maximum norm.
 pub fn backward_error<S: Scalar>(pattern: &Pattern, values: &[S], x: &[S], b: &[S], transposed: bool) -> f64 {
     let mut product = vec![S::zero(); b.len()];
     let sizes: Vec<f64> = values.iter().map(|value| value.magnitude()).collect();

@@ -1,4 +1,4 @@
-//! The two number fields the solvers work in: `f64` and `Complex64`. Knows arithmetic only.
+//! The two number fields of the solvers: `f64` and `Complex64`.
 
 #![expect(clippy::inline_always, reason = "only code inlined into a dispatched caller uses its vectors")]
 
@@ -8,13 +8,13 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 use num_complex::Complex64;
 
 mod sealed {
-    /// What kernels need and nobody else should see.
+    /// Operations for kernels only.
     pub trait Arithmetic: Sized {
-        /// `a b + c`. With `FUSED` each product is rounded together with its sum: one instruction where the
-        /// processor is known to have it, a slow library call elsewhere.
+        /// `a b + c`. With `FUSED` each product is rounded together with its sum: one instruction if the processor is
+        /// known to support it, a slow library call otherwise.
         fn multiply_add<const FUSED: bool>(a: Self, b: Self, c: Self) -> Self;
 
-        /// Whether a number has a part beside the real one.
+        /// Whether a number has an imaginary part.
         const COMPLEX: bool;
 
         /// `Σ_p A[.., p] B[.., p]ᵀ` for `ROWS` rows and `COLUMNS` columns of two panels, given as slices and strides.
@@ -26,19 +26,19 @@ mod sealed {
     }
 }
 
-/// So many numbers of a slice, from a position on.
+/// `COUNT` numbers of a slice, from a position on.
 #[inline(always)]
 pub(crate) fn array<S, const COUNT: usize>(slice: &[S], at: usize) -> &[S; COUNT] {
     slice[at..at + COUNT].try_into().expect("a slice of that length")
 }
 
-/// The same, to write to.
+/// The same, mutable.
 #[inline(always)]
 pub(crate) fn array_mut<S, const COUNT: usize>(slice: &mut [S], at: usize) -> &mut [S; COUNT] {
     (&mut slice[at..at + COUNT]).try_into().expect("a slice of that length")
 }
 
-/// A real or complex number in double precision. Sealed: `f64` and `Complex64` are all there is.
+/// A real or complex number in double precision. Sealed: implemented only for `f64` and `Complex64`.
 pub trait Scalar:
     sealed::Arithmetic
     + crate::multifrontal::Kernels
@@ -64,14 +64,14 @@ pub trait Scalar:
     fn one() -> Self;
     /// A real number in this field.
     fn from_real(value: f64) -> Self;
-    /// Size of the number: `|x|`, and `|re| + |im|` for a complex number, which is within a factor √2 of its
-    /// modulus, cannot overflow early and costs no root.
+    /// Size of the number: `|x|`, and `|re| + |im|` for a complex number, which is within a factor √2 of its modulus,
+    /// cannot overflow early and needs no square root.
     fn magnitude(self) -> f64;
     /// Whether no part is infinite or not a number.
     fn is_finite(self) -> bool;
     /// Real and imaginary part.
     fn parts(self) -> [f64; 2];
-    /// From real and imaginary part; a real number leaves the imaginary part out.
+    /// From real and imaginary part; a real number ignores the imaginary part.
     fn from_parts(real: f64, imaginary: f64) -> Self;
 }
 
@@ -147,8 +147,8 @@ impl sealed::Arithmetic for Complex64 {
 
     const COMPLEX: bool = true;
 
-    /// Products with the real and with the imaginary part of B are summed apart, so that the parts of A stay side
-    /// by side as they lie in memory; they are put together once, at the end.
+    /// Products with the real and with the imaginary part of B are summed separately, so that the parts of A remain
+    /// interleaved as in memory; they are combined once, at the end.
     #[inline(always)]
     fn tile<const FUSED: bool, const ROWS: usize, const COLUMNS: usize>(
         (a, a_stride): (&[Complex64], usize),

@@ -1,5 +1,5 @@
-//! Singular values of small matrices to double precision, however far apart: one-sided Jacobi in extended
-//! precision. Knows no solver.
+//! Singular values of small matrices to double precision, for any ratio of their magnitudes: one-sided Jacobi in
+//! extended precision.
 //!
 //! Hestenes 1958: rotations from the right make the columns orthogonal; their lengths are then the singular
 //! values. In double precision values below 1e-16 of the largest are noise; here the limit is about 1e-30.
@@ -8,11 +8,11 @@ use crate::extended::Extended;
 use crate::pattern::Pattern;
 use crate::scalar::Scalar;
 
-/// Columns count as orthogonal when the cosine between them is below this: what is left changes the lengths
-/// by a relative amount of that order.
+/// Columns are considered orthogonal if the cosine between them is below this: the remainder changes the lengths by a
+/// relative amount of that order.
 const ORTHOGONAL: f64 = 1e-13;
 
-/// Quadratic convergence sets in after a few sweeps; more than this are never needed.
+/// Convergence is quadratic after a few sweeps; more than this number are never needed.
 const SWEEPS: usize = 60;
 
 /// Singular values, largest first, of a square matrix of `size` rows, given column by column.
@@ -44,8 +44,8 @@ pub fn singular_values(size: usize, matrix: &[f64]) -> Vec<f64> {
     values
 }
 
-/// Condition number in the 2-norm of the matrix with these values: largest over smallest singular value, infinite
-/// for a singular matrix. Trustworthy up to about 1e28. The time it takes grows with the cube of the size.
+/// Condition number in the 2-norm of the matrix with these values: largest over smallest singular value, infinite for
+/// a singular matrix. Accurate up to about 1e28. The time grows with the cube of the size.
 ///
 /// # Panics
 /// If the number of values is not that of the entries in the pattern.
@@ -79,11 +79,11 @@ fn dot(a: &[Extended], b: &[Extended]) -> Extended {
     a.iter().zip(b).fold(Extended::ZERO, |sum, (&a, &b)| sum + a * b)
 }
 
-/// Rotates two columns until they are orthogonal; whether they were so before.
+/// Rotates two columns until they are orthogonal; returns whether they were so before.
 fn make_orthogonal(first: &mut [Extended], second: &mut [Extended]) -> bool {
     let (a, b, c) = (dot(first, first), dot(second, second), dot(first, second));
     let limit = ORTHOGONAL * (a.to_f64().sqrt() * b.to_f64().sqrt());
-    // A column of zeros is orthogonal to every other, and stays zero.
+    // A column of zeros is orthogonal to every other, and remains zero.
     if c.to_f64().abs() <= limit {
         return true;
     }
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn pascal_matrices_have_reciprocal_pairs() {
-        // The inverse is similar to the matrix: every singular value stands with its reciprocal.
+        // The inverse is similar to the matrix: the reciprocal of every singular value is also one.
         let size = 20;
         let values = singular_values(size, &pascal(size));
         assert!(values[0] / values[size - 1] > 1e20);

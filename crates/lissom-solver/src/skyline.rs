@@ -1,9 +1,9 @@
-//! LU without pivoting in profile storage: the readable reference. Values are unsymmetric, the profile is
-//! symmetric. Knows the order of elimination only as a permutation.
+//! LU without pivoting in profile storage: the readable reference. Values are unsymmetric, the profile is symmetric.
+//! The order of elimination is used only as a permutation.
 //!
 //! Legend: `A = L U` in the order of elimination, `L` with unit diagonal. Row `i` of `L` and column `i` of `U` are both
-//! kept from the first coupled unknown to the diagonal, so that every number is a dot product of two
-//! contiguous pieces (Crout's scheme):
+//! stored from the first coupled unknown to the diagonal, so that every number is a dot product of two contiguous
+//! pieces (Crout's scheme):
 //!
 //! ```text
 //! u_ji = a_ji - Σ_k l_jk u_ki        l_ij = (a_ij - Σ_k l_ik u_kj) / u_jj        k < j < i
@@ -28,7 +28,7 @@ pub struct Skyline<S> {
     unknowns: Vec<usize>,
     /// First step coupled with each step.
     first: Vec<usize>,
-    /// Where the piece of each step begins in `lower` and `upper`; the diagonal is not in them.
+    /// Offset of the piece of each step in `lower` and `upper`, which do not contain the diagonal.
     starts: Vec<usize>,
     /// For each entry of the pattern its position in the storage `lower ‖ upper ‖ diagonal`.
     places: Vec<usize>,
@@ -191,7 +191,7 @@ impl<S: Scalar> LinearSolver<S> for Skyline<S> {
     }
 }
 
-/// Sum of products, in several partial sums so that it can be done side by side.
+/// Sum of products, in several partial sums that can be computed in parallel.
 #[inline]
 fn dot<S: Scalar>(left: &[S], right: &[S]) -> S {
     const LANES: usize = 8;

@@ -1,4 +1,4 @@
-//! The interface every solver meets and the table of the kinds there are. Knows no algorithm.
+//! The interface of all solvers and the table of their kinds.
 
 use num_complex::Complex64;
 
@@ -7,10 +7,10 @@ use crate::scalar::Scalar;
 use crate::structure::Structure;
 use crate::{dense, multifrontal, pivoting, skyline};
 
-/// So many right-hand sides are solved for at once.
+/// Number of right-hand sides that are solved for at once.
 pub const SEVERAL: usize = 8;
 
-/// Factors matrices of one structure, again and again, and solves with the last one factored.
+/// Factorises matrices of one structure repeatedly, and solves with the last one factored.
 pub trait LinearSolver<S: Scalar>: Send {
     /// Name of its kind.
     fn name(&self) -> &'static str;
@@ -20,12 +20,12 @@ pub trait LinearSolver<S: Scalar>: Send {
         false
     }
 
-    /// Factors the matrix with the given values, in the order of the pattern. Without allocation where the
-    /// solver does not pivot.
+    /// Factorises the matrix with the given values, in the order of the pattern. Without allocation if the solver
+    /// does not pivot.
     ///
     /// # Errors
     /// If a pivot vanishes or a number is not finite. The solver must then not be used to solve until a later
-    /// factorisation goes through.
+    /// factorisation succeeds.
     ///
     /// # Panics
     /// If there are not as many values as entries in the pattern.
@@ -43,7 +43,7 @@ pub trait LinearSolver<S: Scalar>: Send {
     /// If the right-hand side has the wrong length.
     fn solve_transposed(&mut self, right_hand_side: &mut [S]);
 
-    /// Solves `A x = b` in place for several right-hand sides, which stand side by side.
+    /// Solves `A x = b` in place for several right-hand sides, which are stored side by side.
     ///
     /// # Panics
     /// If there are not as many rows as unknowns.
@@ -60,12 +60,12 @@ pub trait LinearSolver<S: Scalar>: Send {
         }
     }
 
-    /// Count of stored numbers in L and U.
+    /// Number of stored entries of L and U.
     fn factor_entries(&self) -> usize;
 
-    /// Lets that many threads share the work where it is large enough for that to pay: not before this has been called,
-    /// and not with solvers that know of one thread only. Results do not depend on it, not by a bit. To wake threads
-    /// allocates a little.
+    /// Sets the number of threads that share the work if it is large enough to be efficient. Without this call, and for
+    /// solvers without parallel algorithms, there is one thread. Results are bitwise independent of it. Waking threads
+    /// allocates slightly.
     fn set_threads(&mut self, _threads: usize) {}
 }
 

@@ -1,31 +1,31 @@
-//! What a solver knows before it has numbers: the pattern, and which unknowns are eliminated together and
-//! after which others. Knows nothing of what the unknowns mean.
+//! Structural input of a solver: the pattern, and which unknowns are eliminated together and after which others.
+//! Independent of the meaning of the unknowns.
 
 use std::sync::Arc;
 
 use crate::pattern::Pattern;
 
-/// A set of unknowns that is eliminated together, in the order given: the coordinates of a node, or the
-/// multipliers of one joint.
+/// A set of unknowns that is eliminated together, in the given order: the coordinates of a node, or the multipliers
+/// of one joint.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Group {
     /// The unknowns, in their order of elimination.
     pub unknowns: Vec<usize>,
-    /// The groups whose coordinates the equations of this group act on. Without pivoting it must be
-    /// eliminated after all of them, and comes right after the last. Empty for coordinates.
+    /// The groups on whose coordinates the equations of this group act. Without pivoting it must be eliminated after
+    /// all of them, and follows the last one directly. Empty for coordinates.
     pub hosts: Vec<usize>,
 }
 
 /// Pattern and groups of a family of matrices. The groups partition the unknowns.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Structure {
-    /// Where entries may be.
+    /// Positions of the entries.
     pub pattern: Arc<Pattern>,
-    /// What is eliminated together.
+    /// Unknowns that are eliminated together.
     pub groups: Vec<Group>,
 }
 
-/// What is wrong with a [`Structure`].
+/// An error in a [`Structure`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StructureError {
     /// A group names an unknown that does not exist.
@@ -65,7 +65,7 @@ pub enum StructureError {
     /// Hosts form a cycle.
     #[error("group {group} is, by way of its hosts, to be eliminated after itself")]
     CyclicHosts {
-        /// A group on the cycle or behind it.
+        /// A group on the cycle or after it.
         group: usize,
     },
 }

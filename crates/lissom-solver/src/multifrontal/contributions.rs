@@ -1,11 +1,11 @@
-//! What fronts hand up to their parents, added run by run. Knows positions, not what is done with the sums.
+//! Contributions of fronts to their parents, added run by run. Independent of the use of the sums.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::{Child, PADDING, Run};
 use crate::scalar::Scalar;
 
-/// Adds a whole contribution to a front whose runs begin where they are said to.
+/// Adds a whole contribution to a front whose runs begin at the given positions.
 #[inline(always)]
 pub(super) fn add_all<S: Scalar>(
     target: &mut [S],
@@ -28,7 +28,7 @@ fn add<S: Scalar>(to: &mut [S], from: &[S]) {
     let (to_fours, to_ones) = to.as_chunks_mut::<PADDING>();
     let (from_fours, from_ones) = from.as_chunks::<PADDING>();
     for (to, from) in to_fours.iter_mut().zip(from_fours) {
-        // Copies, because the compiler does not know that the two are apart.
+        // Copies, because the compiler cannot infer that the two do not overlap.
         let (mut sums, from) = (*to, *from);
         for i in 0..PADDING {
             sums[i] += from[i];
@@ -41,7 +41,7 @@ fn add<S: Scalar>(to: &mut [S], from: &[S]) {
 }
 
 /// Adds the lower triangle of the part of a contribution in the given runs. Runs ascend in child and parent alike, so
-/// that the lower triangle goes to the lower triangle.
+/// that the lower triangle is added to the lower triangle.
 #[inline(always)]
 pub(super) fn add_lower<S: Scalar>(
     target: &mut [S],
@@ -55,7 +55,7 @@ pub(super) fn add_lower<S: Scalar>(
             let to = &mut target[(columns.to as usize + column) * stride..];
             let from = &contribution[(columns.from as usize + column) * child.stride..][..child.stride];
             for (further, rows) in runs[index..].iter().enumerate() {
-                // Of the run that holds the column only what lies below the diagonal.
+                // In the run that contains the column, only the part below the diagonal.
                 let skip = if further == 0 { column } else { 0 };
                 let length = rows.length as usize - skip;
                 add(
@@ -89,7 +89,7 @@ pub(super) fn add_columns<S: Scalar>(
     }
 }
 
-/// The same, where rows of the contribution go to columns of the target.
+/// The same, with rows of the contribution added to columns of the target.
 #[inline(always)]
 pub(super) fn add_transposed<S: Scalar>(
     target: &mut [S],

@@ -1,11 +1,11 @@
-//! Elimination tree of groups: what is left coupled when a group is eliminated, and who waits for whom. Knows
-//! groups as dense blocks, by their position in the order of elimination.
+//! Elimination tree of groups: the couplings that remain after the elimination of a group, and the dependencies.
+//! Groups are dense blocks, identified by their position in the order of elimination.
 
 use crate::ordering::GroupGraph;
 
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Everything is numbered by position in the order of elimination.
+/// All indices are positions in the order of elimination.
 pub(super) struct EliminationTree {
     /// Unknowns in each group.
     pub(super) weights: Vec<u32>,
@@ -16,8 +16,8 @@ pub(super) struct EliminationTree {
 }
 
 impl EliminationTree {
-    /// The tree of a graph eliminated in the given order: the boundary of a group is what it is coupled with
-    /// itself and what its children are coupled with, as far as it comes later.
+    /// The tree of a graph eliminated in the given order: the boundary of a group consists of its own couplings and
+    /// those of its children, as far as they come later.
     pub(super) fn new(graph: &GroupGraph, order: &[usize]) -> EliminationTree {
         let count = order.len();
         let mut places = vec![0_u32; count];

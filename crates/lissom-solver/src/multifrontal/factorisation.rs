@@ -1,5 +1,5 @@
-//! Numeric factorisation: front after front, children first. Everything goes to places that the symbolic
-//! analysis has fixed; nothing is searched for and nothing is allocated.
+//! Numeric factorisation: front by front, children first. All positions are fixed by the symbolic analysis; nothing
+//! is searched for and nothing is allocated.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -15,16 +15,16 @@ use crate::pattern::Pattern;
 use crate::report::{FactorError, Monitor};
 use crate::scalar::Scalar;
 
-/// Columns of a symmetric contribution that are formed together, from their first row on: a multiple of the padding and
-/// of the columns of a tile.
+/// Columns of a symmetric contribution that are computed together, from their first row on: a multiple of the padding
+/// and of the columns of a tile.
 const STRIP: usize = 24;
 
-/// Numbers of the last factorisation, and room to make the next.
+/// Numbers of the last factorisation, and storage for the next.
 pub(super) struct Numeric<S> {
     pub(super) factors: Vec<S>,
-    /// D by step: of symmetric matrices only.
+    /// D by step: for symmetric matrices only.
     pub(super) pivots: Vec<S>,
-    /// By step, the sum of the magnitudes of what the diagonal has been made of so far.
+    /// By step, the sum of the magnitudes of the terms of the diagonal so far.
     terms: Vec<f64>,
     /// One for each part.
     benches: Vec<Bench<S>>,
@@ -32,12 +32,12 @@ pub(super) struct Numeric<S> {
     diagonal: Vec<u32>,
 }
 
-/// What a part needs for itself.
+/// Storage of a part.
 struct Bench<S> {
     stacks: [Vec<S>; 2],
     square: SquareWork<S>,
     small: SmallFront<S>,
-    /// `L21 D` of the front at hand: of symmetric matrices only.
+    /// `L21 D` of the present front: for symmetric matrices only.
     scaled: Vec<S>,
     front_terms: Vec<f64>,
     outcome: Result<(Monitor, f64), FactorError>,
@@ -53,7 +53,7 @@ pub(super) struct Share<'a, S> {
 }
 
 impl<'a, S> Share<'a, S> {
-    /// The first so many parts, and the others.
+    /// The first `count` parts, and the others.
     pub(super) fn split(self, count: usize) -> (Share<'a, S>, Share<'a, S>) {
         let (parts, other_parts) = self.parts.split_at(count);
         let factors: usize = parts.iter().map(|part| part.factors.len()).sum();
@@ -111,7 +111,7 @@ impl<S: Scalar> Numeric<S> {
         (all.split(symbolic.parts.len() - 1).0, &self.diagonal)
     }
 
-    /// Factors the top, when all subtrees are done; returns the monitor and the largest magnitude in U.
+    /// Factorises the top, after all subtrees; returns the monitor and the largest magnitude in U.
     pub(super) fn factor_top(
         &mut self,
         processor: pulp::Arch,
@@ -145,7 +145,7 @@ impl<S: Scalar> Numeric<S> {
     }
 }
 
-/// What the diagonal is made of to begin with.
+/// Initial terms of the diagonal.
 fn begin_terms<S: Scalar>(terms: &mut [f64], diagonal: &[u32], values: &[S]) {
     for (terms, &entry) in terms.iter_mut().zip(diagonal) {
         *terms = values.get(entry as usize).map_or(0.0, |value| value.magnitude());
@@ -153,7 +153,7 @@ fn begin_terms<S: Scalar>(terms: &mut [f64], diagonal: &[u32], values: &[S]) {
 }
 
 impl<S: Scalar> Share<'_, S> {
-    /// Factors subtrees, one after the other; the benches keep the outcomes.
+    /// Factorises subtrees, one after the other; the benches store the outcomes.
     pub(super) fn factor(self, processor: pulp::Arch, symbolic: &Symbolic, values: &[S], diagonal: &[u32]) {
         let mut rest = self;
         while let Some(part) = rest.parts.first() {
@@ -168,7 +168,7 @@ impl<S: Scalar> Share<'_, S> {
     }
 }
 
-/// A part, by LU or LDLᵀ; gives the monitor and the largest magnitude in U.
+/// Factorises a part by LU or LDLᵀ; returns the monitor and the largest magnitude in U.
 pub struct FactorPart<'a, S> {
     symbolic: &'a Symbolic,
     values: &'a [S],
@@ -195,7 +195,7 @@ impl<S: Scalar> pulp::WithSimd for FactorPart<'_, S> {
     }
 }
 
-/// The numbers of a part at work.
+/// The numbers of a part during its factorisation.
 struct Work<'a, S> {
     part: &'a Part,
     factors: &'a mut [S],
@@ -206,7 +206,7 @@ struct Work<'a, S> {
 }
 
 impl<S: Scalar> Work<'_, S> {
-    /// Factors; returns the monitor and the largest magnitude in U.
+    /// Factorises; returns the monitor and the largest magnitude in U.
     #[inline(always)]
     fn factor<V: pulp::Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
@@ -228,7 +228,7 @@ impl<S: Scalar> Work<'_, S> {
         Ok((monitor, largest))
     }
 
-    /// Where the pieces of a front lie among the factors of its part.
+    /// Positions of the pieces of a front among the factors of its part.
     #[inline(always)]
     fn range(&self, front: &Front) -> Range<usize> {
         let range = front.factor_range();
@@ -392,7 +392,7 @@ impl<S: Scalar> Work<'_, S> {
     }
 }
 
-/// Columns times a number each.
+/// Multiplies each column by a number.
 #[inline(always)]
 fn scale_columns<S: Scalar>(to: &mut [S], from: &[S], stride: usize, factors: &[S]) {
     for ((to, from), &factor) in to.chunks_exact_mut(stride).zip(from.chunks_exact(stride)).zip(factors) {

@@ -1,18 +1,18 @@
-//! Symbolic result of the multifrontal solver: every front's size, position in memory, and the maps by which
-//! entries and contributions get there. Knows positions, never values.
+//! Symbolic result of the multifrontal solver: every front's size, position in memory, and the maps of entries and
+//! contributions to it. Positions only, no values.
 //!
-//! A front with `k` pivots and `b` boundary unknowns is stored as three column-major pieces, one after the other. A
-//! large one has its square (`k` columns, `L11` below and `U11` above the diagonal), the lower panel `L21` and the
-//! upper panel `U12ᵀ` (`k` columns of `b` rows each); a small one the inverse of its square, the lower panel `A21
-//! A11⁻¹` and the upper panel `A11⁻¹ A12` (`b` columns of `k` rows), see [`super::small`]. Columns of large fronts are
-//! padded to a multiple of [`PADDING`] rows, and so is the room for the pivots of any front in the vector of a solve;
-//! those of small ones are not, and vectors of their numbers reach into what follows. What a front contributes to its
-//! parent is a square of `b` columns in one of two stacks: a front's children leave theirs in one stack, the front its
-//! own in the other.
+//! A front with `k` pivots and `b` boundary unknowns is stored as three consecutive column-major pieces. A large one
+//! has its square (`k` columns, `L11` below and `U11` above the diagonal), the lower panel `L21` and the upper panel
+//! `U12ᵀ` (`k` columns of `b` rows each); a small one the inverse of its square, the lower panel `A21 A11⁻¹` and the
+//! upper panel `A11⁻¹ A12` (`b` columns of `k` rows), see [`super::small`]. Columns of large fronts are padded to a
+//! multiple of [`PADDING`] rows, and so are the pivots of any front in the vector of a solve. Those of small fronts
+//! are not, and vectors of their numbers extend into the following data. The contribution of a front to its parent is
+//! a square of `b` columns in one of two stacks: the contributions of a front's children are in one stack, its own is
+//! in the other.
 //!
-//! Fronts come in parts, subtrees first and the top last, which share nothing: each has its own stacks, and after its own
-//! steps positions for what its fronts have to say about unknowns outside, those on the boundary of its root. What lies there is
-//! added to the top when all subtrees are done.
+//! Fronts are divided into independent parts, subtrees first and the top last. Each has its own stacks and, after its own steps,
+//! positions for its contributions to unknowns outside, those on the boundary of its root. These contributions are added to the
+//! top after all subtrees.
 
 use std::ops::Range;
 
@@ -23,7 +23,8 @@ use super::supernodes::{Supernode, supernodes};
 use crate::ordering::{GroupGraph, minimum_degree_order};
 use crate::structure::Structure;
 
-/// Rows of every column, and pivots of every front, are padded to a multiple of this, so that kernels have no tails.
+/// Rows of every column, and pivots of every front, are padded to a multiple of this, so that kernels have no
+/// remainders.
 pub(super) const PADDING: usize = 4;
 
 pub(super) fn padded(rows: usize) -> usize {
@@ -37,9 +38,9 @@ pub(super) struct Front {
     pub(super) first: usize,
     pub(super) pivots: usize,
     pub(super) boundary: usize,
-    /// Panels stored: the lower alone for symmetric matrices, or both.
+    /// Panels stored: only the lower for symmetric matrices, otherwise both.
     pub(super) panels: usize,
-    /// Where its pieces begin among the factors.
+    /// Offset of its pieces among the factors.
     pub(super) factors: usize,
     /// Its boundary in [`Symbolic::boundaries`].
     pub(super) rows: Range<usize>,
@@ -47,10 +48,10 @@ pub(super) struct Front {
     pub(super) entries: Range<usize>,
     /// Its children in [`Symbolic::children`].
     pub(super) children: Range<usize>,
-    /// Which stack its contribution goes to, and where.
+    /// The stack of its contribution, and the position in it.
     pub(super) stack: usize,
     pub(super) contribution: usize,
-    /// First position of its boundary, if the positions follow one another.
+    /// First position of its boundary, if the positions are consecutive.
     pub(super) span: Option<usize>,
     /// Whether it is eliminated by [`super::small`].
     small: bool,
@@ -61,7 +62,7 @@ impl Front {
     pub(super) fn is_small(&self) -> bool {
         self.small
     }
-    /// Of the columns of a small front at work.
+    /// Stride of the columns of a small front during elimination.
     pub(super) fn small_stride(&self) -> usize {
         match self.pivots + self.boundary {
             ..=16 => 16,
@@ -90,14 +91,15 @@ impl Front {
     }
 }
 
-/// A child's contribution: where it lies and where it goes.
+/// A child's contribution: its source and its target.
 #[derive(Clone, Debug)]
 pub(super) struct Child {
     /// The part it is in.
     pub(super) part: usize,
     pub(super) contribution: Range<usize>,
     pub(super) stride: usize,
-    /// Its runs in [`Symbolic::runs`] that go to pivots of the parent, and those that go to its boundary.
+    /// Its runs in [`Symbolic::runs`] that are added to pivots of the parent, and those that are added to its
+    /// boundary.
     pub(super) to_pivots: Range<usize>,
     pub(super) to_boundary: Range<usize>,
 }
@@ -111,17 +113,17 @@ pub(super) struct Run {
     pub(super) length: u32,
 }
 
-/// A subtree, or the top: what one thread works at.
+/// A subtree, or the top: the work of one thread.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Part {
     pub(super) fronts: Range<usize>,
-    /// Its steps, positions for the outside included.
+    /// Its steps, including the positions for outside unknowns.
     pub(super) steps: Range<usize>,
     /// Those positions, and the steps they represent.
     pub(super) places: Range<usize>,
     pub(super) outside: Vec<u32>,
     pub(super) factors: Range<usize>,
-    /// Time it takes, in the units of the supernodes' model.
+    /// Estimated time, in the units of the supernodes' model.
     pub(super) time: f64,
     pub(super) stack_lengths: [usize; 2],
     pub(super) largest_pivots: usize,
@@ -130,7 +132,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Where the pivots of a front lie among the numbers of the part.
+    /// Positions of the pivots of a front among the numbers of the part.
     pub(super) fn steps_of(&self, front: &Front) -> Range<usize> {
         let first = front.first - self.steps.start;
         first..first + front.pivots
@@ -140,7 +142,7 @@ impl Part {
 /// The whole symbolic factorisation.
 #[derive(Clone, Debug)]
 pub(super) struct Symbolic {
-    /// Unknown eliminated at each step, [`NONE`] in padding and in the places for the outside of a subtree.
+    /// Unknown eliminated at each step, [`NONE`] in padding and at positions for unknowns outside a subtree.
     pub(super) unknowns: Vec<u32>,
     /// Step of each unknown.
     pub(super) steps: Vec<u32>,
@@ -149,11 +151,11 @@ pub(super) struct Symbolic {
     pub(super) fronts: Vec<Front>,
     /// Steps of the boundary unknowns of all fronts.
     pub(super) boundaries: Vec<u32>,
-    /// Where a front finds those, counted from the first step of its part.
+    /// Their positions for each front, counted from the first step of its part.
     pub(super) places: Vec<u32>,
     /// Indices of values, sorted by front.
     pub(super) sources: Vec<u32>,
-    /// Where those values go, counted from the beginning of the front's pieces.
+    /// Targets of those values, counted from the beginning of the front's pieces.
     pub(super) targets: Vec<u32>,
     pub(super) children: Vec<Child>,
     pub(super) runs: Vec<Run>,
@@ -161,7 +163,7 @@ pub(super) struct Symbolic {
     pub(super) factor_entries: usize,
     /// Whether it is for LDLᵀ, with one panel to a front.
     pub(super) is_symmetric: bool,
-    /// Whether small fronts are eliminated by [`super::small`], and not as large ones are.
+    /// Whether small fronts are eliminated by [`super::small`], not like large ones.
     has_small: bool,
 }
 
@@ -172,7 +174,7 @@ struct Numbering {
 }
 
 impl Symbolic {
-    /// For LU, with two panels to a front, or for LDLᵀ, with one; with small fronts apart, or all like large ones.
+    /// For LU, with two panels per front, or for LDLᵀ, with one; with separate small fronts, or all like large ones.
     pub(super) fn new(structure: &Structure, panels: usize, has_small: bool) -> Symbolic {
         let graph = GroupGraph::new(structure);
         let order = minimum_degree_order(structure);
@@ -198,8 +200,8 @@ impl Symbolic {
         let groups = symbolic.number_steps(structure, &order, (&nodes, &parts), &tree);
         for (part, fronts) in parts.iter().enumerate() {
             for index in fronts.clone() {
-                // The last group of a supernode is an ancestor of the others: what it is coupled with later is
-                // all that any of them is.
+                // The last group of a supernode is an ancestor of the others: its later couplings include those of
+                // all others.
                 let last = nodes[index].groups.last().map_or(0, |&place| place as usize);
                 let rows = symbolic.boundaries.len();
                 for &place in &tree.boundaries[last] {
@@ -216,7 +218,7 @@ impl Symbolic {
         symbolic
     }
 
-    /// Lays out the steps of all parts.
+    /// Assigns the steps of all parts.
     fn number_steps(
         &mut self,
         structure: &Structure,
@@ -262,7 +264,7 @@ impl Symbolic {
         numbering
     }
 
-    /// Sizes of a part whose fronts are all there, and positions of their boundaries.
+    /// Sizes of a part with all its fronts, and positions of their boundaries.
     fn finish_part(&mut self, index: usize) {
         let part = &mut self.parts[index];
         let fronts = &self.fronts[part.fronts.clone()];
@@ -321,7 +323,7 @@ impl Symbolic {
         self.fronts.push(front);
     }
 
-    /// The runs of a child's boundary; both lists are ascending, so one walk finds them all.
+    /// The runs of a child's boundary; both lists are ascending, so one pass finds them all.
     fn add_child(&mut self, parent: &Front, child: usize) {
         let begin = self.runs.len();
         let mut middle = begin;
@@ -362,7 +364,7 @@ impl Symbolic {
         self.parts.partition_point(|part| part.fronts.end <= front)
     }
 
-    /// Plays the two stacks of every part through once, to know where every contribution will lie.
+    /// Simulates the two stacks of every part, to determine the position of every contribution.
     fn place_contributions(&mut self, children: &[&[usize]]) {
         let mut parents = vec![None; self.fronts.len()];
         for (parent, children) in children.iter().enumerate() {
@@ -381,7 +383,7 @@ impl Symbolic {
                 for (slot, &child) in list.zip(children[index]) {
                     self.children[slot].contribution = self.fronts[child].contribution_range();
                 }
-                // Those of other parts lie in stacks of their own.
+                // Those of other parts are in stacks of their own.
                 if let Some(&lowest) = children[index].iter().find(|&&child| child >= part.fronts.start) {
                     tops[self.fronts[lowest].stack] = self.fronts[lowest].contribution;
                 }
@@ -393,7 +395,7 @@ impl Symbolic {
         }
     }
 
-    /// Sends every entry to the front of the earlier of its row and its column.
+    /// Assigns every entry to the front of the earlier of its row and its column.
     fn map_entries(&mut self, structure: &Structure) {
         let pattern = &structure.pattern;
         // Local row in the present front of every step on its boundary.
@@ -441,7 +443,7 @@ impl Symbolic {
     }
 }
 
-/// Where entries of a front go: a large one's among its pieces, a small one's in the matrix it is eliminated in.
+/// Targets of entries of a front: among its pieces for a large one, in the matrix of its elimination for a small one.
 struct Places {
     square_stride: usize,
     lower: usize,

@@ -1,5 +1,5 @@
-//! The kernels, compiled here once for each field of numbers and level of vector instructions: where solvers are made of
-//! generic code alone, every crate that names one compiles it all again.
+//! The kernels, compiled here once for each field of numbers and level of vector instructions. If solvers consisted of
+//! generic code only, every crate that names one would compile it again.
 
 use num_complex::Complex64;
 use pulp::{Arch, Simd, WithSimd};
@@ -9,30 +9,30 @@ use super::small;
 use super::{Backward, Forward, Largest};
 use crate::report::{FactorError, Monitor};
 
-/// What takes the time of factorisations and solves.
+/// The operations that take most of the time of factorisations and solves.
 pub trait Kernels: Sized {
     /// Whether small fronts are eliminated by [`super::small`].
     fn eliminates_small(processor: Arch) -> bool;
 
-    /// Factors a subtree, or the top; gives the monitor and the largest magnitude in U.
+    /// Factorises a subtree, or the top; returns the monitor and the largest magnitude in U.
     fn factor_part(processor: Arch, part: FactorPart<'_, Self>) -> Result<(Monitor, f64), FactorError>;
 
-    /// Goes forward through some parts.
+    /// Forward substitution in some parts.
     fn forward(processor: Arch, forward: Forward<'_, Self>);
 
-    /// Goes back through some parts.
+    /// Backward substitution in some parts.
     fn backward(processor: Arch, backward: Backward<'_, Self>);
 
     /// Largest magnitude, if all values are finite.
     fn largest(processor: Arch, values: Largest<'_, Self>) -> Option<f64>;
 }
 
-/// By the widest vectors of the processor.
+/// With the widest vectors of the processor.
 fn widest<Op: WithSimd>(processor: Arch, op: Op) -> Op::Output {
     processor.dispatch(op)
 }
 
-/// By vectors of at most four numbers: complex kernels gain little by wider ones, and take long to be compiled.
+/// With vectors of at most four numbers: complex kernels gain little from wider ones, and take long to compile.
 fn of_four<Op: WithSimd>(processor: Arch, op: Op) -> Op::Output {
     #[cfg(target_arch = "x86_64")]
     match processor {

@@ -1,6 +1,6 @@
-//! Dense kernels on column-major panels: products `A Bᵀ`, triangular solves from the right, a small LU. Written
-//! as loops over fixed-size arrays, which the compiler turns into vector instructions of whatever processor
-//! the caller has been dispatched to. Know nothing of fronts.
+//! Dense kernels on column-major panels: products `A Bᵀ`, triangular solves from the right, a small LU. Written as
+//! loops over fixed-size arrays, which the compiler turns into vector instructions of the processor to which the
+//! caller has been dispatched. Independent of fronts.
 //!
 //! A panel is a slice and a stride: column `j` begins at `j * stride`. `FUSED` as in `multiply_add`; `ROWS` is the height
 //! of the tiles, a multiple of [`PADDING`].
@@ -18,7 +18,7 @@ const PRODUCT_COLUMNS: usize = 6;
 const SOLVE_COLUMNS: usize = 4;
 /// Height of the tiles between those of `ROWS` rows and the lowest ones.
 const HALF_TILE: usize = 2 * PADDING;
-/// Columns eliminated before the rest of a panel is brought up to date. A multiple of [`PADDING`].
+/// Columns eliminated before the rest of a panel is updated. A multiple of [`PADDING`].
 pub(super) const BLOCK: usize = 32;
 
 #[inline(always)]
@@ -37,7 +37,7 @@ fn strip<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, const
     }
 }
 
-/// As many strips of `COLUMNS` columns as there are from `column` on; returns the first column left.
+/// As many strips of `COLUMNS` columns as fit from `column` on; returns the first remaining column.
 #[inline(always)]
 fn strips<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, const COLUMNS: usize>(
     (c, c_stride): (&mut [S], usize),
@@ -69,7 +69,7 @@ fn strips<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, cons
     column
 }
 
-/// [`subtract_product`], compiled once for all that call it.
+/// [`subtract_product`], compiled once for all callers.
 pub(super) struct Product<'a, S, const FUSED: bool, const ADD: bool, const ROWS: usize> {
     pub(super) c: (&'a mut [S], usize),
     pub(super) a: (&'a [S], usize),
@@ -88,8 +88,8 @@ impl<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize> WithSimd
     }
 }
 
-/// `C -= A Bᵀ` with `ADD`, `C = -A Bᵀ` without, where `C` has `rows` (padded) times `columns` entries and `A`
-/// and `B` have `depth` columns.
+/// `C -= A Bᵀ` with `ADD`, `C = -A Bᵀ` without, if `C` has `rows` (padded) times `columns` entries and `A` and `B`
+/// have `depth` columns.
 #[inline(always)]
 pub(super) fn subtract_product<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize>(
     (c, c_stride): (&mut [S], usize),
@@ -102,8 +102,8 @@ pub(super) fn subtract_product<S: Scalar, const FUSED: bool, const ADD: bool, co
     strips::<S, FUSED, ADD, ROWS, 1>((c, c_stride), a, b, shape, done);
 }
 
-/// Columns `first..first + COLUMNS` of `X` become those of `X R⁻¹`, for one tile of rows, when the columns before
-/// are done already, from `begin` on.
+/// Replaces columns `first..first + COLUMNS` of `X` by those of `X R⁻¹`, for one tile of rows, after the columns
+/// before, from `begin` on.
 #[inline(always)]
 fn solve_tile<S: Scalar, const FUSED: bool, const ROWS: usize, const COLUMNS: usize>(
     (x, x_stride): (&mut [S], usize),
@@ -161,13 +161,13 @@ fn solve_columns<S: Scalar, const FUSED: bool, const ROWS: usize>(
     }
 }
 
-/// `X = X R⁻¹` in some columns of a panel of `rows` (padded) rows, where `Rᵀ` is the lower triangle of the square
-/// `triangle`, its diagonal given by its reciprocals, or one. Compiled once for all that call it.
+/// `X = X R⁻¹` in some columns of a panel of `rows` (padded) rows, with `Rᵀ` the lower triangle of the square
+/// `triangle`, its diagonal given by its reciprocals, or one. Compiled once for all callers.
 pub(super) struct BlockSolution<'a, S, const FUSED: bool, const ROWS: usize> {
     pub(super) x: (&'a mut [S], usize),
     pub(super) triangle: (&'a [S], usize),
     pub(super) reciprocals: Option<&'a [S]>,
-    /// The first column, and the one behind the last.
+    /// The first column, and the one after the last.
     pub(super) columns: (usize, usize),
     pub(super) rows: usize,
 }
@@ -207,7 +207,7 @@ fn solve_block<S: Scalar, const FUSED: bool, const ROWS: usize>(
     }
 }
 
-/// `X = X R⁻¹` for a whole panel of `columns` columns, block after block.
+/// `X = X R⁻¹` for a whole panel of `columns` columns, block by block.
 #[inline(always)]
 pub(super) fn solve_panel<S: Scalar, V: Simd, const FUSED: bool, const ROWS: usize>(
     simd: V,

@@ -1,9 +1,9 @@
-//! Multifrontal LU without pivoting, the default solver: everything but the numbers is settled once, in the
-//! symbolic analysis. Knows groups and patterns, nothing of what they represent.
+//! Multifrontal LU without pivoting, the default solver: everything except the numbers is determined once, in the
+//! symbolic analysis. Independent of the meaning of groups and patterns.
 //!
-//! The order of elimination comes from [`crate::minimum_degree_order`]; groups are gathered into dense fronts
-//! (Duff & Reid 1983, ACM Trans. Math. Softw. 9, 302), each of which hands what is left to its parent in the
-//! elimination tree. Vector instructions are chosen once for every call, by the processor at hand.
+//! The order of elimination is that of [`crate::minimum_degree_order`]; groups are gathered into dense fronts (Duff &
+//! Reid 1983, ACM Trans. Math. Softw. 9, 302), each of which passes the remainder to its parent in the elimination
+//! tree. Vector instructions are selected once for every call, by the present processor.
 
 mod contributions;
 mod elimination_tree;
@@ -50,9 +50,9 @@ pub struct Multifrontal<S> {
     numeric: Numeric<S>,
     vector: Vec<S>,
     front_vectors: Vec<FrontVectors<S>>,
-    /// The same for several right-hand sides, with room for a front; empty until they are asked for.
+    /// The same for several right-hand sides, with storage for a front; empty until they are requested.
     several: [Vec<[S; SEVERAL]>; 2],
-    /// How many subtrees each thread has; none with a single one.
+    /// Number of subtrees of each thread; none with a single one.
     crews: Vec<usize>,
 }
 
@@ -65,7 +65,7 @@ impl<S: Scalar> Multifrontal<S> {
         Self::of_panels(structure, 2)
     }
 
-    /// For LU, with two panels to a front, or for LDLᵀ, with one.
+    /// For LU, with two panels per front, or for LDLᵀ, with one.
     fn of_panels(structure: &Structure, panels: usize) -> Self {
         Self::on(pulp::Arch::new(), structure, panels)
     }
@@ -189,7 +189,7 @@ impl<S: Scalar> pulp::WithSimd for Largest<'_, S> {
     }
 }
 
-/// What is solved with.
+/// The system that is solved.
 #[derive(Clone, Copy)]
 enum Way {
     /// L U.
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// Elimination by the book, in the solver's order: smallest pivot, growth, worst cancellation.
+    /// Textbook elimination in the solver's order: smallest pivot, growth, worst cancellation.
     fn monitor(solver: &Multifrontal<f64>, values: &[f64]) -> (f64, f64, f64) {
         assert_eq!(solver.symbolic.parts.len(), 1);
         let order: Vec<u32> = solver

@@ -1,5 +1,5 @@
-//! Solves for several right-hand sides at once, which stand side by side: every factor is read once for all of them. Front
-//! after front as [`super::triangular`] and [`super::small_solves`] do for one.
+//! Solves for several right-hand sides at once, stored side by side: every factor is read once for all of them. Front by
+//! front as [`super::triangular`] and [`super::small_solves`] do for one.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -11,14 +11,14 @@ use crate::solver::SEVERAL;
 /// One number of each right-hand side.
 type Row<S> = [S; SEVERAL];
 
-/// Rows of a product that are summed at once.
+/// Rows of a product that are computed at once.
 const ROWS: usize = 4;
 
 pub(super) struct Several<'a, S> {
     pub(super) symbolic: &'a Symbolic,
     pub(super) numeric: &'a Numeric<S>,
     pub(super) right_hand_sides: &'a mut [Row<S>],
-    /// Room for all steps, positions for the outside of parts included, and for a front.
+    /// Storage for all steps, including positions for unknowns outside of parts, and for a front.
     pub(super) vector: &'a mut [Row<S>],
     pub(super) front: &'a mut [Row<S>],
 }
@@ -158,7 +158,7 @@ fn backward<S: Scalar, const FUSED: bool>(
     }
 }
 
-/// `P x` of so many rows and columns.
+/// `P x` for these numbers of rows and columns.
 #[inline(always)]
 fn products<S: Scalar, const FUSED: bool>(
     (rows, columns): (usize, usize),

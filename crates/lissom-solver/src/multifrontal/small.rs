@@ -1,13 +1,13 @@
-//! Elimination of small fronts, pivot by pivot from all other rows, those above included (Gauss and Jordan).
-//! With `A11` the pivots' square, `A12`, `A21` and `A22` the rest, a front becomes
+//! Elimination of small fronts, pivot by pivot from all other rows, those above included (Gauss and Jordan). With
+//! `A11` the pivots' square, `A12`, `A21` and `A22` the rest, a front becomes
 //!
 //! ```text
 //! [A11⁻¹, A11⁻¹ A12; A21 A11⁻¹, A22 - A21 A11⁻¹ A12]
 //! ```
 //!
-//! so that solves need products only, in which nothing waits for a number of the same front. Pivots, multipliers and what is
-//! left for the parent are those of LU, and so is the monitor: only what a solve reads differs. Numbers of rows are fixed when
-//! the program is compiled, so that columns are a few registers each. Knows no tree.
+//! so that solves need products only, in which no number depends on another of the same front. Pivots, multipliers, the
+//! contribution to the parent and the monitor are those of LU: only the stored factors differ. Numbers of rows are
+//! compile-time constants, so that columns are a few registers each. Independent of the tree.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -16,17 +16,17 @@ use super::small_solves::with_rows;
 use crate::report::{FactorError, Monitor};
 use crate::scalar::{Scalar, array, array_mut};
 
-/// Pivots and boundary unknowns of the largest front that is eliminated so. A multiple of [`PADDING`].
+/// Pivots and boundary unknowns of the largest front that is eliminated in this way. A multiple of [`PADDING`].
 pub(super) const MAX_SMALL: usize = 24;
 
-/// Whether small fronts are eliminated here. Complex ones are not on x86 processors without AVX2, but like large ones: hardly
-/// any is left, and the kernels take long to be compiled.
+/// Whether small fronts are eliminated here. Complex ones on x86 processors without AVX2 are eliminated like large ones: such
+/// processors are rare, and the kernels take long to compile.
 pub(super) const fn is_for<S: Scalar>(fused: bool) -> bool {
     fused || !S::COMPLEX || !cfg!(target_arch = "x86_64")
 }
 
-/// How many of the pivots that are left are eliminated together: three, because most groups have a multiple of three unknowns,
-/// or four where one would be left over.
+/// Number of the remaining pivots that are eliminated together: three, because most groups have a multiple of three unknowns,
+/// or four if one would remain.
 fn together(left: usize) -> usize {
     match left {
         1 | 2 | 5 => 1,
@@ -35,25 +35,25 @@ fn together(left: usize) -> usize {
     }
 }
 
-/// A column of the identity, from twice [`MAX_SMALL`] less its number on.
+/// Columns of the identity: a column begins at twice [`MAX_SMALL`] minus its index.
 static UNIT: [f64; 4 * MAX_SMALL] = {
     let mut unit = [0.0; 4 * MAX_SMALL];
     unit[2 * MAX_SMALL] = 1.0;
     unit
 };
 
-/// On a line of the processor's cache, so that vectors lie on one each.
+/// Aligned to a cache line of the processor, so that each vector is within one line.
 #[repr(align(64))]
 pub(super) struct Aligned<T>(pub(super) T);
 
-/// A front at work, columns one after the other, each padded.
+/// A front during elimination, with consecutive columns, each padded.
 pub(super) struct SmallFront<S> {
     pub(super) matrix: Box<Aligned<[S; 2 * MAX_SMALL * (2 * MAX_SMALL + 1)]>>,
     /// By pivots, the columns of L and the rows of U, both in the order of the front's rows.
     lower: Box<Aligned<[S; 2 * MAX_SMALL * MAX_SMALL]>>,
     upper: Box<Aligned<[S; 2 * MAX_SMALL * MAX_SMALL]>>,
     reciprocals: [S; MAX_SMALL],
-    /// For each row the sum of the magnitudes of what its diagonal has been made of.
+    /// For each row the sum of the magnitudes of the terms of its diagonal.
     pub(super) terms: [f64; 2 * MAX_SMALL],
     largest: f64,
 }
@@ -81,7 +81,8 @@ impl<S: Scalar> SmallFront<S> {
         }
     }
 
-    /// Eliminates the pivots, and writes what solves read and what is left for the parent. Returns the largest magnitude in U.
+    /// Eliminates the pivots, and writes the factors for solves and the contribution to the parent. Returns the largest
+    /// magnitude in U.
     #[inline(always)]
     pub(super) fn eliminate<V: pulp::Simd>(
         &mut self,
@@ -107,7 +108,7 @@ impl<S: Scalar> SmallFront<S> {
         Ok(largest)
     }
 
-    /// Rows of pivots are left as they are in U, to be divided by their pivots when they are stored.
+    /// Rows of pivots remain as in U, and are divided by their pivots when they are stored.
     #[inline(always)]
     fn eliminate_rows<const FUSED: bool, const ROWS: usize>(&mut self, front: &Front) {
         let mut step = 0;
@@ -164,7 +165,7 @@ impl<S: Scalar> SmallFront<S> {
             }
             *column = sums;
         }
-        // What becomes of the columns of the identity.
+        // The transformed columns of the identity.
         for q in 0..COUNT {
             let unit: &[f64; ROWS] = array(&UNIT, 2 * MAX_SMALL - first - q);
             let mut column = [S::zero(); ROWS];
@@ -184,7 +185,8 @@ impl<S: Scalar> SmallFront<S> {
         }
     }
 
-    /// Adds to the terms what the pivots have taken from every diagonal; notes the largest magnitude in U beside the pivots.
+    /// Adds to the terms what the pivots have subtracted from every diagonal; records the largest magnitude in U and the
+    /// pivots.
     #[inline(always)]
     fn sum_up<const ROWS: usize>(&mut self, front: &Front) {
         let size_of_front = front.pivots + front.boundary;
@@ -195,7 +197,7 @@ impl<S: Scalar> SmallFront<S> {
             uppers.zip(self.lower.0.as_chunks::<ROWS>().0).enumerate().take(front.pivots)
         {
             for i in 0..ROWS {
-                // What lies beyond the front is left from others.
+                // Data beyond the front belong to earlier fronts.
                 let counts = i > step && i < size_of_front;
                 let size = if counts { upper[i].magnitude() } else { 0.0 };
                 terms[i] += if counts { lower[i].magnitude() * size } else { 0.0 };
@@ -206,7 +208,7 @@ impl<S: Scalar> SmallFront<S> {
         self.largest = largest.iter().fold(0.0, |largest, &size| if size > largest { size } else { largest });
     }
 
-    /// Writes what solves read, and what is left for the parent.
+    /// Writes the factors for solves, and the contribution to the parent.
     #[inline(always)]
     fn store(&self, front: &Front, pieces: &mut [S], contribution: &mut [S]) {
         let (pivots, boundary, rows) = (front.pivots, front.boundary, front.small_stride());
@@ -215,7 +217,7 @@ impl<S: Scalar> SmallFront<S> {
         let factors = &self.reciprocals;
         let (lower, upper) = (front.square_length(), front.square_length() + front.panel_length());
         let scaled = front.square_stride();
-        // Last rows reach into what is written next.
+        // Last rows extend into the data written next.
         with_rows!(scaled, copy_scaled::<S>(&mut pieces[..], (pivots, pivots), (of_pivots, rows), factors));
         with_rows!(
             front.panel_stride(),
@@ -250,7 +252,7 @@ impl<S: Scalar, const ROWS: usize> pulp::WithSimd for Elimination<'_, S, ROWS> {
     }
 }
 
-/// What is kept of a small front. Compiled once for columns of all lengths.
+/// Storage of a small front. Compiled once for columns of all lengths.
 struct Storage<'a, S> {
     work: &'a SmallFront<S>,
     front: &'a Front,
@@ -290,7 +292,7 @@ fn factor_corner<S: Scalar, const FUSED: bool, const COUNT: usize>(
     (columns, reciprocals)
 }
 
-/// Takes a multiple of a column from another.
+/// Subtracts a multiple of a column from another.
 #[inline(always)]
 fn subtract<S: Scalar, const FUSED: bool, const ROWS: usize>(
     column: &mut [S; ROWS],

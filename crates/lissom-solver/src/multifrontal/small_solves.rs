@@ -1,5 +1,5 @@
-//! Solves with what [`super::small`] leaves of small fronts: products of a few columns, all of whose sums stay in
-//! registers. Knows nothing of how it was made.
+//! Solves with the factors of [`super::small`]: products of a few columns, all of whose sums remain in registers.
+//! Independent of the factorisation.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -24,7 +24,8 @@ macro_rules! with_rows {
 }
 pub(super) use with_rows;
 
-/// What is kept of a small front: the inverse of its square, the lower and the upper panel, each with all that follows.
+/// The stored data of a small front: the inverse of its square, the lower and the upper panel, each with all that
+/// follows.
 #[inline(always)]
 pub(super) fn pieces<'a, S>(front: &Front, factors: &'a [S]) -> (&'a [S], &'a [S], &'a [S]) {
     let square = &factors[front.factors..];
@@ -32,8 +33,8 @@ pub(super) fn pieces<'a, S>(front: &Front, factors: &'a [S]) -> (&'a [S], &'a [S
     (square, lower, &lower[front.panel_length()..])
 }
 
-/// `P x`, and numbers without meaning beyond the rows of the panel. Even and odd columns are summed apart, so that half as
-/// many sums wait for one another.
+/// `P x`, with undefined numbers beyond the rows of the panel. Even and odd columns are summed separately, which halves
+/// the chains of dependent sums.
 #[inline(always)]
 fn product<S: Scalar, const FUSED: bool, const ROWS: usize>(
     (panel, stride): (&[S], usize),
@@ -96,7 +97,7 @@ fn forward_rows<S: Scalar, const FUSED: bool, const ROWS: usize>(
     }
 }
 
-/// `x_p = A11⁻¹ x_p - A11⁻¹ A12 x_b`. Of a symmetric matrix the panel is `A21 A11⁻¹`, which is `(A11⁻¹ A12)ᵀ`.
+/// `x_p = A11⁻¹ x_p - A11⁻¹ A12 x_b`. For a symmetric matrix the panel is `A21 A11⁻¹`, which is `(A11⁻¹ A12)ᵀ`.
 #[inline(always)]
 pub(super) fn backward<S: Scalar, const FUSED: bool, const SYMMETRIC: bool>(
     (symbolic, part): (&Symbolic, &Part),
@@ -136,7 +137,7 @@ fn backward_rows<S: Scalar, const FUSED: bool, const SYMMETRIC: bool, const ROWS
     *array_mut(x, first) = own;
 }
 
-/// The numbers of the boundary: where they lie, or gathered.
+/// The numbers of the boundary: in place, or gathered.
 #[inline(always)]
 fn known<'a, S: Scalar>(symbolic: &Symbolic, front: &Front, x: &'a [S], boundary: &'a mut [S]) -> &'a [S] {
     if let Some(first) = front.span {

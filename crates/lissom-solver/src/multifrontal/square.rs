@@ -1,9 +1,9 @@
-//! LU without pivoting of the square of a front, with the monitor of its pivots. Knows neither the panels
-//! below nor the tree.
+//! LU without pivoting of the square of a front, with the monitor of its pivots. Independent of the panels below and
+//! of the tree.
 //!
-//! Blocks of four columns are eliminated within blocks of [`BLOCK`], each the same way: factor the diagonal
-//! block, solve for the rows of L below it and for the columns of U right of it, subtract their product from the
-//! rest. `Uᵀ` is kept beside the square, so that both solves and the product run down columns.
+//! Blocks of four columns are eliminated within blocks of [`BLOCK`], both in the same way: factorise the diagonal
+//! block, solve for the rows of L below it and for the columns of U to its right, subtract their product from the
+//! rest. `Uᵀ` is stored beside the square, so that both solves and the product access columns.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -19,11 +19,11 @@ const WIDTH: usize = PADDING;
 
 /// Memory for the factorisation of a square of any of the fronts.
 pub(super) struct SquareWork<S> {
-    /// `U11ᵀ` without its diagonal, columns of the same stride as the square's; zero above the diagonal.
+    /// `U11ᵀ` without its diagonal, columns of the same stride as those of the square; zero above the diagonal.
     pub(super) transposed: Vec<S>,
     /// Reciprocals of the pivots.
     pub(super) reciprocals: Vec<S>,
-    /// For each row of the front the sum of the magnitudes of what its diagonal has been made of.
+    /// For each row of the front the sum of the magnitudes of the terms of its diagonal.
     pub(super) terms: Vec<f64>,
 }
 
@@ -37,8 +37,8 @@ impl<S: Scalar> SquareWork<S> {
         }
     }
 
-    /// Replaces the square by `L11` and `U11`, leaving the reciprocals of the pivots on its diagonal. Expects
-    /// the `terms` of the rows to be loaded. Returns the largest magnitude in `U11`.
+    /// Replaces the square by `L11` and `U11`, with the reciprocals of the pivots on its diagonal. Expects the
+    /// `terms` of the rows. Returns the largest magnitude in `U11`.
     #[inline(always)]
     pub(super) fn factor<V: Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
@@ -64,7 +64,7 @@ impl<S: Scalar> SquareWork<S> {
             begin = end;
         }
         self.copy_upper(square, stride, pivots);
-        // Only now, so that the elimination is not held up: what follows a pivot does not change those before.
+        // Only now, so that the elimination is not delayed: later operations do not change earlier pivots.
         for (step, &unknown) in unknowns.iter().enumerate() {
             let diagonal = &mut square[step * stride + step];
             let pivot = monitor.pivot(unknown as usize, *diagonal, self.terms[step])?;
@@ -106,7 +106,7 @@ impl<S: Scalar> SquareWork<S> {
         }
     }
 
-    /// LU of the four columns and rows from `first` on; columns that are not there count as the identity's.
+    /// LU of the four columns and rows from `first` on; missing columns are those of the identity.
     #[inline(always)]
     fn factor_corner<const FUSED: bool>(
         &mut self,
@@ -180,7 +180,7 @@ impl<S: Scalar> SquareWork<S> {
         }
     }
 
-    /// Rows of U to the right of the block, columns of L below it, and what they do to the rest.
+    /// Rows of U to the right of the block, columns of L below it, and the update of the rest.
     #[inline(always)]
     fn eliminate_block<V: Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
@@ -201,7 +201,7 @@ impl<S: Scalar> SquareWork<S> {
         let (done, rest) = square.split_at_mut(end * stride);
         let block = &mut done[begin * stride..];
         let transposed = &mut self.transposed[begin * stride..end * stride];
-        // The triangles are read where the panels are written, in other rows: take a copy.
+        // The triangles are read from the array to which the panels are written, in other rows: a copy is needed.
         let mut triangle = [S::zero(); BLOCK * BLOCK];
         let width = end - begin;
         for (column, copy) in triangle.chunks_exact_mut(BLOCK).enumerate().take(width) {

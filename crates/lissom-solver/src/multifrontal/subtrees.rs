@@ -1,29 +1,29 @@
-//! Which parts of the tree of fronts several threads may work at: subtrees that have nothing to do with one another, and
-//! the top that is left when they are done. The choice depends on the tree alone, never on how many threads there are,
-//! so that the arithmetic is the same with any number. Knows times of fronts, nothing else of them.
+//! Parts of the tree of fronts on which several threads may work: independent subtrees, and the top, which follows. The
+//! choice depends on the tree only, not on the number of threads, so that the arithmetic is the same for any number. It
+//! uses only the estimated times of fronts.
 
 use std::ops::Range;
 
 use super::supernodes::Supernode;
 
-/// Time in all, in the units of the supernodes' model, from which on work is worth sharing: some 0.2 ms of a
+/// Total time, in the units of the supernodes' model, from which on parallel work is efficient: some 0.2 ms of a
 /// factorisation.
 const WORTH_WHILE: f64 = 4e6;
 
-/// Threads the choice is made for.
+/// Number of threads for which the choice is made.
 const THREADS: f64 = 4.0;
 
-/// The most fronts that are moved to the top in search of a better choice.
+/// Maximum number of fronts that are moved to the top in search of a better choice.
 const MAX_TOP: usize = 400;
 
-/// The supernodes, those of each subtree together and those of the top last, and which are whose.
+/// The supernodes, grouped by subtree with those of the top last, and the ranges of the groups.
 pub(super) struct Subtrees {
     pub(super) nodes: Vec<Supernode>,
     /// Subtrees in order, then the top.
     pub(super) parts: Vec<Range<usize>>,
 }
 
-/// Cuts a tree in postorder.
+/// Divides a tree in postorder.
 pub(super) fn cut(nodes: Vec<Supernode>) -> Subtrees {
     let roots = subtree_roots(&nodes);
     if roots.is_empty() {
@@ -66,8 +66,8 @@ fn accumulated(nodes: &[Supernode], of: impl Fn(&Supernode) -> f64) -> Vec<f64> 
     sums
 }
 
-/// Roots of the subtrees, ascending: of all ways to move the root of the costliest one to the top, again and again, the one
-/// that takes the least time.
+/// Roots of the subtrees, ascending. The root of the costliest subtree is moved to the top repeatedly; the division with
+/// the least time is returned.
 fn subtree_roots(nodes: &[Supernode]) -> Vec<usize> {
     let times = accumulated(nodes, |node| node.time);
     let mut is_child = vec![false; nodes.len()];

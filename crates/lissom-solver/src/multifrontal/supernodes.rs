@@ -1,5 +1,5 @@
-//! Which groups are eliminated in one front: the tree of groups is contracted where a larger dense front costs
-//! less time than two small ones, then walked in postorder. Knows sizes, never patterns of single unknowns.
+//! Groups that are eliminated in one front: the tree of groups is contracted where a larger dense front costs less
+//! time than two small ones, then traversed in postorder. Uses sizes only, no patterns of single unknowns.
 
 use super::elimination_tree::{EliminationTree, NONE};
 use super::small::MAX_SMALL;
@@ -14,28 +14,30 @@ pub(super) struct Supernode {
     pub(super) time: f64,
 }
 
-/// Model of the time a front takes, in cycles of a processor with vectors of eight numbers: one factorisation and the
-/// solves that follow it. Only ratios matter, and those not much.
+/// Model of the time of a front, in cycles of a processor with vectors of eight numbers: one factorisation and the
+/// solves that follow it. Only ratios matter, and only roughly.
 mod cost {
-    /// Solves with kept factors, by and large.
+    /// Typical number of solves with the same factors.
     pub(super) const SOLVES: f64 = 20.0;
-    /// Numbers in a vector.
+    /// Numbers in a vector register.
     pub(super) const LANES: f64 = 8.0;
 
-    /// A small front: set up, and for each vector that is changed by a pivot; in solves, for each vector that is read.
+    /// A small front: overhead, and for each vector that is changed by a pivot; in solves, for each vector that is
+    /// read.
     pub(super) const SMALL: f64 = 300.0;
     pub(super) const SMALL_UPDATE: f64 = 2.0;
     pub(super) const SMALL_SOLVE: f64 = 45.0;
     pub(super) const SMALL_FACTOR: f64 = 1.75;
 
-    /// A large front: set up, each pivot, whose reciprocal everything waits for, each factor, each entry of the
+    /// A large front: overhead, each pivot, on whose reciprocal all others depend, each factor, each entry of the
+    /// contribution, each multiplication.
     /// contribution, each multiplication.
     pub(super) const LARGE: f64 = 330.0;
     pub(super) const PIVOT: f64 = 33.0;
     pub(super) const FACTOR: f64 = 1.3;
     pub(super) const CONTRIBUTION: f64 = 1.3;
     pub(super) const PRODUCT: f64 = 0.22;
-    /// The same in solves: set up, each pivot, each factor.
+    /// The same in solves: overhead, each pivot, each factor.
     pub(super) const LARGE_SOLVE: f64 = 120.0;
     pub(super) const PIVOT_SOLVE: f64 = 10.0;
     pub(super) const FACTOR_SOLVE: f64 = 0.125;
@@ -75,7 +77,7 @@ pub(super) fn supernodes(tree: &EliminationTree) -> Vec<Supernode> {
     contraction.postorder()
 }
 
-/// The tree while it is contracted. A supernode is known by the last of its groups.
+/// The tree during contraction. A supernode is identified by the last of its groups.
 struct Contraction {
     parents: Vec<u32>,
     children: Vec<Vec<u32>>,
@@ -103,7 +105,7 @@ impl Contraction {
         }
     }
 
-    /// Merges those children with a node that make the whole cheaper, those with the largest fronts first.
+    /// Merges with a node those children that reduce the total cost, those with the largest fronts first.
     fn absorb_children(&mut self, node: usize) {
         let mut candidates = std::mem::take(&mut self.children[node]);
         let front = |child: u32| self.pivots[child as usize] + self.boundaries[child as usize];
@@ -128,8 +130,8 @@ impl Contraction {
         self.groups[node].sort_unstable();
     }
 
-    /// Children before parents, each child right after its own, and of several children the one first whose
-    /// subtree needs the most memory beyond what it leaves behind (Liu 1986, ACM Trans. Math. Softw. 12, 249).
+    /// Children before parents, each child directly after its own children. Of several children the first is the one
+    /// whose subtree needs the most memory beyond its contribution (Liu 1986, ACM Trans. Math. Softw. 12, 249).
     fn postorder(mut self) -> Vec<Supernode> {
         let count = self.parents.len();
         let mut needs = vec![0.0; count];

@@ -1,5 +1,5 @@
-//! Solves in the parts of the tree: forward through the subtrees and the top, then back. Knows which part hands what to
-//! which, not how a part is solved.
+//! Solves in the parts of the tree: forward through the subtrees and the top, then backward. Determines the data passed
+//! between parts, not the solution of a part.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -17,7 +17,7 @@ pub(super) struct Sweep<'a, S> {
 }
 
 impl<'a, S: Scalar> Sweep<'a, S> {
-    /// The first so many parts, and the others.
+    /// The first `count` parts, and the others.
     pub(super) fn split(self, count: usize) -> (Sweep<'a, S>, Sweep<'a, S>) {
         let (parts, other_parts) = self.parts.split_at(count);
         let steps = parts.iter().map(|part| part.steps.len()).sum();
@@ -41,7 +41,7 @@ impl<'a, S: Scalar> Sweep<'a, S> {
     }
 }
 
-/// What is solved with, and how.
+/// The factors, and the system that is solved.
 #[derive(Clone, Copy)]
 pub(super) struct Factors<'a, S> {
     pub(super) symbolic: &'a Symbolic,
@@ -50,7 +50,7 @@ pub(super) struct Factors<'a, S> {
 }
 
 impl<S: Scalar> Factors<'_, S> {
-    /// Goes forward; takes the right-hand side first, if there is one.
+    /// Forward substitution; copies the right-hand side first, if there is one.
     #[inline(always)]
     pub(super) fn forward<const FUSED: bool>(self, right_hand_side: Option<&[S]>, sweep: Sweep<S>) {
         for (part, vector, front_vectors) in sweep.each() {
@@ -61,7 +61,7 @@ impl<S: Scalar> Factors<'_, S> {
         }
     }
 
-    /// Goes back.
+    /// Backward substitution.
     #[inline(always)]
     pub(super) fn backward<const FUSED: bool>(self, sweep: Sweep<S>) {
         for (part, vector, front_vectors) in sweep.each() {
@@ -90,7 +90,7 @@ impl<S: Scalar> Factors<'_, S> {
 }
 
 impl Symbolic {
-    /// The right-hand side of a part.
+    /// Copies the right-hand side of a part.
     fn take<S: Scalar>(&self, part: &Part, right_hand_side: &[S], vector: &mut [S]) {
         let (unknowns, places) = vector.split_at_mut(part.places.start - part.steps.start);
         for (value, &unknown) in unknowns.iter_mut().zip(&self.unknowns[part.steps.clone()]) {
@@ -99,7 +99,7 @@ impl Symbolic {
         places.fill(S::zero());
     }
 
-    /// The right-hand side of the top, with what the subtrees have to say about it.
+    /// The right-hand side of the top, with the contributions of the subtrees.
     pub(super) fn hand_up<S: Scalar>(&self, right_hand_side: &[S], vector: &mut [S]) {
         let Some((top, subtrees)) = self.parts.split_last() else { return };
         let (below, vector) = vector.split_at_mut(top.steps.start);
@@ -111,7 +111,7 @@ impl Symbolic {
         }
     }
 
-    /// What the subtrees have to know of the top.
+    /// Passes the values of the top to the subtrees.
     pub(super) fn hand_down<S: Scalar>(&self, vector: &mut [S]) {
         let Some((top, subtrees)) = self.parts.split_last() else { return };
         let (below, vector) = vector.split_at_mut(top.steps.start);

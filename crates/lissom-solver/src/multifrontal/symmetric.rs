@@ -1,8 +1,8 @@
 //! Multifrontal LDLᵀ without pivoting, for symmetric matrices: half the panels and half the products of LU. Shares
-//! everything symbolic and all kernels with it.
+//! the symbolic analysis and all kernels with it.
 //!
-//! Squares of fronts are factored as LU, whose `U` is `D Lᵀ`; of what a front contributes to its parent only the lower
-//! triangle is formed.
+//! Squares of fronts are factorised by LU, whose `U` is `D Lᵀ`; of the contribution of a front to its parent only the
+//! lower triangle is computed.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -15,8 +15,8 @@ use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
 use crate::structure::Structure;
 
-/// Multifrontal LDLᵀ without pivoting. Of each pair of entries the one in the row that is eliminated later is read.
-/// Complex matrices are symmetric, not Hermitian.
+/// Multifrontal LDLᵀ without pivoting. Of each pair of symmetric entries the one in the row that is eliminated later
+/// is read. Complex matrices are symmetric, not Hermitian.
 pub struct Symmetric<S>(Multifrontal<S>);
 
 impl<S: Scalar> Symmetric<S> {

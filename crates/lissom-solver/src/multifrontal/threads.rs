@@ -1,5 +1,5 @@
-//! Work on subtrees in parallel. The result of a subtree depends neither on the thread nor on the time; so results are
-//! the same with any number of threads.
+//! Parallel work on subtrees. The result of a subtree depends neither on the thread nor on the time, so results are
+//! the same for any number of threads.
 
 use super::Largest;
 use super::factorisation::Numeric;
@@ -7,16 +7,16 @@ use super::fronts::{Part, Symbolic};
 use super::sweeps::Sweep;
 use crate::scalar::Scalar;
 
-/// Bytes of factors from which on a solve is worth sharing: it takes as long as they take to be read.
+/// Size of the factors [bytes] from which on parallel solves are efficient: a solve takes as long as reading them.
 const WORTH_WHILE: usize = 4 << 20;
 
-/// Whether a solve is worth sharing.
+/// Whether parallel solves are efficient.
 pub(super) fn pay_in_solves(bytes: usize) -> bool {
     bytes >= WORTH_WHILE
 }
 
-/// How many subtrees each of so many threads works at, in order, so that all take about the same time. None if there is nothing to
-/// share.
+/// Number of subtrees for each of these threads, in order, so that all take about the same time. None if parallel work is not
+/// efficient.
 pub(super) fn crews(subtrees: &[Part], threads: usize) -> Vec<usize> {
     let threads = threads.min(subtrees.len());
     if threads < 2 {
@@ -37,7 +37,7 @@ pub(super) fn crews(subtrees: &[Part], threads: usize) -> Vec<usize> {
     crews
 }
 
-/// Factors all subtrees; the largest magnitude of the values, if they are finite.
+/// Factorises all subtrees; returns the largest magnitude of the values, if they are finite.
 pub(super) fn factor<S: Scalar>(
     processor: pulp::Arch,
     symbolic: &Symbolic,
@@ -68,7 +68,7 @@ pub(super) fn factor<S: Scalar>(
     largest.into_iter().try_fold(0.0, |most, largest| Some(f64::max(most, largest?)))
 }
 
-/// Does something with every crew's subtrees, or with all of them where there are no crews.
+/// Applies `work` to every crew's subtrees, or to all of them if there are no crews.
 pub(super) fn sweep<S: Scalar>(crews: &[usize], all: Sweep<S>, work: impl Fn(Sweep<S>) + Sync) {
     let Some((&last, others)) = crews.split_last() else { return work(all) };
     rayon::in_place_scope(|scope| {

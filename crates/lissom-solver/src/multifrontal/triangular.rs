@@ -1,5 +1,5 @@
-//! Solves with the factors, front after front, on a vector in the order of elimination. Knows where factors
-//! lie, not how they were made.
+//! Solves with the factors, front by front, on a vector in the order of elimination. Independent of the
+//! factorisation.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -10,13 +10,13 @@ use crate::scalar::{Scalar, array, array_mut};
 /// Columns of a panel that are read side by side.
 const COLUMNS: usize = 4;
 
-/// Factors of fewer bytes than this stay in the processor's own cache.
+/// Factors of fewer bytes than this remain in the processor's own cache.
 const NEAR: usize = 1 << 20;
-/// Fronts between the one at work and the one whose factors are called for.
+/// Distance, in fronts, between the present front and the one whose factors are prefetched.
 const AHEAD: usize = 3;
 
-/// Reads one number of every cache line, so that the lines are there when they are needed: nothing waits for these
-/// reads, while the numbers of a front wait for one another.
+/// Reads one number of every cache line, so that the lines are in the cache when they are needed: nothing depends on
+/// these reads, whereas the numbers of a front depend on each other.
 #[inline(always)]
 fn fetch<S: Scalar>(factors: &[S]) {
     for line in factors.chunks(64 / size_of::<S>()) {
@@ -24,7 +24,7 @@ fn fetch<S: Scalar>(factors: &[S]) {
     }
 }
 
-/// Room for the pivots and for the boundary of any one front of a part, padded.
+/// Storage for the pivots and for the boundary of any one front of a part, padded.
 pub(super) struct FrontVectors<S> {
     pub(super) pivots: Vec<S>,
     pub(super) boundary: Vec<S>,
@@ -39,7 +39,7 @@ impl<S: Scalar> FrontVectors<S> {
     }
 }
 
-/// `x = L⁻¹ x` in a part, `x` that of its steps.
+/// `x = L⁻¹ x` in a part, with `x` in its steps.
 #[inline(always)]
 pub(super) fn forward<S: Scalar, const FUSED: bool>(
     (symbolic, part): (&Symbolic, &Part),
@@ -143,7 +143,7 @@ fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: 
     }
 }
 
-/// `x = U11⁻¹ x` for a padded vector, four columns at a time. The diagonal holds reciprocals.
+/// `x = U11⁻¹ x` for a padded vector, four columns at a time. The diagonal contains reciprocals.
 #[inline(always)]
 pub(super) fn solve_upper<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
     let stride = x.len();

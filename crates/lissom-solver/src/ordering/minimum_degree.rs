@@ -1,8 +1,8 @@
 //! Approximate minimum degree on groups: the order for the multifrontal solver.
 //!
-//! Quotient graph with element absorption, mass elimination, indistinguishable variables and the approximate
-//! external degree of Amestoy, Davis, Duff 1996 (SIAM J. Matrix Anal. Appl. 17, 886), with degrees counted in unknowns. New
-//! here is that a group with hosts does not take part in the choice: it is eliminated when its last host has been.
+//! Quotient graph with element absorption, mass elimination, indistinguishable variables and the approximate external
+//! degree of Amestoy, Davis, Duff 1996 (SIAM J. Matrix Anal. Appl. 17, 886), with degrees counted in unknowns. In addition,
+//! a group with hosts is not a candidate: it is eliminated directly after its last host.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,10 +10,10 @@ use std::collections::BinaryHeap;
 use super::{GroupGraph, HostCount};
 use crate::structure::{Group, Structure};
 
-/// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: once
-/// the last of them has gone, and what goes along with it at no fill, before any other choice is made.
-/// Deterministic; ties go to the group whose degree has been what it is for longest, then to the smaller index: so a
-/// chain of equal links is eliminated from both ends, and its two halves can be at the same time.
+/// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: directly after
+/// the last of them and after the groups that are eliminated with that host without fill. Deterministic; of equal
+/// candidates the group whose degree has been unchanged for longest is chosen, then the smaller index. A chain of
+/// equal links is therefore eliminated from both ends, and its two halves can be eliminated in parallel.
 ///
 /// # Panics
 /// If [`Structure::check`] rejects the structure.
@@ -21,9 +21,9 @@ pub fn minimum_degree_order(structure: &Structure) -> Vec<usize> {
     order(structure, &GroupGraph::new(structure))
 }
 
-/// Order of elimination of the groups' columns that keeps fill small whichever rows pivots are taken from: minimum degree
-/// of AᵀA, in whose factor that of every such elimination has room (George and Ng 1985, SIAM J. Sci. Stat. Comput. 6, 390).
-/// Groups do not wait for their hosts.
+/// Order of elimination of the groups' columns that keeps fill small for any choice of pivot rows: minimum degree of AᵀA,
+/// whose factor contains that of every such elimination (George and Ng 1985, SIAM J. Sci. Stat. Comput. 6, 390). Groups do
+/// not wait for their hosts.
 pub(crate) fn column_order(structure: &Structure) -> Vec<usize> {
     let free = |group: &Group| Group { hosts: Vec::new(), ..group.clone() };
     let groups = structure.groups.iter().map(free).collect();
@@ -44,9 +44,9 @@ fn order(structure: &Structure, graph: &GroupGraph) -> Vec<usize> {
 enum State {
     /// Not yet eliminated.
     Variable,
-    /// Follows the variable it could not be distinguished from.
+    /// Follows the variable from which it could not be distinguished.
     Merged,
-    /// Coupled with nearly everything: kept out of the graph until the others are gone.
+    /// Coupled with nearly all others: removed from the graph until these are eliminated.
     Withheld,
     /// Eliminated; its members are a clique.
     Element,
@@ -56,11 +56,11 @@ enum State {
 
 struct Elimination {
     states: Vec<State>,
-    /// Unknowns of a variable with its followers.
+    /// Unknowns of a variable and its followers.
     weights: Vec<u64>,
-    /// Directly coupled variables, of a variable.
+    /// Variables directly coupled with a variable.
     variables: Vec<Vec<u32>>,
-    /// Elements a variable is a member of.
+    /// Elements of which a variable is a member.
     elements: Vec<Vec<u32>>,
     /// Members of an element.
     members: Vec<Vec<u32>>,
@@ -70,7 +70,7 @@ struct Elimination {
     has_hosts: Vec<bool>,
     hosts: HostCount,
     freed: Vec<u32>,
-    /// Degree, when it was found, variable.
+    /// Degree, time at which it was computed, variable.
     heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
     withheld: Vec<u32>,
     order: Vec<usize>,
@@ -149,7 +149,7 @@ impl Elimination {
         }
     }
 
-    /// Eliminates the groups whose last host has just gone, smallest index first.
+    /// Eliminates the groups whose last host has just been eliminated, smallest index first.
     fn eliminate_freed(&mut self) {
         while !self.freed.is_empty() {
             let mut freed = std::mem::take(&mut self.freed);
@@ -184,7 +184,7 @@ impl Elimination {
         for &member in &boundary {
             self.update_lists(member as usize, pivot as u32);
         }
-        // Members that see nothing but the new element are eliminated along with it, at no fill.
+        // Members that are coupled only with the new element are eliminated with it, without fill.
         for &member in &boundary {
             let index = member as usize;
             if self.variables[index].is_empty()
@@ -207,7 +207,7 @@ impl Elimination {
         self.members[pivot] = boundary;
     }
 
-    /// Everything the pivot is coupled with; the elements it was a member of are absorbed.
+    /// All couplings of the pivot; the elements of which it was a member are absorbed.
     fn take_boundary(&mut self, pivot: usize) -> Vec<u32> {
         self.stamp += 1;
         self.marks[pivot] = self.stamp;
@@ -250,7 +250,7 @@ impl Elimination {
         }
     }
 
-    /// Drops what the new element covers from the lists of a member, and adds the element.
+    /// Removes the couplings that the new element covers from the lists of a member, and adds the element.
     fn update_lists(&mut self, member: usize, pivot: u32) {
         let (states, marks, stamp) = (&mut self.states, &self.marks, self.stamp);
         let outside = &self.outside;
@@ -258,7 +258,7 @@ impl Elimination {
         self.elements[member].retain(|&element| {
             let index = element as usize;
             if states[index] == State::Element && outside[index] == 0 {
-                // Aggressive absorption: its members all lie in the new element.
+                // Aggressive absorption: all its members are in the new element.
                 states[index] = State::Absorbed;
                 absorbed[index] = Vec::new();
             }
@@ -284,7 +284,7 @@ impl Elimination {
         }
     }
 
-    /// Merges members of the boundary that have the same lists: they stay alike until they are eliminated.
+    /// Merges members of the boundary with equal lists: they remain equal until they are eliminated.
     fn merge_indistinguishable(&mut self, boundary: &mut Vec<u32>) {
         let mut hashed: Vec<(u64, u32)> = boundary
             .iter()

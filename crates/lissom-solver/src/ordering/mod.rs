@@ -1,5 +1,5 @@
-//! Orders of elimination of groups. Both keep every group behind all of its hosts, close to the last of
-//! them. They know the pattern, never values.
+//! Orders of elimination of groups. In both, every group follows all of its hosts, close to the last of them. They
+//! use the pattern, not values.
 
 mod group_graph;
 mod minimum_degree;
@@ -12,7 +12,7 @@ pub use profile::profile_order;
 
 use crate::structure::Group;
 
-/// Counts down the hosts of every group as groups are placed.
+/// Counts the remaining hosts of every group as groups are placed.
 pub(crate) struct HostCount {
     remaining: Vec<u32>,
     guests: Vec<Vec<u32>>,
@@ -39,7 +39,7 @@ impl HostCount {
         self.remaining[group] == 0
     }
 
-    /// Notes that the group has been placed, and appends the groups that have lost their last host by that.
+    /// Records that the group has been placed, and appends the groups whose last host it was.
     pub(crate) fn place(&mut self, group: usize, freed: &mut Vec<u32>) {
         for &guest in &self.guests[group] {
             let remaining = &mut self.remaining[guest as usize];
@@ -51,8 +51,8 @@ impl HostCount {
     }
 }
 
-/// The given order of the groups without hosts, with every other group right after the last of its hosts.
-/// Groups whose hosts form a cycle are omitted.
+/// The given order of the groups without hosts, with every other group directly after the last of its hosts. Groups
+/// whose hosts form a cycle are omitted.
 pub(crate) fn in_host_order(groups: &[Group], preferred: impl IntoIterator<Item = usize>) -> Vec<usize> {
     let mut hosts = HostCount::new(groups);
     let mut order = Vec::with_capacity(groups.len());
@@ -60,7 +60,7 @@ pub(crate) fn in_host_order(groups: &[Group], preferred: impl IntoIterator<Item 
     for group in preferred {
         if groups[group].hosts.is_empty() {
             freed.push(group as u32);
-            // Last in, first out would follow one guest's own guests before the next guest; both are valid.
+            // A stack places one guest's own guests before the next guest; both orders are valid.
             while let Some(next) = freed.pop() {
                 order.push(next as usize);
                 hosts.place(next as usize, &mut freed);

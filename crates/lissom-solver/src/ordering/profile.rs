@@ -1,13 +1,14 @@
 //! Reverse Cuthill-McKee on groups: the order for profile storage.
 //!
-//! The walk is that of Cuthill and of `McKee` 1969, turned round after George 1971; it starts from a peripheral node
-//! found as in George, Liu 1979. Groups with hosts are omitted from the walk and put behind the last of their hosts.
+//! The traversal is that of Cuthill and of `McKee` 1969, reversed after George 1971; it starts from a peripheral node
+//! found as in George, Liu 1979. Groups with hosts are omitted from the traversal and placed after the last of their
+//! hosts.
 
 use super::{GroupGraph, in_host_order};
 use crate::structure::Structure;
 
-/// Order of elimination of the groups that keeps the profile small, with every group right after the last of
-/// its hosts. Deterministic.
+/// Order of elimination of the groups that keeps the profile small, with every group directly after the last of its
+/// hosts. Deterministic.
 ///
 /// # Panics
 /// If [`Structure::check`] rejects the structure.
@@ -26,7 +27,7 @@ pub fn profile_order(structure: &Structure) -> Vec<usize> {
     order
 }
 
-/// Coupling of groups without hosts, directly or by way of one group with hosts.
+/// Coupling of groups without hosts, directly or through one group with hosts.
 struct Walk {
     neighbours: Vec<Vec<u32>>,
 }
@@ -62,8 +63,8 @@ impl Walk {
         Walk { neighbours }
     }
 
-    /// Appends everything reachable, level after level, and returns where the last level begins in the order
-    /// and how many levels there are.
+    /// Appends all reachable nodes, level by level, and returns the beginning of the last level in the order and the
+    /// number of levels.
     fn breadth_first(&self, start: usize, reached: &mut [bool], order: &mut Vec<usize>) -> (usize, usize) {
         reached[start] = true;
         let mut level = order.len();
