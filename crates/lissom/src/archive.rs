@@ -1,11 +1,11 @@
-//! A ZIP archive in memory, as co-simulation units and arrays are packed: deflated files, without dates.
+//! A ZIP archive in memory, for co-simulation units and arrays: deflated files, without dates.
 
 use std::io::{self, Write};
 
 use flate2::write::DeflateEncoder;
 use flate2::{Compression, Crc};
 
-/// Date of all files: 1 January 1980, the first that the format knows, so that equal contents give equal archives.
+/// Date of all files: 1 January 1980, the first date of the format, so that equal contents have equal archives.
 const DATE: u16 = (1 << 5) | 1;
 /// Version of the format that is needed to read it: 2.0, for deflated files.
 const VERSION: u16 = 20;
@@ -13,7 +13,7 @@ const VERSION: u16 = 20;
 const FLAGS: u16 = 1 << 11;
 const DEFLATED: u16 = 8;
 
-/// What local and central headers say of a file alike, from the version on.
+/// Common part of local and central headers of a file, from the version on.
 fn facts(name: &str, content: &[u8], packed: &[u8]) -> io::Result<Vec<u8>> {
     let mut crc = Crc::new();
     crc.update(content);
@@ -85,7 +85,7 @@ mod tests {
         let central = number(end + 16);
         assert_eq!(number(end + 12) + central, end);
         assert_eq!(&archive[central..central + 4], b"PK\x01\x02");
-        // The second entry of the directory leads to the second file.
+        // The second entry of the directory refers to the second file.
         let second = central + 46 + "a.txt".len();
         let local = number(second + 42);
         assert_eq!(&archive[local..local + 4], b"PK\x03\x04");

@@ -1,5 +1,5 @@
-//! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness between and
-//! beyond them is singular.
+//! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness,
+//! interpolated and extrapolated from them, is singular.
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -15,17 +15,17 @@ use serde_json::{Value, json};
 use crate::model::{Model, Override};
 use crate::modes::shapes_table;
 
-/// First step of the load factor on the way to one, and most steps.
+/// First step of the load factor towards one, and maximum number of steps.
 const FIRST: f64 = 0.25;
 const MAX_STEPS: usize = 500;
-/// Rotations under the loads beyond which the stiffness is not taken to change in proportion to them [rad].
+/// Rotations under the loads above which the stiffness is not assumed to change in proportion to them [rad].
 const LARGE_TURN: f64 = 0.05;
 
-/// Load factors that were not found.
+/// Why load factors were not found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum BucklingRunError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
     /// The equilibrium under the loads was not reached.
@@ -43,35 +43,34 @@ pub enum BucklingRunError {
     /// There are no buckling modes.
     #[error(transparent)]
     Buckling(#[from] BucklingError),
-    /// Some modes were missed.
+    /// Some modes were not found.
     #[error(
         "{0} of the load factors below the last one were missed, as negative pivots show; ask for another `count`"
     )]
     Missing(usize),
 }
 
-/// Buckling modes of a model, with all reports about them.
+/// Buckling modes of a model, with warnings.
 #[derive(Clone, Debug)]
 pub struct BucklingReport {
     /// Load factors and shapes.
     pub buckling: Buckling,
     /// Shapes, node by node, in the state without loads.
     pub shapes: Vec<Vec<NodeShape>>,
-    /// How many were asked for.
+    /// The requested number.
     pub asked: usize,
     /// Largest rotation of a node under the loads [rad].
     pub turn: f64,
-    /// What may be wrong with them.
+    /// Warnings about them.
     pub warnings: Vec<String>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// The lowest load factors at which `model` buckles, with `overrides` put in place; `count` of them, or as many as the model
-/// asks for.
+/// The lowest load factors at which `model` with `overrides` buckles: `count` of them, or as many as the model requests.
 ///
 /// # Errors
-/// If the model is wrong, its loads are critical already, or load factors were missed.
+/// If the model is invalid, its loads are already critical, or load factors were missed.
 pub fn buckling(
     model: &Model,
     overrides: &[Override],
@@ -163,7 +162,7 @@ impl BucklingReport {
         shapes_table(&self.shapes, false)
     }
 
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
@@ -180,7 +179,7 @@ impl BucklingReport {
     }
 }
 
-/// What is known before the load factors are.
+/// Contents that are known before the load factors.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
     crate::summary::of_request("buckling", name, overrides, document)
 }

@@ -1,4 +1,4 @@
-//! Campbell diagram: natural frequencies and damping over a parameter, modes followed by their shapes.
+//! Campbell diagram: natural frequencies and damping over a parameter, with modes tracked by their shapes.
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -12,13 +12,13 @@ use crate::model::{Model, Override};
 use crate::modes::{AT_REST, ModesError, Reliable, reliable};
 use crate::operating_point::{LinearizationPoint, OperatingPoint};
 
-/// Shapes that are less alike are not of one line.
+/// Modes with a smaller likeness of shapes do not belong to one line.
 const ALIKE: f64 = 0.3;
-/// Shapes that are less alike than this are reported: a pair of equal frequencies splits into halves.
+/// Smaller likenesses are reported: a pair of equal frequencies splits into halves.
 const DOUBTFUL: f64 = 0.45;
-/// A crossing is known to this fraction of its frequency …
+/// Relative accuracy of a crossing's frequency …
 const CROSSED: f64 = 1e-7;
-/// … or after so many solutions.
+/// … or maximum number of solutions.
 const SOLUTIONS: usize = 8;
 
 /// The request.
@@ -34,18 +34,18 @@ pub struct CampbellRequest {
     pub values: usize,
     /// Number of modes at each.
     pub count: usize,
-    /// Multiples of the rotation whose crossings are listed, as 1 and 3.
+    /// Multiples of the rotation whose crossings are listed, such as 1 and 3.
     pub rays: Vec<u32>,
 }
 
-/// A diagram that was not found.
+/// Why no diagram was found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CampbellError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(Report),
-    /// The values are no range.
+    /// The values are not a range.
     #[error("`{path}` from {from} to {to}: both must be numbers, and different")]
     Range {
         /// The path.
@@ -62,10 +62,10 @@ pub enum CampbellError {
         path: String,
         /// The value.
         value: f64,
-        /// What went wrong.
+        /// The error.
         error: Box<ModesError>,
     },
-    /// The unknowns change with the value.
+    /// The unknowns depend on the value.
     #[error("another value at `{0}` changes the unknowns of the model: modes cannot be followed")]
     Unlike(String),
 }
@@ -75,16 +75,16 @@ pub enum CampbellError {
 pub struct PointMode {
     /// The mode, in the axes of the nodes.
     pub mode: Mode,
-    /// What it is in axes at rest.
+    /// Its whirl, in axes at rest.
     pub whirl: Whirl,
     /// Number of its line, from 0.
     pub line: usize,
-    /// How like it is to the mode before it on its line; none for the first.
+    /// Its likeness to the previous mode of its line; none for the first.
     pub assurance: Option<f64>,
 }
 
 impl PointMode {
-    /// Frequency in axes at rest [Hz]; none where there are two.
+    /// Frequency in axes at rest [Hz]; none if there are two.
     pub fn seen(&self) -> Option<f64> {
         match self.whirl {
             Whirl::Forward(frequency) | Whirl::Backward(frequency) => Some(frequency),
@@ -110,7 +110,7 @@ pub struct Point {
     pub modes: Vec<PointMode>,
 }
 
-/// Where a line crosses a multiple of the rotation: a critical speed.
+/// Intersection of a line with a multiple of the rotation: a critical speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
     /// Number of the line, from 0.
@@ -140,13 +140,13 @@ pub struct CampbellReport {
     pub crossings: Vec<Crossing>,
     /// The multiples of the rotation.
     pub rays: Vec<u32>,
-    /// What may be wrong with it.
+    /// Warnings about it.
     pub warnings: Vec<String>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// The search at one value after the other.
+/// The search, one value after another.
 struct Search<'s> {
     model: &'s Model,
     overrides: &'s [Override],
@@ -154,10 +154,10 @@ struct Search<'s> {
     warnings: Vec<String>,
 }
 
-/// Campbell diagram of `model`, with `overrides` put in place.
+/// Campbell diagram of `model` with `overrides`.
 ///
 /// # Errors
-/// If the model is wrong, or has no modes at a value.
+/// If the model is invalid, or has no modes at a value.
 pub fn campbell(
     model: &Model,
     overrides: &[Override],
@@ -248,7 +248,7 @@ impl Search<'_> {
         Ok(point)
     }
 
-    /// Where lines cross rays: found between two values, then by further solutions.
+    /// Intersections of lines with rays: located between two values, then refined by further solutions.
     fn crossings(&mut self, points: &[Point]) -> Vec<Crossing> {
         let mut crossings = Vec::new();
         let pairs: Vec<_> = points.windows(2).collect();
@@ -278,7 +278,8 @@ impl Search<'_> {
         let mut value = low.value;
         for _ in 0..SOLUTIONS {
             value = low.value - at.0 * (high.value - low.value) / (beyond.0 - at.0);
-            // At the crossing itself a mode may be at rest in rotating axes, where its shape gives no information.
+            // At the crossing itself a mode may have zero frequency in rotating axes, where its shape contains no
+            // information.
             let Ok(middle) = self.point(value, Some(&low), &mut lines) else { break };
             let Some(own) = gap(&middle).filter(|own| own.2 == beyond.2) else { break };
             let is_found = own.0.abs() <= CROSSED * own.1;
@@ -305,13 +306,14 @@ impl Search<'_> {
     }
 }
 
-/// Whether shapes have another number of unknowns.
+/// Whether shapes have different numbers of unknowns.
 fn different(before: &Point, found: &[Mode]) -> bool {
     let size = |mode: Option<&Mode>| mode.map(|mode| mode.shape.len());
     size(before.modes.first().map(|of| &of.mode)) != size(found.first())
 }
 
-/// Line and likeness of each mode: the pairs that are most alike first, of equal ones those whose frequencies are nearest.
+/// Line and likeness of each mode: the pairs with the largest likeness first, of equal ones those with the nearest
+/// frequencies.
 fn matched(known: &[PointMode], found: &[Mode], alike: &[Vec<f64>]) -> Vec<(Option<usize>, Option<f64>)> {
     let mut pairs: Vec<(usize, usize, f64)> = Vec::new();
     for (i, row) in alike.iter().enumerate() {
@@ -336,7 +338,7 @@ fn matched(known: &[PointMode], found: &[Mode], alike: &[Vec<f64>]) -> Vec<(Opti
 
 impl CampbellReport {
     /// The table `campbell.csv`: value, rotation [Hz], line from 1, frequency [Hz] and damping ratio in the axes of the nodes,
-    /// kind, whirl, frequency in axes at rest [Hz], likeness to the mode before on the line.
+    /// kind, whirl, frequency in axes at rest [Hz], likeness to the previous mode of the line.
     pub fn csv(&self) -> String {
         let mut text =
             "value,rotation,line,frequency,damping,kind,whirl,frequency_at_rest,likeness\n".to_owned();
@@ -384,7 +386,7 @@ impl CampbellReport {
         }
     }
 
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("campbell", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);

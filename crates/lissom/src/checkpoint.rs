@@ -1,5 +1,5 @@
-//! A run that can go on after it was cut off: the file `checkpoint.lissom` in its folder holds the model, what was asked
-//! for and a snapshot. It is replaced as a whole, so that there is one at any moment.
+//! Resumption of an interrupted run: the file `checkpoint.lissom` in its folder contains the model, the options and a
+//! snapshot. It is replaced as a whole, so that there is one at any moment.
 
 use std::fs::File;
 use std::io;
@@ -17,12 +17,12 @@ use crate::session::{Checkpoints, SessionSnapshot};
 /// Name of the file.
 pub(crate) const CHECKPOINT: &str = "checkpoint.lissom";
 
-/// How often a run leaves a checkpoint.
+/// Interval of checkpoints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CheckpointEvery {
-    /// After so much time on the clock.
+    /// Wall-clock time.
     Time(Duration),
-    /// After so many steps.
+    /// Number of steps.
     Steps(usize),
 }
 
@@ -42,32 +42,32 @@ impl FromStr for CheckpointEvery {
     }
 }
 
-/// What the file holds.
+/// Contents of the file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Path of the model file, as it was given.
     pub model: String,
     /// Its text.
     pub text: String,
-    /// The texts of the files it includes, by their paths.
+    /// The texts of included files, by path.
     pub included: std::collections::BTreeMap<String, String>,
-    /// What was changed in it.
+    /// Its overrides.
     pub overrides: Vec<Override>,
     /// What was omitted from it.
     pub left_out: Vec<String>,
-    /// Whether plots are wanted.
+    /// Whether plots are requested.
     pub plots: bool,
-    /// How often checkpoints are left, as it was given.
+    /// Interval of checkpoints, as it was given.
     pub every: String,
-    /// Bytes of the table that belong to the run so far.
+    /// Length of the table of the run so far [bytes].
     pub history_length: u64,
-    /// Bytes of the motion file that belong to the run so far; zero where there is none.
+    /// Length of the motion file of the run so far [bytes]; zero if there is none.
     pub motion_length: u64,
-    /// Where the run is.
+    /// State of the run.
     pub session: SessionSnapshot,
 }
 
-/// A folder whose run cannot go on.
+/// Why the run of a folder cannot be resumed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
@@ -77,7 +77,7 @@ pub enum CheckpointError {
          run the model again"
     )]
     Missing(String),
-    /// The file is none, or of another version.
+    /// The file is not a checkpoint, or one of another version.
     #[error("`{0}` is no checkpoint of this version of the program: run the model again")]
     Unreadable(String),
     /// A file cannot be read or written.
@@ -86,10 +86,10 @@ pub enum CheckpointError {
 }
 
 impl Checkpoint {
-    /// The checkpoint that a run left in `folder`.
+    /// The checkpoint of the run in `folder`.
     ///
     /// # Errors
-    /// If there is none, or another program's.
+    /// If there is none, or one of another program.
     pub fn read(folder: &Path) -> Result<Self, CheckpointError> {
         let path = folder.join(CHECKPOINT);
         let bytes = match files::read(&path) {
@@ -102,7 +102,7 @@ impl Checkpoint {
         sealed::from_bytes(&bytes).ok_or_else(|| CheckpointError::Unreadable(path.display().to_string()))
     }
 
-    /// The table the run left, cut to where the checkpoint was taken, to be written on.
+    /// The table of the run, truncated to its length at the checkpoint, for appending.
     ///
     /// # Errors
     /// If it is missing or cannot be written.
@@ -110,7 +110,7 @@ impl Checkpoint {
         cut(path, self.history_length, "rows are missing that were written")
     }
 
-    /// The motion file the run left, cut to where the checkpoint was taken, to be written on.
+    /// The motion file of the run, truncated to its length at the checkpoint, for appending.
     ///
     /// # Errors
     /// If it is missing or cannot be written.
@@ -119,25 +119,25 @@ impl Checkpoint {
     }
 }
 
-/// A file cut to `length`, to be written on.
+/// A file truncated to `length`, for appending.
 fn cut(path: &Path, length: u64, missing: &str) -> Result<File, FileError> {
     files::open_cut(path, length, missing)
 }
 
-/// Leaves checkpoints in the folder of a run.
+/// Writes checkpoints to the folder of a run.
 pub struct CheckpointFile {
     folder: PathBuf,
     history: PathBuf,
     motion: Option<PathBuf>,
     every: CheckpointEvery,
-    /// What all checkpoints of the run have in common.
+    /// The common contents of all checkpoints of the run.
     frame: Box<dyn Fn(SessionSnapshot, [u64; 2]) -> Checkpoint>,
     last: Instant,
 }
 
 impl CheckpointFile {
     /// For a run whose results are in `folder`, whose table is `history` and whose motion, if it is recorded, is in
-    /// `motion`; `frame` adds to a snapshot and to the lengths of both files what else a checkpoint holds.
+    /// `motion`; `frame` makes a checkpoint of a snapshot and the lengths of both files.
     pub fn new(
         folder: &Path,
         history: &Path,
@@ -149,9 +149,9 @@ impl CheckpointFile {
         Self { folder, history, motion, every, frame: Box::new(frame), last: Instant::now() }
     }
 
-    /// Removes what a former run has left: it is over.
+    /// Removes the checkpoint of an earlier run: it is complete.
     pub fn remove(folder: &Path) {
-        // If there is none there is nothing to do.
+        // If there is none, nothing needs to be done.
         let _ = files::remove(&folder.join(CHECKPOINT));
     }
 }
@@ -169,7 +169,7 @@ impl Checkpoints for CheckpointFile {
     }
 
     fn keep(&mut self, snapshot: &SessionSnapshot) -> io::Result<()> {
-        // Rows must be on the disk before a checkpoint counts on them.
+        // Rows must be on the disk before a checkpoint refers to them.
         let synced = |path: &PathBuf| files::synchronized_length(path);
         let lengths = [synced(&self.history)?, self.motion.as_ref().map_or(Ok(0), synced)?];
         let checkpoint = (self.frame)(snapshot.clone(), lengths);

@@ -1,16 +1,16 @@
-//! How the types of entries are declared: what must be given is in `new`, the rest in a method per key.
+//! Declaration of the types of entries: required values are arguments of `new`, the others have a method per key.
 
 use super::ids::Id;
 use super::written::Written;
 
 /// Something that can be added to a model. Its kinds are those of the model file.
 pub trait Entry {
-    /// What code holds of it afterwards.
+    /// Its id in code.
     type Id: Id;
-    /// What names are made of where none is given.
+    /// Prefix of generated names.
     const WORD: &'static str;
 
-    /// What is in the model file behind its name.
+    /// Its value in the model file.
     fn written(self) -> Written;
 }
 
@@ -40,7 +40,7 @@ macro_rules! entry {
     };
 }
 
-/// Declares the type of a table that is a value of another one.
+/// Declares the type of a table that is the value of a key.
 macro_rules! nested {
     ($(#[$meta:meta])* $name:ident; $($rest:tt)*) => {
         $crate::builder::entry::fields! {
@@ -88,7 +88,7 @@ macro_rules! fields {
     };
 }
 
-/// Declares keys that may be omitted, for each of some types.
+/// Declares optional keys, for each of some types.
 macro_rules! keys {
     ([$name:ident] $($(#[$doc:meta])* $optional:ident: $holds:ty = $own:literal;)*) => {
         impl $name {
@@ -107,7 +107,7 @@ macro_rules! keys {
     };
 }
 
-/// Declares a type for the words that a key chooses among.
+/// Declares a type for the words of a key.
 macro_rules! words {
     ($(#[$meta:meta])* $name:ident; $($word:ident = $written:literal;)*) => {
         $(#[$meta])*

@@ -1,4 +1,5 @@
-//! Expressions of time, inputs, signals, states, and of what joints and outputs measure, written with the operators of Rust.
+//! Expressions of time, inputs, signals, states, and of quantities of joints and outputs, written with the operators of
+//! Rust.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -31,7 +32,7 @@ enum Form {
 pub(crate) enum Piece {
     Text(String),
     Name(AnyId),
-    /// The name of the entry that holds the expression.
+    /// The name of the entry that contains the expression.
     Own,
 }
 
@@ -41,8 +42,8 @@ impl Expression {
         Self::text("t")
     }
 
-    /// An expression as a model file has it, such as `"sin(3*t)"`, or the name of a variable, such as `"elongation"` in the force of a
-    /// spring.
+    /// An expression in the syntax of model files, such as `"sin(3*t)"`, or the name of a variable, such as `"elongation"` in the
+    /// force of a spring.
     pub fn text(text: &str) -> Self {
         Self(Form::Pieces(vec![Piece::Text(text.to_owned())]))
     }
@@ -60,7 +61,7 @@ impl Expression {
         Self(Form::Pieces(pieces))
     }
 
-    /// Its text in pieces, or the number that it is.
+    /// Its text in pieces, or its number.
     pub(crate) fn pieces(&self) -> Result<&[Piece], f64> {
         match &self.0 {
             Form::Number(number) => Err(*number),
@@ -91,19 +92,19 @@ impl Expression {
         self.joined("((", ")^(", Some(exponent.into()), "))")
     }
 
-    /// This, or `other` where that is larger.
+    /// The larger of this and `other`.
     #[must_use]
     pub fn max(self, other: impl Into<Self>) -> Self {
         self.joined("max(", ", ", Some(other.into()), ")")
     }
 
-    /// This, or `other` where that is smaller.
+    /// The smaller of this and `other`.
     #[must_use]
     pub fn min(self, other: impl Into<Self>) -> Self {
         self.joined("min(", ", ", Some(other.into()), ")")
     }
 
-    /// A function of a model file of this, such as `"smoothstep"`.
+    /// A named function of this, such as `"smoothstep"`.
     #[must_use]
     pub fn function(self, name: &str) -> Self {
         self.joined(&format!("{name}("), "", None, ")")
@@ -247,14 +248,14 @@ impl JointId {
         self.coordinate("velocity")
     }
 
-    /// One of its coordinates or rates by its word in model files, such as `"angle2"` where it has two.
+    /// One of its coordinates or rates by its name in model files, such as `"angle2"` if it has two.
     pub fn coordinate(self, word: &str) -> Expression {
         Expression::named(self.0, word)
     }
 }
 
 impl OutputId {
-    /// One of its components by its word in tables of results, such as `"x"`.
+    /// One of its components by its name in tables of results, such as `"x"`.
     pub fn component(self, word: &str) -> Expression {
         Expression::named(self.0, word)
     }

@@ -1,4 +1,4 @@
-//! Inputs, signals and what events change.
+//! Inputs, signals and the actions of events.
 
 use super::entries::feedback::Event;
 use super::entry::Entry;
@@ -6,7 +6,7 @@ use super::expression::Expression;
 use super::ids::{InputId, SignalId};
 use super::written::{Fields, NameOf, Written};
 
-/// A number that is set from outside while a simulation runs.
+/// A number that can be set while a simulation runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[must_use]
 pub struct Input(f64);
@@ -41,7 +41,8 @@ impl Signal {
         Self { value: value.into(), sampling: None }
     }
 
-    /// A signal that takes the value of `value` every `period` [s] and holds it in between; `start` before the first sample.
+    /// A signal that is set to the value of `value` every `period` [s] and constant in between; `start` before the first
+    /// sample.
     pub fn sampled(value: impl Into<Expression>, period: f64, start: f64) -> Self {
         Self { value: value.into(), sampling: Some((period, start)) }
     }
@@ -62,7 +63,7 @@ impl Entry for Signal {
 }
 
 impl Event {
-    /// Makes `input` what `value` is at the event.
+    /// Sets `input` to `value` at the event.
     pub fn set(mut self, input: InputId, value: impl Into<Expression>) -> Self {
         self.0.set_under("set", NameOf(input.0), value.into().into());
         self

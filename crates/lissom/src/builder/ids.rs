@@ -1,12 +1,12 @@
-//! What code holds of the parts of a model that it builds: a table, a position in it, and the builder it belongs to.
+//! Ids of the parts of a model built in code: a table, an index in it, and the builder to which it belongs.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Every builder has a number, so that the ids of one mean nothing to another.
+/// Every builder has a number, so that the ids of another one are detected.
 static BUILDERS: AtomicU64 = AtomicU64::new(0);
 
-/// Where an entry is.
+/// Location of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct AnyId {
     builder: u64,
@@ -14,13 +14,13 @@ pub struct AnyId {
     index: usize,
 }
 
-/// An id that does not belong to the model it is used with.
+/// An id that does not belong to the model in which it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a {0} of another model is used with this one: ids are of use where they were made")]
 pub struct ForeignId(&'static str);
 
 impl AnyId {
-    /// That it means nothing here.
+    /// The error for this id.
     pub(crate) fn foreign(self) -> ForeignId {
         ForeignId(self.table.singular())
     }
@@ -35,7 +35,7 @@ macro_rules! tables {
         }
 
         impl Table {
-            /// Its word in a model file.
+            /// Its name in a model file.
             pub(crate) fn word(self) -> &'static str {
                 match self {
                     $(Self::$table => $word),*
@@ -104,7 +104,7 @@ tables! {
     SpringId: Springs = "springs", "spring";
     /// A load.
     LoadId: Loads = "loads", "load";
-    /// A number that is set from outside.
+    /// A number that can be set while a simulation runs.
     InputId: Inputs = "inputs", "input";
     /// A named expression.
     SignalId: Signals = "signals", "signal";
@@ -112,13 +112,13 @@ tables! {
     StateId: States = "states", "state";
     /// An event.
     EventId: Events = "events", "event";
-    /// How all parts are and move at the start.
+    /// The initial state of all parts.
     InitialId: Initial = "initial", "start";
-    /// A motion of some parts at the start.
+    /// The initial motion of some parts.
     MotionId: Motions = "initial", "motion at the start";
     /// A recorded quantity.
     OutputId: Outputs = "outputs", "output";
-    /// What is computed.
+    /// The analysis.
     AnalysisId: Analysis = "analysis", "analysis";
 }
 
@@ -134,14 +134,14 @@ impl IdNames {
         Self { builder: BUILDERS.fetch_add(1, Ordering::Relaxed), names: BTreeMap::new() }
     }
 
-    /// Keeps a name.
+    /// Stores a name.
     pub(crate) fn add<I: Id>(&mut self, name: String) -> I {
         let names = self.names.entry(I::TABLE).or_default();
         names.push(name);
         I::from_any(AnyId { builder: self.builder, table: I::TABLE, index: names.len() - 1 })
     }
 
-    /// Whether an entry of any table is called `name`.
+    /// Whether an entry of any table has the name `name`.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.names.values().flatten().any(|known| known == name)
     }
@@ -149,7 +149,7 @@ impl IdNames {
     /// The name that an id represents.
     ///
     /// # Errors
-    /// If it is of another builder.
+    /// If it belongs to another builder.
     pub(crate) fn name(&self, id: impl Into<AnyId>) -> Result<&str, ForeignId> {
         let id = id.into();
         let own = (id.builder == self.builder).then(|| self.names.get(&id.table)?.get(id.index)).flatten();

@@ -1,7 +1,7 @@
-//! Models built in code: typed entries in place of tables, ids in place of names, expressions with the operators of Rust.
+//! Models built in code: typed entries instead of tables, ids instead of names, expressions with the operators of Rust.
 //!
-//! What is built is a model file: [`ModelBuilder::to_toml`] shows it, and what reads files reads it too. So both have the same
-//! kinds, defaults, checks and complaints, and a model behaves the same from code and from a file, to the last bit.
+//! The builder creates a model file: [`ModelBuilder::to_toml`] returns it, and the file reader reads it. So both have the same
+//! kinds, defaults, checks and error messages, and a model from code and from a file has the same results, to the last bit.
 //!
 //! ```
 //! use lissom::builder::analyses::Dynamics;
@@ -22,7 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What is wrong is reported as it is for files, with the position in the code:
+//! Mistakes are reported as for files, with the position in the code:
 //!
 //! ```
 //! use lissom::builder::{ModelBuilder, analyses::Dynamics, parts::PointMass};
@@ -67,10 +67,10 @@ pub use values::{GROUND, Inertia, Mass, Matrix, Node, Part, Place, Quantity, Sec
 use ids::{Id, Table};
 use written::Written;
 
-/// What complaints call a model that has no title.
+/// Name in messages of a model without a title.
 const UNTITLED: &str = "model built in code";
 
-/// An entry and where it was added.
+/// An entry and the location where it was added.
 struct Added {
     table: Table,
     name: String,
@@ -95,12 +95,12 @@ impl Default for ModelBuilder {
 }
 
 impl ModelBuilder {
-    /// A model with nothing but the ground.
+    /// A model that contains only the ground.
     pub fn new() -> Self {
         Self { names: IdNames::new(), title: None, gravity: None, added: Vec::new() }
     }
 
-    /// Says in one line what the model is.
+    /// Sets the description of the model, in one line.
     pub fn title(&mut self, title: &str) {
         self.title = Some(title.to_owned());
     }
@@ -110,7 +110,7 @@ impl ModelBuilder {
         self.gravity = Some(acceleration.into());
     }
 
-    /// Adds an entry under a name that is made up, such as `revolute_1`.
+    /// Adds an entry with a generated name, such as `revolute_1`.
     #[track_caller]
     pub fn add<E: Entry>(&mut self, entry: E) -> E::Id {
         let mut number = 1;
@@ -122,8 +122,8 @@ impl ModelBuilder {
         self.keep(name, entry, Location::caller())
     }
 
-    /// Adds an entry under a name, by which tables of results and complaints call it. The analysis and the motion of all parts
-    /// at the start have no names.
+    /// Adds an entry with a name, which is used in tables of results and messages. The analysis and the motion of all parts at
+    /// the start have no names.
     #[track_caller]
     pub fn add_named<E: Entry>(&mut self, name: &str, entry: E) -> E::Id {
         self.keep(name.to_owned(), entry, Location::caller())
@@ -191,7 +191,7 @@ impl ModelBuilder {
         }
     }
 
-    /// Appends an entry to `text`; gives where it is.
+    /// Appends an entry to `text`; returns its position.
     fn write(&self, added: &Added, text: &mut String) -> (Range<usize>, Result<(), ForeignId>) {
         let start = text.len();
         let mut wrong = Ok(());
@@ -212,15 +212,15 @@ impl ModelBuilder {
         (start..start + lines.first().map_or(0, String::len), wrong)
     }
 
-    /// What complaints call the model.
+    /// The model's name in messages.
     fn source(&self) -> &str {
         self.title.as_deref().unwrap_or(UNTITLED)
     }
 
-    /// The model. It may be simulated many times, from several threads, and changed by overrides as those from files.
+    /// The model. It may be simulated many times, from several threads, and with overrides, as models from files.
     ///
     /// # Errors
-    /// All that is wrong with it, as for a model file.
+    /// All its mistakes, as for a model file.
     pub fn build(&self) -> Result<Model, Report> {
         let model = Model::from_text(self.source(), &self.to_toml()?).with_ids(self.names.clone());
         model.document(&[])?;

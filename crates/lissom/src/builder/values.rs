@@ -1,4 +1,4 @@
-//! Values that entries hold: nodes, positions, masses, matrices.
+//! Values of entries: nodes, positions, masses, matrices.
 
 use super::entries::sections::SliceMass;
 use super::ids::{
@@ -11,7 +11,7 @@ use super::written::{Fields, NameOf, Written};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node(pub(crate) Option<(AnyId, At)>);
 
-/// Where on a part.
+/// A location on a part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum At {
     Itself,
@@ -102,7 +102,7 @@ impl From<Place> for Written {
     }
 }
 
-/// One of several positions: the node that carries it, and where it is at the start.
+/// One of several positions: its node, and its initial location.
 impl From<(Node, Place)> for Written {
     fn from((on, at): (Node, Place)) -> Self {
         let mut fields = Fields::default();
@@ -122,7 +122,7 @@ impl From<(String, [f64; 3])> for Written {
     }
 }
 
-/// Declares types that hold the name of one of several tables.
+/// Declares types that contain the name of an entry of one of several tables.
 macro_rules! names {
     ($($(#[$doc:meta])* $name:ident of $($id:ident)*;)*) => {
         $(
@@ -155,7 +155,7 @@ macro_rules! names {
 names! {
     /// A body, a point mass, a beam or a superelement.
     Part of BodyId PointMassId BeamId SuperelementId;
-    /// A number that a simulation knows by name: a signal, an input or a state.
+    /// A number with a name in a simulation: a signal, an input or a state.
     Quantity of SignalId InputId StateId;
 }
 
@@ -276,7 +276,7 @@ impl From<Solid> for Written {
 pub enum Matrix {
     /// Its diagonal.
     Diagonal([f64; 6]),
-    /// All of it.
+    /// The full matrix.
     Full(Box<[[f64; 6]; 6]>),
 }
 
@@ -333,7 +333,7 @@ impl From<SectionMass> for Written {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shear {
-    /// One for both directions.
+    /// The same for both directions.
     Both(f64),
     /// Along axes 2 and 3.
     Each([f64; 2]),

@@ -1,4 +1,4 @@
-//! Values of code as they are in a model file. Every number comes back to the last bit.
+//! Values of code in the form of a model file. Every number is reproduced to the last bit.
 
 use lissom_model::output::number_text;
 use lissom_model::toml_text::{key, quoted};
@@ -7,7 +7,7 @@ use super::expression::{Expression, Piece};
 use super::ids::{AnyId, ForeignId, IdNames};
 use super::values::{At, Node};
 
-/// What is behind a key.
+/// The value of a key.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Written {
     /// A text.
@@ -39,7 +39,7 @@ pub struct NameOf(pub(crate) AnyId);
 pub struct Fields(Vec<(&'static str, Written)>);
 
 impl Fields {
-    /// Returns `key` a value, in place of an earlier one.
+    /// Sets the value of `key`, replacing an earlier one.
     pub(crate) fn set(&mut self, key: &'static str, value: impl Into<Written>) {
         let value = value.into();
         match self.0.iter_mut().find(|(known, _)| *known == key) {
@@ -48,7 +48,7 @@ impl Fields {
         }
     }
 
-    /// Gives the entry called `name` a value in the table under `key`, in place of an earlier one.
+    /// Sets the value of the entry called `name` in the table under `key`, replacing an earlier one.
     pub(crate) fn set_under(&mut self, key: &'static str, name: NameOf, value: Written) {
         if let Some((_, Written::Named(named))) = self.0.iter_mut().find(|(known, _)| *known == key) {
             named.retain(|(known, _)| *known != name);
@@ -61,7 +61,7 @@ impl Fields {
     /// Keys and values as lines `key = value`, of the entry called `own`.
     ///
     /// # Errors
-    /// If there is an id of another builder.
+    /// If it contains an id of another builder.
     pub(crate) fn lines(&self, names: &IdNames, own: &str) -> Result<Vec<String>, ForeignId> {
         self.0.iter().map(|(key, value)| Ok(format!("{key} = {}", value.toml(names, own)?))).collect()
     }
@@ -71,7 +71,7 @@ impl Written {
     /// As TOML on one line, of the entry called `own`.
     ///
     /// # Errors
-    /// If there is an id of another builder.
+    /// If it contains an id of another builder.
     pub(crate) fn toml(&self, names: &IdNames, own: &str) -> Result<String, ForeignId> {
         Ok(match self {
             Self::Text(text) => quoted(text),

@@ -48,7 +48,7 @@ impl Buckling {
     }
 }
 
-/// Finds the load factors and leaves them in a folder.
+/// Computes the load factors and writes them to a folder.
 pub(super) fn report(
     (model, overrides, document): (&Model, &[Override], &Document),
     count: Option<usize>,

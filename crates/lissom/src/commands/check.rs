@@ -1,4 +1,4 @@
-//! `lissom check`: says what a model is made of and what is wrong with it, without simulating it.
+//! `lissom check`: reports the contents of a model and its mistakes, without simulating it.
 
 use std::fmt::Write;
 
@@ -47,7 +47,7 @@ impl Check {
         for redundant in &freedom.redundant {
             terminal::complain(&warning(redundant));
         }
-        // What a run would reject before its first step is rejected here.
+        // Errors of a run before its first step are reported here as well.
         let session = Session::start(lowered).map_err(|error| Failure::new(Exit::BadModel, error))?;
         for warning in session.warnings() {
             terminal::complain(&format!("warning: {warning}\n"));
@@ -105,7 +105,7 @@ impl Check {
             "outputs": lowered.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>(),
             "problems": document.warnings.to_value(),
         });
-        // What a run would reject before its first step is rejected here.
+        // Errors of a run before its first step are reported here as well.
         let exit = match Session::start(lowered) {
             Ok(session) => {
                 let fact =
@@ -167,7 +167,7 @@ fn parts(document: &Document, lowered: &Lowered) -> String {
         count(document.point_masses.len(), "point mass", "point masses"),
         count(document.beams.len(), "beam", "beams"),
         count(elements, "element", "elements"),
-        // The ground is none.
+        // Without the ground.
         count(lowered.system.layout().node_count() - 1, "node", "nodes"),
     )
 }

@@ -26,7 +26,7 @@ pub(super) struct Explain {
     what: Vec<String>,
 }
 
-/// Whether words that somebody remembers are in an entry.
+/// Whether an entry contains these words.
 fn has(entry: &Entry, words: &str) -> bool {
     let texts = [entry.code, entry.message, entry.meaning, entry.advice];
     texts.iter().any(|text| text.to_lowercase().contains(&words.to_lowercase()))
@@ -61,7 +61,7 @@ impl Explain {
     }
 }
 
-/// What a run has reported in its summary, each with its explanation.
+/// The reports in the summary of a run, each with its explanation.
 fn of_run(folder: &Path) -> Result<String, Failure> {
     let path = folder.join("summary.json");
     let text =

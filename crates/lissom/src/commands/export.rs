@@ -92,7 +92,7 @@ impl Export {
         Ok(Exit::Done)
     }
 
-    /// Writes a model as the description of a robot.
+    /// Writes a model as a robot description.
     fn describe(self) -> Result<Exit, Failure> {
         let model = Model::read(&self.folder).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let document = model.document(&self.set)?;

@@ -60,7 +60,7 @@ impl Fmu {
         Ok(Exit::Done)
     }
 
-    /// The shared library: the one that is named, the one beside the program, or that of a cargo build.
+    /// The shared library: the given one, that beside the program, or that of a cargo build.
     fn library(&self) -> Result<PathBuf, Failure> {
         if let Some(library) = &self.library {
             return Ok(library.clone());

@@ -1,4 +1,4 @@
-//! `lissom gradient`: derivatives of an output by numbers of the model file.
+//! `lissom gradient`: derivatives of an output with respect to numbers of the model file.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -64,7 +64,7 @@ impl Gradient {
             Ok(found) => found,
             Err(error) => {
                 let mut summary = summary::of_request("gradient", model.name(), &self.model.set, &document);
-                // A text can be said in JSON.
+                // A string is valid JSON.
                 let _ = summary.insert("error", json!(error.to_string()));
                 folder.write_summary(&summary).map_err(unwritable)?;
                 return Err(Failure::new(Exit::Failed, error));

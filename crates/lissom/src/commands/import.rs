@@ -84,7 +84,7 @@ impl Import {
             },
         };
         let model = model_text(&robot, &pose, options).map_err(|error| bad(&error))?;
-        // What cannot start is not written.
+        // A model that cannot start is not written.
         match Model::from_text(&out.display().to_string(), &model).session(&[]) {
             Ok(_) => {}
             Err(SessionError::Model(report)) => return Err(report.into()),

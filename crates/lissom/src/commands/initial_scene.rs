@@ -1,4 +1,4 @@
-//! A model that has not moved yet, as pictures show it, and which analyses leave a motion.
+//! A model at its start, for pictures, and the analyses with a motion.
 
 use std::path::Path;
 
@@ -16,14 +16,14 @@ pub(super) struct InitialScene {
     pub(super) name: String,
     /// One line about it; empty for none.
     pub(super) title: String,
-    /// What it looks like.
+    /// Its drawing.
     pub(super) scene: Scene,
     /// A motion file of one frame.
     pub(super) motion: Vec<u8>,
 }
 
 impl InitialScene {
-    /// Reads a model and finds its start.
+    /// Reads a model and computes its initial state.
     pub(super) fn of(path: &Path, set: &[Override], quiet: bool) -> Result<Self, Failure> {
         let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let document = model.document(set)?;
@@ -34,7 +34,7 @@ impl InitialScene {
         let scene = Scene::of(&document, &lowered);
         let mut motion = Vec::new();
         let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
-        // Where the model starts from equilibrium, that is the start.
+        // If the model starts from equilibrium, the initial state is the equilibrium.
         let start = if document.starts_in_equilibrium() {
             let again = lower(&document)?;
             let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, error))?;
@@ -48,7 +48,7 @@ impl InitialScene {
     }
 }
 
-/// Buckling loads have a table of their own, and no motion.
+/// Rejects buckling analyses, which have a table of their own and no motion.
 pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result<(), Failure> {
     let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
     let kind = model.document(set)?.analysis.kind;

@@ -1,4 +1,4 @@
-//! `lissom kinds`: what a model can be made of, from the registry.
+//! `lissom kinds`: the elements of models, from the registry.
 
 use std::fmt::Write;
 
@@ -190,7 +190,7 @@ fn holds(holds: ParameterType) -> String {
     }
 }
 
-/// The keys that say what a kind is attached to, and a sample of those that are needed.
+/// The keys of a kind's attachment, and a sample of the required ones.
 fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
     const TWO: &str = "base = \"ground\"\ntip = \"my_body\"\nat = [0.0, 0.0, 0.0]";
     const PLACES: &str = "base = \"ground\"\ntip = \"my_body\"\nat_base = [0.0, 0.0, 0.0]";

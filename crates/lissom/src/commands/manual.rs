@@ -1,4 +1,4 @@
-//! The commands that the manual shows are commands of this program.
+//! Checks that the commands in the manual are commands of this program.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Words of a command as a shell takes them apart, without a comment.
+/// Words of a command as a shell separates them, without a comment.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut quote) = (Vec::new(), String::new(), None);
     let mut is_open = false;

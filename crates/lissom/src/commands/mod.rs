@@ -43,7 +43,7 @@ use crate::terminal;
 pub(crate) enum Exit {
     /// Success.
     Done,
-    /// The model or the command line is wrong.
+    /// The model or the command line is invalid.
     BadModel,
     /// There is no solution, or it cannot be written.
     Failed,
@@ -63,7 +63,7 @@ impl Exit {
     }
 }
 
-/// Why a command could not do its work: the exit code, and the words for a person.
+/// Why a command failed: the exit code, and the message.
 pub(crate) struct Failure {
     exit: Exit,
     words: String,
@@ -209,7 +209,7 @@ impl ModelArguments {
         Ok((model, document))
     }
 
-    /// The folder for results: the one that is given, or out/<name of the model file>-`of`.
+    /// The folder for results: the given one, or out/<name of the model file>-`of`.
     fn folder(&self, given: Option<PathBuf>, of: &str) -> PathBuf {
         let stem = self.model.file_stem().unwrap_or_default().to_string_lossy();
         given.unwrap_or_else(|| Path::new("out").join(format!("{stem}-{of}")))

@@ -17,9 +17,9 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Models of more nodes are not drawn: drawing would take longer than their modes.
+/// Models with more nodes are not drawn: drawing would take longer than computing their modes.
 const MAX_DRAWN: usize = 2000;
-/// Modes listed on the terminal; the tables have all.
+/// Modes listed on the terminal; the tables contain all.
 const LISTED: usize = 20;
 
 /// Find natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
@@ -75,7 +75,7 @@ impl Modes {
     }
 }
 
-/// Finds the modes and leaves them in a folder.
+/// Computes the modes and writes them to a folder.
 pub(super) fn report(
     (model, overrides, document): (&Model, &[Override], &Document),
     request: &ModeRequest,
@@ -109,7 +109,7 @@ pub(super) fn report(
     Ok(Exit::Done)
 }
 
-/// Writes the state about which the modes are, as a motion of one frame, for the page that shows them.
+/// Writes the state about which the model is linearised, as a motion of one frame, for the page that shows the modes.
 fn write_state(folder: &ResultFolder, document: &Document, found: &ModeReport) -> Result<(), Failure> {
     let lowered = lower(document)?;
     folder.write_scene(&Scene::of(document, &lowered)).map_err(unwritable)?;
@@ -126,7 +126,7 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     let failed = |error: &dyn std::fmt::Display| Failure::new(Exit::Failed, error.to_string());
     let lowered = lower(document)?;
     let mut bytes = Vec::new();
-    // A frame for each shape, with its number for a time.
+    // A frame for each shape, with its number as time.
     let frames: Vec<Kinematics> = (1_u32..)
         .zip(&found.moved)
         .map(|(number, moved)| Kinematics { time: f64::from(number), ..moved.clone() })

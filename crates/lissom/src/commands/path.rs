@@ -12,14 +12,14 @@ use serde_json::json;
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Interrupt};
 
-/// Handling of the results.
+/// Options for the results.
 pub(super) struct Wanted<'a> {
     pub(super) folder: &'a Path,
     pub(super) plots: bool,
     pub(super) quiet: bool,
 }
 
-/// Follows an equilibrium path and leaves its results in a folder.
+/// Computes an equilibrium path and writes its results to a folder.
 pub(super) fn run(
     (model, overrides, document): (&Model, &[Override], &Document),
     wanted: &Wanted<'_>,
@@ -37,7 +37,7 @@ pub(super) fn run(
         Ok(session) => session,
         Err(error) => {
             if !folder.has_results() {
-                // A text can be said in JSON.
+                // A string is valid JSON.
                 let _ = summary.insert("error", json!(error.to_string()));
                 folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
             }
@@ -49,7 +49,7 @@ pub(super) fn run(
     }
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
     let mut session = if wanted.plots {
-        // With both files the path can be seen even if the program is killed.
+        // With both files the path can be displayed even if the program is killed.
         folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
         session.with_motion(Box::new(folder.motion().map_err(|error| unwritable(error.into()))?))
     } else {

@@ -86,7 +86,7 @@ impl Plot {
     }
 }
 
-/// The last parts of the folders' names, as many as distinguish them.
+/// The shortest distinct endings of the folders' names.
 fn names(folders: &[PathBuf]) -> Vec<String> {
     let last = |folder: &Path, count: usize| -> String {
         let parts: Vec<String> =
@@ -100,7 +100,7 @@ fn names(folders: &[PathBuf]) -> Vec<String> {
             return names;
         }
     }
-    // One folder twice: numbers distinguish the curves.
+    // The same folder twice: numbers distinguish the curves.
     folders.iter().enumerate().map(|(k, folder)| format!("{} ({})", last(folder, 1), k + 1)).collect()
 }
 

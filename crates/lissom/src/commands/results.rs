@@ -1,4 +1,4 @@
-//! What analyses leave: their folder, and what a failed one without time steps has there.
+//! Results of analyses: their folder, and its contents after a failure of one without time steps.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::{Exit, Failure};
 
-/// The folder for what was `found`, emptied of former results. A failed analysis leaves its `summary` there, with the
+/// The folder for `found`, with earlier results removed. A failed analysis writes its `summary` to it, with the
 /// reason.
 pub(super) fn folder_for<T, E: Display>(
     path: &Path,
@@ -22,7 +22,7 @@ pub(super) fn folder_for<T, E: Display>(
         Ok(found) => Ok((folder, found)),
         Err(error) => {
             let mut summary = summary();
-            // A text can be said in JSON.
+            // A string is valid JSON.
             let _ = summary.insert("error", json!(error.to_string()));
             folder.write_summary(&summary).map_err(unwritable)?;
             Err(Failure::new(Exit::Failed, error))
@@ -30,7 +30,7 @@ pub(super) fn folder_for<T, E: Display>(
     }
 }
 
-/// Results that cannot be left where they belong.
+/// Results that cannot be written.
 pub(super) fn unwritable(error: impl Into<FolderError>) -> Failure {
     Failure::folder(Exit::Failed, &error.into())
 }

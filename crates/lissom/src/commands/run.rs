@@ -1,4 +1,4 @@
-//! `lissom run`: simulates a model and leaves its results in a folder.
+//! `lissom run`: simulates a model and writes its results to a folder.
 
 use std::fmt::Write;
 use std::fs::File;
@@ -80,7 +80,7 @@ pub(super) struct Run {
     threads: Option<NonZero<usize>>,
 }
 
-/// What a run is made of, whether it starts or goes on.
+/// The data of a new or resumed run.
 struct Task {
     model: Model,
     overrides: Vec<Override>,
@@ -91,7 +91,7 @@ struct Task {
 }
 
 impl Run {
-    /// The run that `lissom run` would start for a model, without threads or checkpoints being chosen.
+    /// The run that `lissom run` would start for a model, with default threads and without checkpoints.
     pub(super) fn of_model(model: &Path, set: &[Override], out: &Path, quiet: bool) -> Self {
         Self {
             model: Some(model.to_owned()),
@@ -170,7 +170,7 @@ impl Run {
         if let Some((recorder, scene)) = recorder.zip(scene) {
             session.write_states_to(Box::new(task.motion(&folder, recorder, &scene)?));
         }
-        // What a run that is killed leaves.
+        // Remains if the run is killed.
         summary::of_beginning(&mut summary);
         folder.write_summary(&summary).map_err(unwritable)?;
         let mut bar = Bar::new(session.progress().planned, !self.quiet);
@@ -247,7 +247,7 @@ impl Run {
             return Ok(());
         }
         match folder.write_plots(record, title) {
-            // Nothing to draw, or no way to draw it: the numbers are there.
+            // Nothing to draw, or drawing is impossible: the numbers are written.
             Err(error @ FolderError::Figure(_)) => {
                 if !self.quiet {
                     terminal::complain(&format!("warning: {error}\n"));
@@ -280,14 +280,14 @@ impl Run {
     }
 }
 
-/// Where an error is explained, as a line below its message.
+/// The command that explains an error, as a line below its message.
 fn explained(error: &impl Diagnose) -> String {
     let code = error.diagnostic().code;
     code.map(|code| format!("\n  `lissom explain {code}` explains it")).unwrap_or_default()
 }
 
 impl Task {
-    /// Records the motion, from the start or from where the run goes on.
+    /// Records the motion, from the start or from the point at which the run is resumed.
     fn motion(
         &self,
         folder: &ResultFolder,

@@ -106,7 +106,7 @@ enum From {
 
 impl Snapshot {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        // A name that says nothing is rejected before a model is simulated.
+        // A name without a known extension is rejected before a model is simulated.
         let is_png = match self.out.as_deref().map(Path::extension) {
             None => false,
             Some(Some(ending)) if ending.eq_ignore_ascii_case("svg") => false,
@@ -144,7 +144,7 @@ impl Snapshot {
             return self.draw((&scene, &motion, &title), (&folder, is_png)).map(|()| Exit::Done);
         }
         refuse_what_does_not_move(&self.what, &self.set)?;
-        // A run that failed leaves results up to there, one that could not start leaves none to be drawn.
+        // A failed run has results up to the failure; one that could not start has none to be drawn.
         match Run::of_model(&self.what, &self.set, &folder, self.quiet).run() {
             Ok(exit) => self.of_folder(&folder, is_png).map(|()| exit),
             Err(failure) if failure.exit == Exit::Failed && folder.join("motion.bin").is_file() => {
@@ -168,7 +168,7 @@ impl Snapshot {
         self.draw((&run.scene, &run.motion, &run.title), (folder, is_png))
     }
 
-    /// The first shapes beside each other, or one mode over its period.
+    /// The first shapes side by side, or one mode over its period.
     fn of_modes(&self, modes: &RecordedModes, folder: &Path, is_png: bool) -> Result<(), Failure> {
         let labels = modes.labels();
         let Some(number) = self.mode.map(|number| number as usize) else {
@@ -201,7 +201,7 @@ impl Snapshot {
         self.write(&picture, (&modes.scene, &motion, &modes.title), (folder, is_png))
     }
 
-    /// Number of pictures of one that moves.
+    /// Number of pictures of an animation.
     fn pictures(&self) -> Option<usize> {
         self.animate.map(|duration| (duration * PICTURES_PER_SECOND).round() as usize)
     }

@@ -1,4 +1,4 @@
-//! `lissom sweep`: solves a model many times with other values and leaves one table.
+//! `lissom sweep`: solves a model many times with different values and writes one table.
 
 use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
@@ -19,7 +19,7 @@ use serde_json::json;
 use super::{Exit, Failure};
 use crate::terminal::{self, Interrupt};
 
-/// Most members that are named when they have no solution.
+/// Maximum number of members without solution that are named.
 const NAMED: usize = 5;
 
 /// Solve a model many times with different values, on all processors.
@@ -114,7 +114,7 @@ impl SweepCommand {
         let bar = self.bar(sweep.len(), found);
         let mut keep = |outcome: MemberOutcome| {
             folder.append(&outcome)?;
-            // Histories are in their files now.
+            // Histories are already in their files.
             outcomes.push(MemberOutcome { history: None, ..outcome });
             Ok(())
         };
@@ -164,7 +164,7 @@ impl SweepCommand {
         Ok(Sweep::new(&model, file, &self.set)?)
     }
 
-    /// A bar of members with the time that is left; nothing in a pipe.
+    /// A progress bar of members with the remaining time; none in a pipe.
     fn bar(&self, members: usize, found: usize) -> ProgressBar {
         let bar = if !self.quiet && stderr().is_terminal() {
             ProgressBar::new(members as u64)
@@ -203,12 +203,12 @@ fn count(outcomes: &[MemberOutcome], state: MemberState) -> usize {
     outcomes.iter().filter(|outcome| outcome.state == state).count()
 }
 
-/// Time that all simulations of this process took together [s].
+/// Total time of all simulations of this process [s].
 fn simulating(outcomes: &[MemberOutcome]) -> f64 {
     outcomes.iter().map(|outcome| outcome.seconds).sum()
 }
 
-/// The facts of `sweep.json`.
+/// The contents of `sweep.json`.
 fn summary(
     sweep: &Sweep,
     outcomes: &[MemberOutcome],
@@ -230,7 +230,7 @@ fn summary(
         ("simulation_seconds", json!(simulating(outcomes))),
     ];
     for (name, fact) in facts {
-        // A JSON value can be said in JSON.
+        // A JSON value is valid JSON.
         let _ = summary.insert(name, fact);
     }
     summary

@@ -1,4 +1,4 @@
-//! `lissom view`: one HTML file that shows results as a moving picture with plots.
+//! `lissom view`: one HTML file that shows results as an animation with plots.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -1,23 +1,23 @@
-//! One request per connection over HTTP/1.1, of bounded size, in bounded time. Knows no page.
+//! One request per connection over HTTP/1.1, of bounded size, in bounded time. Independent of the page.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::time::{Duration, Instant};
 
-/// Longest head of a request: its first line and its headers [bytes].
+/// Maximum length of a request's head: its first line and its headers [bytes].
 const MAX_HEAD: usize = 1 << 14;
-/// Longest body [bytes].
+/// Maximum length of a body [bytes].
 const MAX_BODY: usize = 1 << 16;
-/// Most headers.
+/// Maximum number of headers.
 const MAX_HEADERS: usize = 64;
-/// Longest time that a request may take to arrive.
+/// Maximum time for the arrival of a request.
 const ARRIVAL: Duration = Duration::from_secs(10);
-/// Longest time that is spent on what is sent after a request.
+/// Maximum time for data that arrive after a request.
 const CLOSING: Duration = Duration::from_secs(1);
-/// Longest time that the other side may leave an answer unread.
+/// Maximum time for the client to read an answer.
 const DELIVERY: Duration = Duration::from_secs(10);
 
-/// A request that has arrived.
+/// A complete request.
 pub(super) struct Request {
     pub(super) method: String,
     /// Path and query.
@@ -33,7 +33,7 @@ impl Request {
     /// Reads a request.
     ///
     /// # Errors
-    /// With the status that answers a request which is malformed, too large or too slow.
+    /// With the status for a request that is malformed, too large or too slow.
     pub(super) fn read(stream: &mut TcpStream) -> Result<Self, Rejection> {
         let deadline = Instant::now() + ARRIVAL;
         let mut bytes = Vec::with_capacity(1024);
@@ -54,7 +54,7 @@ impl Request {
         let length = match (lengths.next(), lengths.next()) {
             (None, _) => 0,
             (Some(length), None) if length.bytes().all(|byte| byte.is_ascii_digit()) => {
-                // A number that is too large for a machine word is too large for a body.
+                // A number that overflows a machine word is too large for a body.
                 length.parse().unwrap_or(usize::MAX)
             }
             _ => return Err((400, "the length of the body is no number")),
@@ -71,7 +71,7 @@ impl Request {
         Ok(request)
     }
 
-    /// The request whose head is at the beginning of `bytes`, with the length of the head; nothing if it has not arrived yet.
+    /// The request whose head is at the beginning of `bytes`, with the length of the head; none if it is incomplete.
     fn parse(bytes: &[u8]) -> Result<Option<(Self, usize)>, Rejection> {
         let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
         let mut parsed = httparse::Request::new(&mut headers);
@@ -101,7 +101,7 @@ impl Request {
     }
 }
 
-/// Reads what has arrived, up to `most` bytes in all.
+/// Reads available data, up to `most` bytes in all.
 fn receive(
     stream: &mut TcpStream,
     bytes: &mut Vec<u8>,
@@ -158,8 +158,8 @@ pub(super) fn answer(
     stream.flush()
 }
 
-/// Ends a connection after an answer. What the other side has sent and nobody has read would make the system discard the
-/// answer: it is read for a short time.
+/// Ends a connection after an answer. If data of the client remain unread the system would discard the answer: they are
+/// read for a short time.
 pub(super) fn close(stream: &mut TcpStream) {
     let deadline = Instant::now() + CLOSING;
     let _ = stream.shutdown(Shutdown::Write);

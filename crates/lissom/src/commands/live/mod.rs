@@ -1,4 +1,4 @@
-//! `lissom live`: a page on this machine that shows a model and simulates it again whenever its file is saved.
+//! `lissom live`: a local page that shows a model and simulates it again whenever its file is saved.
 
 mod http;
 mod server;
@@ -16,7 +16,7 @@ use super::{Exit, Failure};
 use crate::terminal::{self, Interrupt};
 use simulation::Shared;
 
-/// How often Ctrl-C is looked for.
+/// Interval of checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Show a model in the browser and simulate it again whenever its file is saved.
@@ -52,7 +52,7 @@ pub(super) struct Live {
 impl Live {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        // A model that is not there is a slip; one that is wrong may be mended while the page is open.
+        // A missing file is a mistake in the command; an invalid model may be corrected while the page is open.
         Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let shared = Arc::new(Shared::default());
         let address = server::start(self.port, &self.model, &shared).map_err(|error| {

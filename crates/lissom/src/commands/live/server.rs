@@ -1,5 +1,5 @@
-//! The page of a model on this machine. Answers at one address that holds a random word, to this page's own requests, and
-//! hands out nothing but the page and the results: no file can be named.
+//! The local page of a model. It answers at one address that contains a random word, to this page's own requests, and
+//! serves only the page and the results: no file can be named.
 
 use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
@@ -15,14 +15,14 @@ use lissom::view;
 use super::http::{self, Request};
 use super::simulation::Shared;
 
-/// Longest time that a page waits for news before it asks again.
+/// Longest time for which a page waits for news before it asks again.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Most connections at a time; each page has one open while it waits.
+/// Maximum number of simultaneous connections; each page has one open while it waits.
 const MAX_CONNECTIONS: usize = 24;
 /// Stack of the thread of a connection [bytes].
 const STACK_SIZE: usize = 1 << 18;
 
-/// Serves the page in threads of its own for as long as the program runs. The address.
+/// Serves the page in threads of its own as long as the program runs. Returns the address.
 pub(super) fn start(port: u16, model: &Path, shared: &Arc<Shared>) -> io::Result<String> {
     let listener = TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)))?;
     let port = listener.local_addr()?.port();
@@ -35,14 +35,14 @@ pub(super) fn start(port: u16, model: &Path, shared: &Arc<Shared>) -> io::Result
         for mut stream in listener.incoming().flatten() {
             if busy.fetch_add(1, Ordering::SeqCst) >= MAX_CONNECTIONS {
                 busy.fetch_sub(1, Ordering::SeqCst);
-                // Fits into the system's buffer: nobody is waited for.
+                // Fits into the system's buffer: the write does not block.
                 answer(&mut stream, 503, "text/plain", "too many pages are open");
                 continue;
             }
             let (site, shared) = (Arc::clone(&site), Arc::clone(&shared));
             let own = Busy(Arc::clone(&busy));
             let thread = std::thread::Builder::new().stack_size(STACK_SIZE);
-            // If there is no room for a thread the connection is closed.
+            // If no thread can be created the connection is closed.
             let _ = thread.spawn(move || {
                 let _own = own;
                 match Request::read(&mut stream) {
@@ -56,7 +56,7 @@ pub(super) fn start(port: u16, model: &Path, shared: &Arc<Shared>) -> io::Result
     Ok(address)
 }
 
-/// Counts a connection for as long as it is open.
+/// Counts a connection as long as it is open.
 struct Busy(Arc<AtomicUsize>);
 
 impl Drop for Busy {
@@ -106,8 +106,8 @@ impl Site {
         }
     }
 
-    /// Whether a request comes from this page or from a person who has typed its address. A foreign page may make a
-    /// browser send requests here, but cannot keep it from reporting where they come from.
+    /// Whether a request comes from this page or from a user who has entered its address. A foreign page may make a
+    /// browser send requests here, but cannot prevent it from reporting their origin.
     fn is_own(&self, request: &Request) -> bool {
         let hosts = [format!("127.0.0.1:{}", self.port), format!("localhost:{}", self.port)];
         let mut host = request.named("Host");
@@ -131,6 +131,6 @@ fn answer(stream: &mut TcpStream, status: u16, kind: &str, text: &str) {
         ("Cross-Origin-Opener-Policy", "same-origin"),
         ("Referrer-Policy", "no-referrer"),
     ];
-    // A page that has been closed reads no answer.
+    // A closed page reads no answer.
     let _ = http::answer(stream, status, &headers, text.as_bytes());
 }

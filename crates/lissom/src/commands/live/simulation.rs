@@ -1,4 +1,4 @@
-//! The model behind a live page: read again when its file or a slider has changed, simulated, and handed to whoever waits.
+//! The model of a live page: read again when its file or a slider changes, simulated, and passed to the waiting pages.
 
 use std::collections::BTreeMap;
 use std::fs::Metadata;
@@ -18,16 +18,16 @@ use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// How often the file is looked at.
+/// Interval of checks of the file.
 const LOOK: Duration = Duration::from_millis(5);
-/// A file that was changed so shortly before may still be being written.
+/// A file that was changed more recently than this may still be being written.
 const SETTLED: Duration = Duration::from_millis(10);
-/// A mistake in a file is reported if the file has stayed as it is for so long: half of it may not have been written yet.
+/// A mistake in a file is reported if the file has been unchanged for this time: it may have been written only in part.
 const SURE: Duration = Duration::from_millis(200);
-/// The same for a file that is empty, as it is for a moment while it is saved.
+/// The same for an empty file, as files are for a moment while they are saved.
 const SURE_TO_BE_EMPTY: Duration = Duration::from_secs(2);
 
-/// What pages receive, and what they ask for.
+/// Data for pages, and their requests.
 #[derive(Default)]
 pub(super) struct Shared {
     state: Mutex<State>,
@@ -36,23 +36,23 @@ pub(super) struct Shared {
 
 #[derive(Default)]
 struct State {
-    /// Counts what is reported; zero before there is anything.
+    /// Number of reports; zero before the first.
     version: u64,
     /// As JSON.
     published: Arc<str>,
     /// Values of sliders.
     parameters: BTreeMap<String, f64>,
-    /// Counts changes of the sliders.
+    /// Number of changes of the sliders.
     asked: u64,
 }
 
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, State> {
-        // A thread that panicked cannot have left half a change: each is one assignment.
+        // A thread that panicked cannot have left a partial change: each change is one assignment.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is reported after `version`, as soon as there is something; nothing after `patience`.
+    /// The first report after `version`, as soon as there is one; none after `patience`.
     pub(super) fn wait_after(&self, version: u64, patience: Duration) -> Option<Arc<str>> {
         let is_old = |state: &mut State| state.version == version || state.version == 0;
         let waited = self.changed.wait_timeout_while(self.lock(), patience, is_old);
@@ -60,7 +60,7 @@ impl Shared {
         (!timeout.timed_out()).then(|| Arc::clone(&state.published))
     }
 
-    /// Takes values of sliders; those that are omitted go back to the file's.
+    /// Sets values of sliders; omitted ones are reset to those of the file.
     pub(super) fn ask(&self, parameters: BTreeMap<String, f64>) {
         let mut state = self.lock();
         state.parameters = parameters;
@@ -77,15 +77,15 @@ impl Shared {
     }
 }
 
-/// What a page receives.
+/// Data for a page.
 #[derive(Default, Serialize)]
 struct Message {
     version: u64,
     notice: Option<Notice>,
-    /// Nothing if the model is wrong.
+    /// None if the model is invalid.
     result: Option<Results>,
     parameters: Option<Vec<Value>>,
-    /// How long reading and simulating took [s].
+    /// Time for reading and simulating [s].
     seconds: f64,
 }
 
@@ -95,7 +95,7 @@ impl Message {
     }
 }
 
-/// Simulates in a thread of its own for as long as the program runs.
+/// Simulates in a thread of its own as long as the program runs.
 pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
     let shared = Arc::clone(shared);
     std::thread::spawn(move || {
@@ -108,12 +108,12 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
                 std::thread::sleep(LOOK);
                 continue;
             }
-            // Which files are included is known once the model has been read.
+            // The included files are known after the model has been read.
             if let Ok(text) = Model::read(&model) {
                 let _ = text.document(&set);
                 included = text.included_files();
             }
-            // The files are read only after they were looked at: a change in between is seen the next time.
+            // The files are read after their times: a change in between is detected in the next check.
             let now = Seen::of(&model, &included, &shared);
             let text = Model::read(&model);
             let is_current = || Seen::of(&model, &included, &shared) == now;
@@ -123,7 +123,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             while is_mistake && now.modified.is_some() && now.is_younger_than(sure) && is_current() {
                 std::thread::sleep(LOOK);
             }
-            // What was overtaken by a change is not sent.
+            // Results of an outdated model are not sent.
             if let Some(message) = message.filter(|_| is_current()) {
                 shared.publish(message);
             }
@@ -132,7 +132,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
     });
 }
 
-/// What a simulation depends on.
+/// Inputs of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
     length: u64,
@@ -166,14 +166,15 @@ impl Seen {
         self.length == 0 || self.included.iter().any(|(length, _)| *length == 0)
     }
 
-    /// Whether a file was changed so shortly before.
+    /// Whether a file was changed within this time.
     fn is_younger_than(&self, limit: Duration) -> bool {
         let times = std::iter::once(self.modified).chain(self.included.iter().map(|(_, modified)| *modified));
         times.flatten().filter_map(|modified| modified.elapsed().ok()).any(|age| age < limit)
     }
 }
 
-/// Simulates the model once; nothing if it has changed meanwhile. `bases` are the file's own values of the parameters.
+/// Simulates the model once; none if it has changed in the meantime. `bases` are the file's own values of the
+/// parameters.
 fn simulate(
     model: Result<Model, FileError>,
     set: &[Override],
@@ -226,7 +227,7 @@ impl Fault {
     }
 }
 
-/// A run in memory. Nothing if the model has changed meanwhile.
+/// A run in memory. None if the model has changed in the meantime.
 fn results(
     model: &Model,
     overrides: &[Override],
@@ -273,7 +274,7 @@ fn results(
     results.with_scene(&scene, &bytes).map(Some).map_err(Fault::plain)
 }
 
-/// An equilibrium path in memory. Nothing if the model has changed meanwhile.
+/// An equilibrium path in memory. None if the model has changed in the meantime.
 fn path(
     model: &Model,
     overrides: &[Override],
@@ -303,7 +304,7 @@ fn path(
     results.with_scene(&session.scene(), &motion.take()).map(Some).map_err(Fault::plain)
 }
 
-/// Bytes in memory that two may hold.
+/// Bytes in memory with two owners.
 #[derive(Clone, Default)]
 struct Buffer(Arc<Mutex<Vec<u8>>>);
 

@@ -45,7 +45,7 @@ pub(super) struct Conditioning {
     out: Option<PathBuf>,
 }
 
-/// A path and the values it takes.
+/// A path and its values.
 type Variation = (String, Vec<String>);
 
 fn parse_variation(text: &str) -> Result<Variation, String> {
@@ -63,7 +63,7 @@ impl Conditioning {
         let interrupt = Interrupt::listen();
         let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let request = self.request();
-        // The model alone need not fit together: its end may be before its own first step.
+        // The model alone need not be consistent: its end may be before its own first step.
         let document = model.document(&request.first())?;
         show_warnings(&document);
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;

@@ -1,4 +1,4 @@
-//! `lissom study factorization`: what scaling, augmented term and pivoting do to the first step.
+//! `lissom study factorization`: effects of scaling, augmented term and pivoting on the first step.
 
 use std::fmt::Write;
 use std::path::PathBuf;

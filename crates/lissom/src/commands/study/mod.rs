@@ -1,4 +1,4 @@
-//! `lissom study`: families of runs that show what a scaling or a scheme does to a model. One study per file.
+//! `lissom study`: families of runs that show the effects of a scaling or a scheme on a model. One study per file.
 
 mod conditioning;
 mod convergence;
@@ -61,7 +61,7 @@ impl From<StudyError> for Failure {
     }
 }
 
-/// Where the table goes: where asked, or to `out/study-<name>/<model>.csv`.
+/// Path of the table: the given one, or `out/study-<name>/<model>.csv`.
 fn table_path(out: Option<&PathBuf>, name: &str, model: &Path) -> PathBuf {
     out.cloned().unwrap_or_else(|| {
         let stem = model.file_stem().unwrap_or_default();
@@ -78,7 +78,7 @@ fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
         .map_err(|error| Failure::file(Exit::Failed, &error))
 }
 
-/// Draws the plot beside the table. What cannot be drawn is a warning: the numbers are there.
+/// Draws the plot beside the table. A failure to draw is a warning: the numbers are written.
 fn draw(figure: &LogFigure, table: &Path) -> Result<String, Failure> {
     let drawn = figure.svg().and_then(|svg| Ok((svg, figure.png()?)));
     let (svg, png) = match drawn {
@@ -117,7 +117,7 @@ fn aligned(lines: &[Vec<String>], words: usize) -> String {
     text
 }
 
-/// A number of two digits, with an exponent where it is large or small.
+/// A number of two digits, with an exponent if it is large or small.
 fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();

@@ -1,4 +1,4 @@
-//! `lissom study roundoff`: what is left of an output when steps are tiny.
+//! `lissom study roundoff`: round-off of an output at tiny steps.
 
 use std::fmt::Write;
 use std::path::PathBuf;
