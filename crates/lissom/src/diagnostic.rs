@@ -1,4 +1,4 @@
-//! Diagnostics of analyses and runs: those of what they contain, and the catalogue of all codes.
+//! Diagnostics of analyses and runs: their contents, and the catalogue of all codes.
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Value};
 use serde_json::json;
@@ -12,7 +12,7 @@ use crate::report::RunError;
 use crate::response::FrequencyError;
 use crate::session::SessionError;
 
-/// All codes of warnings and failures, with what they mean.
+/// All codes of warnings and failures, with their meaning.
 pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
     lissom_core::catalogue::entries().chain(gradient::ENTRIES)
 }

@@ -1,4 +1,5 @@
-//! The folder a run leaves behind: `history.csv`, `summary.json`, the motion with its scene, and the plots. Knows no simulation.
+//! The results folder of a run: `history.csv`, `summary.json`, the motion with its scene, and the plots. Independent of
+//! simulations.
 
 use std::fs::{File, TryLockError};
 use std::io::{BufWriter, Error, ErrorKind, Seek, SeekFrom};
@@ -22,7 +23,7 @@ const HISTORY: &str = "history.csv";
 pub(crate) const SUMMARY: &str = "summary.json";
 /// Name of the motion file in the folder.
 pub(crate) const MOTION: &str = "motion.bin";
-/// Name of what the motion is of.
+/// Name of the description of the scene.
 pub(crate) const SCENE: &str = "scene.json";
 /// Name of the page that shows the results.
 const PAGE: &str = "view.html";
@@ -33,7 +34,7 @@ const EVENTS: &str = "events.csv";
 /// Names of the tables of natural modes.
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
-/// Files of analyses of the linear model.
+/// Files of analyses of linear models.
 const OF_LINEAR_MODELS: [&str; 25] = [
     "shapes.svg",
     "energy.csv",
@@ -61,48 +62,48 @@ const OF_LINEAR_MODELS: [&str; 25] = [
     "state-space-C.mtx",
     "state-space-D.mtx",
 ];
-/// Name of the file with what the steps reported of their tangents.
+/// Name of the file with the telemetry of the steps' tangents.
 const TELEMETRY: &str = "telemetry.json";
-/// Name of the file that a run holds locked.
+/// Name of the file that a run locks.
 const LOCK: &str = ".lock";
 
-/// Results that cannot be left in the folder.
+/// Why results cannot be written or read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FolderError {
     /// A file or folder cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// The table of results is none.
+    /// The table of results is invalid.
     #[error("`{path}`: {error}")]
     Record {
         /// The file.
         path: String,
-        /// What is wrong with it.
+        /// The error.
         error: RecordError,
     },
-    /// The motion file is none.
+    /// The motion file is invalid.
     #[error("`{path}`: {error}")]
     Motion {
         /// The file.
         path: String,
-        /// What is wrong with it.
+        /// The error.
         error: MotionError,
     },
-    /// What describes how the model looks is none.
+    /// The scene is invalid.
     #[error("`{path}`: {error}")]
     Scene {
         /// The file.
         path: String,
-        /// What is wrong with it.
+        /// The error.
         error: SceneError,
     },
-    /// There are no results where they were expected.
+    /// There are no results at the given path.
     #[error("`{path}` {is}: pass a folder of results, such as `lissom run MODEL.toml --out DIR` leaves")]
     NoResults {
         /// The folder or file.
         path: String,
-        /// What it is instead.
+        /// Its actual content.
         is: &'static str,
     },
     /// There is no motion to be shown.
@@ -110,7 +111,7 @@ pub enum FolderError {
     NoMotion {
         /// The folder.
         path: String,
-        /// What it holds instead.
+        /// Its actual content.
         holds: &'static str,
     },
     /// A plot cannot be drawn.
@@ -118,7 +119,7 @@ pub enum FolderError {
     Figure(#[from] FigureError),
 }
 
-/// Takes the lock of a folder.
+/// Locks a folder.
 fn lock(path: &Path) -> Result<File, FileError> {
     let file = path.join(LOCK);
     let refuse = |source| files::failure(files::Action::Write, &file, source);
@@ -128,19 +129,19 @@ fn lock(path: &Path) -> Result<File, FileError> {
             ErrorKind::ResourceBusy,
             "another run is writing into this folder: wait for it, or choose another one with `--out`",
         ))),
-        // Where files cannot be locked runs are distinguished by the folders they are given.
+        // If files cannot be locked, runs are distinguished only by their folders.
         _ => Ok(lock),
     }
 }
 
-/// Protects the results in a folder which a command reads: it does not write over them.
+/// Protects the results in a folder that a command reads against being overwritten by it.
 pub fn protect_results(folder: &Path) {
     for name in [HISTORY, SUMMARY, MOTION, SCENE, EVENTS, MODES, SHAPES] {
         files::protect(&folder.join(name));
     }
 }
 
-/// Whether a file has a name that results may have: a table, a summary, or a plot of whatever output.
+/// Whether a file has a name of results: a table, a summary, or a plot of any output.
 fn is_result(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let ending = path.extension().unwrap_or_default();
@@ -152,16 +153,16 @@ fn is_result(path: &Path) -> bool {
 #[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
-    /// Held as long as a run writes into the folder; the system gives it back when the program ends, however it does.
+    /// Locked while a run writes into the folder; the system releases it when the program ends in any way.
     _lock: Option<File>,
 }
 
 impl ResultFolder {
-    /// The folder, created with those above it where it is missing, for a run that will write into it. What a former run
-    /// left stays until [`begin`](Self::begin).
+    /// The folder, created with its parents if it does not exist, for a run that will write into it. Earlier results
+    /// remain until [`begin`](Self::begin).
     ///
     /// # Errors
-    /// If it cannot be created, or another run writes into it.
+    /// If it cannot be created, or another run is writing into it.
     pub fn create(path: &Path) -> Result<Self, FileError> {
         files::create_folder(path)?;
         // Before anything is written or removed.
@@ -172,15 +173,15 @@ impl ResultFolder {
         Ok(Self { path: path.to_owned(), _lock: Some(lock) })
     }
 
-    /// Whether a former run has left results.
+    /// Whether there are earlier results.
     pub fn has_results(&self) -> bool {
         self.path.join(HISTORY).exists()
     }
 
-    /// Removes what a former run left: old results beside new ones would lie.
+    /// Removes earlier results, which would be wrong beside new ones.
     ///
     /// # Errors
-    /// If something cannot be removed.
+    /// If a file cannot be removed.
     pub fn clear(&self) -> Result<(), FileError> {
         let mut stale = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, EVENTS, MODES, SHAPES]
             .map(|name| self.path.join(name))
@@ -196,7 +197,7 @@ impl ResultFolder {
         stale.iter().try_for_each(|file| files::remove(file))
     }
 
-    /// Plots that were asked for of a former run, and what was handed to other programs.
+    /// Requested plots and exports of an earlier run.
     fn asked_for(&self) -> Vec<PathBuf> {
         let is_plot = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -206,20 +207,20 @@ impl ResultFolder {
         files::entries(&self.path).filter(is_plot).chain(export::files_in(&self.path)).collect()
     }
 
-    /// Removes what a former run left and gives a writer of the table: a run has started well.
+    /// Removes earlier results and returns a writer of the table, after a run has started successfully.
     ///
     /// # Errors
-    /// If something cannot be removed or created.
+    /// If a file cannot be removed or created.
     pub fn begin(&self) -> Result<CsvWriter<BufWriter<File>>, FileError> {
         self.clear()?;
         self.history()
     }
 
-    /// A folder left by a former run: its table and its title. Units and quantities come from the summary;
-    /// where that is missing, as after a crash, columns have none.
+    /// A folder of an earlier run: its table and its title. Units and quantities are those of the summary; if that is
+    /// missing, for example after a crash, columns have none.
     ///
     /// # Errors
-    /// If there is no table, or a text that is none.
+    /// If there is no table, or it is invalid.
     pub fn open(path: &Path) -> Result<(Self, Record, String), FolderError> {
         let history = path.join(HISTORY);
         if path.is_file() {
@@ -242,7 +243,7 @@ impl ResultFolder {
         Ok((Self { path: path.to_owned(), _lock: None }, record, title))
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -252,12 +253,12 @@ impl ResultFolder {
         files::create_file(&self.path.join(HISTORY)).map(CsvWriter::new)
     }
 
-    /// Where its table is.
+    /// Path of its table.
     pub fn history_path(&self) -> PathBuf {
         self.path.join(HISTORY)
     }
 
-    /// Where its motion file is.
+    /// Path of its motion file.
     pub fn motion_path(&self) -> PathBuf {
         self.path.join(MOTION)
     }
@@ -270,10 +271,10 @@ impl ResultFolder {
         files::create(&self.motion_path())
     }
 
-    /// Its motion file, to be written on from where `checkpoint` was taken, and the time of its last frame [s].
+    /// Its motion file, to be continued from `checkpoint`, and the time of its last frame [s].
     ///
     /// # Errors
-    /// If it is missing, shorter than the checkpoint says, or no motion file.
+    /// If it is missing, shorter than stated in the checkpoint, or not a motion file.
     pub fn resumed_motion(&self, checkpoint: &Checkpoint) -> Result<(File, Option<f64>), FolderError> {
         let path = self.motion_path();
         let mut file = checkpoint.open_motion(&path)?;
@@ -285,7 +286,7 @@ impl ResultFolder {
         Ok((file, last))
     }
 
-    /// Writes how the model looks.
+    /// Writes the scene.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -293,10 +294,10 @@ impl ResultFolder {
         files::write(&self.path.join(SCENE), scene.to_json().as_bytes())
     }
 
-    /// The folder of a run that goes on from a checkpoint, and the rows it has recorded up to there.
+    /// The folder of a run that is resumed from a checkpoint, and the rows recorded before it.
     ///
     /// # Errors
-    /// If the table is missing or shorter than the checkpoint says.
+    /// If the table is missing or shorter than stated in the checkpoint.
     pub fn resume(path: &Path, checkpoint: &Checkpoint) -> Result<(Self, Record), FolderError> {
         let history = path.join(HISTORY);
         checkpoint.open_history(&history)?;
@@ -305,7 +306,7 @@ impl ResultFolder {
         Ok((Self { _lock: Some(lock), ..folder }, record))
     }
 
-    /// A writer that goes on with its table.
+    /// A writer that appends to its table.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -351,7 +352,7 @@ impl ResultFolder {
         files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())
     }
 
-    /// Writes what the steps reported of their tangents.
+    /// Writes the telemetry of the steps' tangents.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -378,7 +379,7 @@ impl ResultFolder {
         Ok(files::write(&self.path.join("campbell.png"), &plot.png()?)?)
     }
 
-    /// Draws figures that were asked for into a folder, as SVG and as PNG, and returns where they are.
+    /// Draws requested figures into a folder, as SVG and as PNG, and returns their paths.
     ///
     /// # Errors
     /// If the folder or a figure cannot be made.
@@ -394,11 +395,10 @@ impl ResultFolder {
         Ok(written)
     }
 
-    /// Draws every output of `record`, as SVG and as PNG. What can be drawn is drawn, even when something
-    /// else cannot.
+    /// Draws every output of `record`, as SVG and as PNG. A failure of one plot does not prevent the others.
     ///
     /// # Errors
-    /// The first plot that could not be drawn or written.
+    /// The error of the first plot that could not be drawn or written.
     pub fn write_plots(&self, record: &CurveRecord, title: &str) -> Result<(), FolderError> {
         let mut first = Ok(());
         for figure in figures_of_curves(record, title) {

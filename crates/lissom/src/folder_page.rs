@@ -1,4 +1,4 @@
-//! What a page shows of a folder of results: a run with its motion, or natural modes.
+//! Content of the page of a results folder: a run with its motion, or natural modes.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -17,9 +17,9 @@ use crate::view::{Notice, Results};
 pub struct RecordedRun {
     /// One line about the model; empty for none.
     pub title: String,
-    /// What the model looks like.
+    /// The scene of the model.
     pub scene: Scene,
-    /// How it moves.
+    /// Its motion.
     pub motion: Motion,
     /// The table of results.
     pub record: Record,
@@ -29,7 +29,7 @@ impl ResultFolder {
     /// A run with its motion.
     ///
     /// # Errors
-    /// If the folder holds no table or no motion, or if table, motion or scene are none.
+    /// If the folder contains no table or no motion, or if table, motion or scene are invalid.
     pub fn recorded(path: &Path) -> Result<RecordedRun, FolderError> {
         if path.join(MODES).is_file() {
             let kind = "natural modes, whose shapes `lissom view` and `lissom snapshot` show";
@@ -42,7 +42,7 @@ impl ResultFolder {
         };
         let scene = read_scene(&path.join(SCENE))?;
         let motion = Motion::from_bytes(&bytes).map_err(|error| foreign(&path.join(MOTION), error))?;
-        // A scene of another model would show what has not been computed.
+        // A scene of another model would be misleading.
         let count = motion.reference().len();
         if scene.most_node() >= count || motion.header().point_count() > 0 && scene.beams.is_empty() {
             return Err(foreign(&path.join(SCENE), MotionError::Damaged));
@@ -50,10 +50,10 @@ impl ResultFolder {
         Ok(RecordedRun { title, scene, motion, record })
     }
 
-    /// All that a page shows of a folder left by a run or by a search for modes.
+    /// Content of the page of a folder with a run or natural modes.
     ///
     /// # Errors
-    /// If there is no table, or if table, motion or scene are none.
+    /// If there is no table, or if table, motion or scene are invalid.
     pub fn results(path: &Path) -> Result<Results, FolderError> {
         let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
         let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
@@ -73,7 +73,8 @@ impl ResultFolder {
             return Ok(results.with_notice(Notice::warning(text)));
         };
         let last = Motion::last_time(&motion).map_err(|error| foreign(&path.join(MOTION), error))?;
-        // A table that goes on after the motion is of another run, or of one that was resumed without it.
+        // A table that continues after the end of the motion is from another run, or from one that was resumed
+        // without it.
         if let (Some(frame), Some(row)) = (last, record.times.last())
             && (frame - row).abs() > 0.01 * (row - record.times[0]).abs()
         {
@@ -84,7 +85,7 @@ impl ResultFolder {
     }
 }
 
-/// Scene and motion, if there are any.
+/// Scene and motion, if they exist.
 fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
     let motion = path.join(MOTION);
     let bytes = match lissom_model::files::read(&motion) {
@@ -92,7 +93,7 @@ fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(files::failure(files::Action::Read, &motion, error).into()),
     };
-    // What is no motion file is reported before the scene is missed.
+    // An invalid motion file is reported before a missing scene.
     Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
     let scene = read_scene(&path.join(SCENE))?;
     let described =

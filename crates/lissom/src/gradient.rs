@@ -1,4 +1,4 @@
-//! Derivatives of an output by numbers of the model file, along the steps of a run.
+//! Derivatives of an output with respect to numbers of the model file, along the steps of a run.
 
 mod confirmation;
 mod method;
@@ -23,10 +23,10 @@ use method::{ParameterSensitivities, Question};
 use output_history::OutputHistory;
 use runs::by_runs;
 
-/// Newton's tolerance, at least: what it leaves is divided by the distance of the neighbours.
+/// Upper bound of Newton's tolerance: the remaining error is divided by the distance of the neighbours.
 const TOLERANCE: f64 = 1e-12;
 
-/// What of an output is differentiated.
+/// The scalar of an output that is differentiated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
     /// Its value at the end.
@@ -39,12 +39,12 @@ pub enum Measure {
     Rms,
 }
 
-/// An output's column and what of it is differentiated, such as `tip.u3@max`.
+/// An output's column and the scalar of it that is differentiated, such as `tip.u3@max`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// Name of the column.
     pub column: String,
-    /// What of it.
+    /// The scalar.
     pub measure: Measure,
 }
 
@@ -66,11 +66,11 @@ impl std::str::FromStr for Target {
     }
 }
 
-/// Derivatives that were not found.
+/// Why derivatives were not found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum GradientError {
-    /// The model is wrong, or wrong with a number that is changed a little.
+    /// The model is invalid, or becomes invalid if a number is changed slightly.
     #[error(transparent)]
     Model(#[from] Report),
     /// There are no consistent initial values.
@@ -82,15 +82,15 @@ pub enum GradientError {
     /// The model has no such column.
     #[error("the model has no output column `{name}`: its columns are {known}")]
     Column {
-        /// The name asked for.
+        /// The given name.
         name: String,
-        /// Those there are.
+        /// The existing columns.
         known: String,
     },
-    /// There is no number to differentiate by.
+    /// There is no such number.
     #[error("{0}")]
     Number(String),
-    /// The time is not one of the analysis.
+    /// The time is outside the analysis.
     #[error("the output at t = {time} s: the analysis runs from {start} to {end} s")]
     Time {
         /// The time [s].
@@ -105,10 +105,10 @@ pub enum GradientError {
         "an analysis of kind `{0}` has no steps to differentiate along: it must be of kind `dynamics` or `statics`"
     )]
     NotInTime(&'static str),
-    /// A neighbouring model has other unknowns.
+    /// A neighbouring model has different unknowns.
     #[error("another value at `{0}` changes the unknowns of the model: there is no derivative by it")]
     Unlike(String),
-    /// A function of time has its kinks at other times in a neighbouring model.
+    /// A function of time has its kinks at different times in a neighbouring model.
     #[error(
         "another value at `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s: steps end where it is, and see \
          nothing of how it moves; smooth it out over several steps, or compare runs"
@@ -125,7 +125,7 @@ pub enum GradientError {
          signals depend on the motion"
     )]
     Feedback,
-    /// A step was not solved as one.
+    /// A step was subdivided.
     #[error(
         "the step to t = {0:.6e} s was taken in parts, along which nothing is differentiated: it has no solution as a whole, or a load or \
          drive has a kink or jump there; choose a smaller step, steps that end at the kinks, or smooth them out"
@@ -141,22 +141,22 @@ pub enum GradientError {
         /// Path of the number.
         path: String,
     },
-    /// Runs of neighbouring models have other derivatives.
+    /// Runs of neighbouring models contradict the derivatives.
     #[error(
         "the derivatives add up to a change of {expected:e} where runs of the model with all numbers changed a little change by \
          {found:e}: the output may have jumps or kinks nearby; ask for another time, and take it for an error of the program \
          where that does not help"
     )]
     Denied {
-        /// What the derivatives add up to, in the unit of the output.
+        /// Change predicted by the derivatives, in the unit of the output.
         expected: f64,
-        /// What runs change by.
+        /// Change between the runs.
         found: f64,
     },
 }
 
 impl GradientError {
-    /// Whether the question is wrong rather than the answer missing.
+    /// Whether the request is invalid, as opposed to a failed computation.
     pub fn is_of_question(&self) -> bool {
         matches!(
             self,
@@ -190,23 +190,23 @@ pub struct Derivative {
     pub number: f64,
     /// Derivative of the measure by it.
     pub value: f64,
-    /// How it was found.
+    /// Method by which it was found.
     pub method: Method,
 }
 
-/// How a derivative was found.
+/// Method by which a derivative was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// The state's derivatives were carried along the steps.
+    /// Direct differentiation along the steps.
     Direct,
-    /// Neighbouring models took the same steps.
+    /// Neighbouring models with the same steps.
     Neighbours,
-    /// Whole runs were compared, because forces switch on the way.
+    /// Comparison of whole runs, because forces switch during the run.
     Runs,
 }
 
 impl Method {
-    /// Its word in `summary.json`.
+    /// Its name in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Direct => "carried",
@@ -223,23 +223,23 @@ pub struct GradientReport {
     pub value: f64,
     /// Time of the value, or of the largest one [s]; none for a mean.
     pub time: Option<f64>,
-    /// Its derivatives, in the order asked for.
+    /// Its derivatives, in the requested order.
     pub derivatives: Vec<Derivative>,
     /// Steps of the run.
     pub steps: usize,
     /// Corrections of derivatives over all steps, and of neighbouring models.
     pub corrections: usize,
-    /// What whole runs say of the derivatives that were carried; none where none were, or where it was not asked for.
+    /// Verification of direct derivatives by whole runs; none if there are none, or if it was not requested.
     pub confirmation: Option<Confirmation>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// Derivatives of `target` by the numbers at `paths` of `model`, with `overrides` put in place. Those that are carried along the
-/// steps are compared with a run of a neighbouring model if `confirms`.
+/// Derivatives of `target` with respect to the numbers at `paths` of `model`, with `overrides`. If `confirms`, direct
+/// derivatives are compared with a run of a neighbouring model.
 ///
 /// # Errors
-/// If the question makes no sense for the model, a step has no solution, or runs deny the derivatives.
+/// If the request is invalid for the model, a step has no solution, or runs contradict the derivatives.
 pub fn gradient(
     model: &Model,
     overrides: &[Override],
@@ -267,7 +267,7 @@ pub fn gradient(
     switches.have_changed(&session);
     while !session.is_finished() {
         session.advance()?;
-        // Equilibria do not depend on the way to them.
+        // Equilibria are independent of the path to them.
         if is_dynamic && switches.have_changed(&session) {
             let numbers =
                 sensitivities.into_numbers().0.into_iter().map(|(path, number, _)| (path, number)).collect();
@@ -295,7 +295,7 @@ pub fn gradient(
     Ok(GradientReport { value, time, derivatives, steps, corrections, confirmation, wall: began.elapsed() })
 }
 
-/// The signs of the numbers that change theirs where forces have a kink or a jump.
+/// Signs of the switching functions of forces with kinks or jumps.
 #[derive(Default)]
 struct Switches {
     signs: Vec<i8>,
@@ -319,10 +319,10 @@ impl Switches {
     }
 }
 
-/// What is differentiated, of which model.
+/// The request: model, overrides and target.
 type Asked<'a> = (&'a Model, &'a [Override], &'a Target);
 
-/// Largest error of a step in runs that are compared.
+/// Maximum error of a step in runs that are compared.
 const TOLERANCE_OF_RUNS: f64 = 1e-9;
 
 /// A run with other values of the numbers at `paths`.
@@ -351,7 +351,7 @@ fn run(
     Ok(history)
 }
 
-/// Derivatives of a measure by numbers where forces switch during the run.
+/// Derivatives of a measure with respect to numbers, if forces switch during the run.
 fn across_switches(
     asked: Asked<'_>,
     column: usize,
@@ -400,10 +400,10 @@ fn confirmed(
     confirm(&carried, values, &mut measure).map(Some)
 }
 
-/// Load steps where the model does not name their number.
+/// Number of load steps if the model does not specify it.
 const LOAD_STEPS: usize = 10;
 
-/// The document of a run up to the time that is asked for.
+/// The document of a run up to the requested time.
 fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Document, GradientError> {
     let mut document = model.document(overrides)?;
     let analysis = &mut document.analysis;
@@ -421,7 +421,7 @@ fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Do
             return Err(GradientError::Time { time, start, end });
         }
         if let AnalysisKind::Statics { steps: Some(steps), .. } = &mut analysis.kind {
-            // As many load steps as lead there.
+            // As many load steps as end there.
             *steps = ((*steps as f64 * (time - start) / (end - start)) - 1e-9).ceil().max(1.0) as usize;
         }
         analysis.end = time;
@@ -450,7 +450,7 @@ pub(crate) const ENTRIES: &[Entry] = &[
     },
 ];
 
-/// The code of derivatives that runs refute.
+/// The code of derivatives that runs contradict.
 pub(crate) const REFUTED: &str = "gradient-refuted";
 
 impl GradientReport {
@@ -464,7 +464,7 @@ impl GradientReport {
         text
     }
 
-    /// A warning about the derivatives, if there is one, after its code.
+    /// A warning about the derivatives, if there is one, as the text after its code.
     pub fn doubt(&self) -> Option<&'static str> {
         match self.confirmation {
             Some(Confirmation::Confirmed { .. }) => None,
@@ -478,7 +478,7 @@ impl GradientReport {
         }
     }
 
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document, of: &str) -> Summary {
         let mut summary = crate::summary::of_request("gradient", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);

@@ -1,9 +1,9 @@
-//! Flexible multibody dynamics: the front door to the simulator. Models are read or built, simulated and recorded
-//! here, in memory or to files; the command line is built on nothing else. No mechanics is done here.
+//! Flexible multibody dynamics: the public interface of the simulator. Models are read or built, simulated and
+//! recorded here, in memory or to files; the command line uses only this interface. Mechanics is in other crates.
 //!
 //! # A model from a file
 //!
-//! [`Model`] holds the text of a [model file](https://toml.io). Overrides change it without touching the text:
+//! [`Model`] contains the text of a [model file](https://toml.io). Overrides change values without changing the text:
 //!
 //! ```
 //! use lissom::Model;
@@ -30,8 +30,8 @@
 //!
 //! # A model built in code
 //!
-//! [`ModelBuilder`](builder::ModelBuilder) takes typed entries and gives ids, which represent names. It makes the same model as
-//! a file would, with the same checks. A cart on a spring, pushed from outside:
+//! [`ModelBuilder`](builder::ModelBuilder) accepts typed entries and returns ids, which represent names. It builds the same
+//! model as a file would, with the same checks. A cart on a spring, pushed by an input:
 //!
 //! ```
 //! use lissom::builder::analyses::Dynamics;
@@ -56,7 +56,7 @@
 //! builder.add(Dynamics::new(1.0).relative_tolerance(1e-8));
 //! let model = builder.build()?;
 //!
-//! // Steps end where they are wanted; inputs are held in between.
+//! // Steps end at the requested times; inputs are constant in between.
 //! let mut session = model.session(&[])?;
 //! session.set(push, 10.0)?;
 //! session.step_to(0.25)?;
@@ -67,7 +67,7 @@
 //! // The rail carries the cart.
 //! assert!((session.output(support)?[2] - 2.0 * 9.81).abs() < 1e-6);
 //!
-//! // A copy goes its own way.
+//! // A copy is independent of the original.
 //! let mut other = session.try_clone()?;
 //! other.set(push, -10.0)?;
 //! session.step_to(0.5)?;
@@ -79,8 +79,8 @@
 //!
 //! # Many sessions of one model
 //!
-//! [`Model::prepare`] builds the system once; all sessions that start from a [`Prepared`] model share it, in as many threads as
-//! there are. Each may start from a [`State`](core::system::State) of its own:
+//! [`Model::prepare`] builds the system once; all sessions that start from a [`Prepared`] model share it, in any number of
+//! threads. Each may start from a [`State`](core::system::State) of its own:
 //!
 //! ```
 //! use lissom::builder::{ModelBuilder, analyses::Dynamics, outputs::Position, parts::PointMass};
@@ -105,10 +105,11 @@
 //!
 //! # More
 //!
-//! A session that is between two steps is kept and restored by [`Session::snapshot`] and [`Session::restore`], to the last
-//! bit. Results go to files with a [`ResultFolder`]. [`modes`], [`buckling`], [`path`], [`response`], [`linearize`], [`campbell`]
-//! and [`gradient`] are analyses without steps in time, [`sweep`] and [`study`] run a model many times. The crate's `examples`
-//! folder has programs that check themselves: a pendulum, an arm that is driven from outside, a thousand copies on all cores.
+//! The state of a session between two steps is stored and restored by [`Session::snapshot`] and [`Session::restore`], to the last
+//! bit. Results are written to files with a [`ResultFolder`]. [`modes`], [`buckling`], [`path`], [`response`], [`linearize`],
+//! [`campbell`] and [`gradient`] are analyses without steps in time, [`sweep`] and [`study`] run a model many times. The crate's
+//! `examples` folder contains programs that check themselves: a pendulum, an arm with an external controller, a thousand copies
+//! on all cores.
 
 mod archive;
 pub mod buckling;
@@ -166,5 +167,5 @@ pub use session::{Checkpoints, Progress, ReadError, Session, SessionError, Sessi
 pub use state_writer::StateWriter;
 pub use timings::Seconds;
 
-/// Version of the program, as it is in every summary.
+/// Version of the program, as in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

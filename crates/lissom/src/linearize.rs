@@ -1,5 +1,5 @@
-//! The linear model as files of matrices: M, D, K and the constraints as they are, inputs and outputs, and first-order
-//! equations A, B, C, D of small models.
+//! The linear model as files of matrices: M, D, K and the constraints, inputs and outputs, and first-order equations
+//! A, B, C, D of small models.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -34,7 +34,7 @@ pub struct LinearizeRequest {
 pub struct LinearizeReport {
     /// Names of files and their texts.
     pub files: Vec<(String, String)>,
-    /// First-order equations, or why there are none.
+    /// First-order equations, or the reason for their absence.
     pub state_space: Result<StateSpace, StateSpaceError>,
     /// Names of the inputs.
     pub inputs: Vec<String>,
@@ -44,16 +44,16 @@ pub struct LinearizeReport {
     pub about: String,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
-    /// What may be wrong with it.
+    /// Warnings about it.
     pub warnings: Vec<String>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// Linearises `model`, with `overrides` put in place.
+/// Linearises `model` with `overrides`.
 ///
 /// # Errors
-/// If the question makes no sense for the model, or the state cannot be reached.
+/// If the request is invalid for the model, or the state cannot be reached.
 pub fn linearize(
     model: &Model,
     overrides: &[Override],
@@ -71,8 +71,8 @@ pub fn linearize(
     Ok(report)
 }
 
-/// Linearises the model of `document` where `session`, which runs it, is: what [`linearize`] gives about that time.
-/// `inputs` and `outputs` are named as in [`LinearizeRequest`].
+/// Linearises the model of `document` at the state of `session`, which runs it: the result of [`linearize`] about
+/// that time. `inputs` and `outputs` are named as in [`LinearizeRequest`].
 ///
 /// # Errors
 /// If an input or output does not exist, or the state is at rest without being in equilibrium.
@@ -93,7 +93,7 @@ pub fn linearize_session(
     Ok(report)
 }
 
-/// Derivatives by unknowns of one sort.
+/// Derivatives with respect to unknowns of one type.
 type Part = fn(&OutputDerivatives) -> &BTreeMap<usize, f64>;
 
 fn report_of(
@@ -213,7 +213,7 @@ fn unknowns(model: &LinearModel<'_>) -> String {
 }
 
 impl LinearizeReport {
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("linearize", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);

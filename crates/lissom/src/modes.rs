@@ -1,4 +1,4 @@
-//! Natural modes of a model about a state: finds the state, linearises there, and reports the modes in tables.
+//! Natural modes of a model about a state: computes the state, linearises there, and reports the modes in tables.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -20,51 +20,51 @@ use crate::session::SessionError;
 
 pub use crate::operating_point::OperatingPoint;
 
-/// Shapes that are drawn.
+/// Number of shapes that are drawn.
 const DRAWN: usize = 20;
-/// How far parts are moved in pictures of shapes, over the model's length, or turned [rad].
+/// Largest displacement in pictures of shapes, over the model's length, or rotation [rad].
 const FAR: f64 = 0.25;
 
-/// A mode that departs by more from being one when the model has turned belongs to coefficients that change.
+/// A mode with a larger deviation after a rotation of the model belongs to coefficients that are not constant.
 const CONSTANT: f64 = 3e-4;
-/// Departures up to so many times what round-off makes of them cannot be distinguished from it …
+/// Deviations up to this multiple of their round-off are not significant …
 const BEYOND_ROUND_OFF: f64 = 30.0;
-/// … unless round-off leaves nothing of the comparison.
+/// … unless round-off dominates the comparison.
 const MAX_ROUND_OFF: f64 = 1e-2;
 
-/// The request beyond the model; what is omitted is as the model's table `[analysis]` says if it is of kind `modes`.
+/// The request; omitted values are those of the model's table `[analysis]` if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ModeRequest {
-    /// How many modes; 20 where nothing says otherwise.
+    /// Number of modes; default 20.
     pub count: Option<usize>,
-    /// The state; static equilibrium where nothing says otherwise.
+    /// The state; default static equilibrium.
     pub about: Option<OperatingPoint>,
-    /// Frequency near which modes are sought [Hz]; the lowest ones where nothing says otherwise.
+    /// Frequency near which modes are searched for [Hz]; default the lowest ones.
     pub shift: Option<f64>,
 }
 
-/// Modes that were not found.
+/// Why modes were not found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModesError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
-    /// The time is not one of the analysis.
+    /// The time is outside the analysis.
     #[error("modes about t = {time} s: {reason}")]
     Time {
         /// The time [s].
         time: f64,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
-    /// A frequency that is none.
+    /// An invalid frequency.
     #[error("modes near {0} Hz: the frequency must be a number that is not negative")]
     Shift(f64),
-    /// The analysis on the way to the state has no start.
+    /// The analysis that computes the state has no consistent initial values.
     #[error(transparent)]
     Initial(#[from] InitialError),
-    /// The analysis on the way to the state has no solution.
+    /// The analysis that computes the state has no solution.
     #[error(transparent)]
     Step(#[from] StepError),
     /// The state is not in equilibrium.
@@ -77,7 +77,7 @@ pub enum ModesError {
         state: &'static str,
         /// Displacement over the model's length [-].
         imbalance: f64,
-        /// What to try.
+        /// Remedy.
         hint: &'static str,
     },
     /// There is no steady rotation.
@@ -89,14 +89,14 @@ pub enum ModesError {
          gravity across the axis, loads at rest in space and other motions are not steady in rotating axes"
     )]
     Unsteady(f64),
-    /// The rotation is steady at the azimuth of the start alone.
+    /// The rotation is steady only at the azimuth of the start.
     #[error(
         "the rotation is not steady: a part of a turn after the start the twists of nodes change by {0:.1e} of their squares, as \
          under gravity across the axis or other loads at rest in space; leave them out (`--unset gravity`), or let gravity act \
          along the axis"
     )]
     SteadyHereAlone(f64),
-    /// Coefficients change as the model turns.
+    /// Coefficients change as the model rotates.
     #[error(
         "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model turns ({departure:.1e}): parts that \
          turn and parts that do not are coupled across the axis, as by a support that yields; there are no multi-blade coordinates \
@@ -107,9 +107,9 @@ pub enum ModesError {
         number: usize,
         /// Its frequency at this instant [Hz].
         frequency: f64,
-        /// How far the mode is from being one a part of a turn later.
+        /// Deviation of the mode from a solution a fraction of a turn later.
         departure: f64,
-        /// Why multi-blade coordinates do not help.
+        /// Why multi-blade coordinates are not applicable.
         reason: &'static str,
     },
     /// There is no linear model.
@@ -118,7 +118,7 @@ pub enum ModesError {
     /// There are no modes.
     #[error(transparent)]
     Mode(#[from] ModeError),
-    /// Some modes were missed.
+    /// Some modes were not found.
     #[error(
         "{0} of the modes between the first and the last one were missed, as negative pivots show; ask for another `count`; where \
          very light parts make some frequencies thousands of times higher than others, for fewer modes, or for those near a \
@@ -140,12 +140,12 @@ impl From<SessionError> for ModesError {
     }
 }
 
-/// Modes of a model, with all reports about them.
+/// Modes of a model, with warnings.
 #[derive(Clone, Debug)]
 pub struct ModeReport {
     /// The modes, by ascending frequency, unstable ones first.
     pub modes: Vec<Mode>,
-    /// The state about which they are.
+    /// The state about which the model is linearised.
     pub state: Kinematics,
     /// Their shapes, node by node.
     pub shapes: Vec<Vec<NodeShape>>,
@@ -157,11 +157,11 @@ pub struct ModeReport {
     pub effective_masses: Vec<EffectiveMasses>,
     /// Mass and moments of inertia of the whole model.
     pub masses: EffectiveMasses,
-    /// The state moved along the first shapes, for pictures of them.
+    /// The state displaced along the first shapes, for pictures.
     pub moved: Vec<Kinematics>,
     /// Whether some may have been missed.
     pub completeness: Completeness,
-    /// How many were asked for.
+    /// The requested number.
     pub asked: usize,
     /// The state, in words.
     pub about: String,
@@ -169,16 +169,16 @@ pub struct ModeReport {
     pub time: f64,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
-    /// What may be wrong with them.
+    /// Warnings about them.
     pub warnings: Vec<String>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// Natural modes of `model`, with `overrides` put in place.
+/// Natural modes of `model` with `overrides`.
 ///
 /// # Errors
-/// If the model is wrong, the state cannot be reached or is not in equilibrium, or modes were missed.
+/// If the model is invalid, the state cannot be reached or is not in equilibrium, or modes were missed.
 pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Result<ModeReport, ModesError> {
     let began = Instant::now();
     let document = model.document(overrides)?;
@@ -223,19 +223,19 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     Ok(report)
 }
 
-/// Reports about modes in axes at rest.
+/// Note about modes in axes at rest.
 pub(crate) const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
     from there, shapes those of this instant";
 
-/// Reports about modes in axes of wheels.
+/// Note about modes in axes of wheels.
 const ROLLING: &str = "the coefficients are constant in axes alone that do not spin with the wheels: frequencies are those seen from there, \
     shapes those of this instant";
 
-/// Modes whose coefficients stay constant while the model turns.
+/// Modes whose coefficients are constant while the model rotates.
 pub(crate) struct Reliable<'a> {
     /// The modes.
     pub(crate) found: Modes,
-    /// The model in axes at rest, if they are its modes.
+    /// The model in axes at rest, if the modes are computed there.
     pub(crate) at_rest: Option<LinearModel<'a>>,
     /// The modes that are omitted, and the axes.
     pub(crate) warnings: Vec<String>,
@@ -248,11 +248,11 @@ struct Inconstant {
     departure: f64,
 }
 
-/// Those of the modes `found` of `model` whose coefficients stay constant while it turns, in the axes of the nodes or in axes at
-/// rest, whichever has more of them.
+/// Those of the modes `found` of `model` whose coefficients are constant while it rotates, in the axes of the nodes or in axes
+/// at rest, whichever has more of them.
 ///
 /// # Errors
-/// If no mode is among them.
+/// If there are none.
 pub(crate) fn reliable<'a>(
     model: &LinearModel<'a>,
     found: Modes,
@@ -299,7 +299,8 @@ pub(crate) fn reliable<'a>(
     Ok(chosen)
 }
 
-/// Divides modes of `own` by whether they are modes of `later`, too, the model a part of a turn later.
+/// Separates the modes of `own` that are also modes of `later`, the model a fraction of a turn later, from the
+/// others.
 fn divide(
     found: Modes,
     own: &LinearModel<'_>,
@@ -405,7 +406,7 @@ impl ModeReport {
         text
     }
 
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
@@ -444,7 +445,7 @@ impl ModeReport {
     }
 }
 
-/// What is known before the modes are; the summary of a search that failed says why.
+/// Contents that are known before the modes; the summary of a failed search contains the reason.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
     crate::summary::of_request("modes", name, overrides, document)
 }

@@ -16,33 +16,33 @@ use crate::session::Session;
 
 /// A state at rest whose unbalanced forces displace it by less than this fraction of the model's length is in equilibrium …
 const BALANCED: f64 = 1e-8;
-/// … and one that was solved for may miss it by so much.
+/// … and this is the limit for a state that was computed as an equilibrium.
 const STILL_BALANCED: f64 = 1e-6;
-/// Tolerance of the equilibrium, at least.
+/// Upper bound of the tolerance of the equilibrium.
 const TOLERANCE: f64 = 1e-12;
 /// A motion whose twists change by less, relative to the square of its rate, is steady.
 const STEADY: f64 = 1e-6;
-/// The same of a rotation whose positions were solved for, where light parts show round-off.
+/// The same for a rotation with computed positions, where light parts have more round-off.
 const STEADY_ROTATION: f64 = 1e-5;
 
 /// The state about which a model is linearised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OperatingPoint {
-    /// Static equilibrium: of a model with load steps at their end, of others under the loads at the start.
+    /// Static equilibrium: for a model with load steps at their end, for others under the loads at the start.
     Static,
     /// The positions of the model file, without gravity and loads.
     Undeformed,
     /// Steady rotation with the velocities of the file.
     Rotation,
-    /// The state that the model's own analysis reaches at this time [s].
+    /// The state of the model's own analysis at this time [s].
     Time(f64),
 }
 
-/// A model at a state.
+/// A model linearised at a state.
 pub(crate) struct LinearizationPoint<'m, 'a> {
-    /// Linearised there.
+    /// The linear model.
     pub(crate) model: &'m LinearModel<'a>,
-    /// What it records.
+    /// Its outputs.
     pub(crate) channels: &'m [Channel],
     /// Warnings about the results of the linear model.
     pub(crate) warnings: Vec<String>,
@@ -65,7 +65,7 @@ impl std::str::FromStr for OperatingPoint {
 }
 
 impl OperatingPoint {
-    /// Its words in `summary.json`.
+    /// Its name in `summary.json`.
     pub(crate) fn name(self) -> String {
         match self {
             Self::Static => "static".to_owned(),
@@ -75,14 +75,14 @@ impl OperatingPoint {
         }
     }
 
-    /// Steady rotation, or static equilibrium where nothing turns at the start.
+    /// Steady rotation, or static equilibrium if nothing rotates at the start.
     pub(crate) fn rotation_or_static(document: &Document) -> Result<Self, ModesError> {
         let lowered = lower(document)?;
         let turns = lowered.state.kinematics.nodes.iter().any(|node| rotation_part(&node.twist).norm() > 0.0);
         Ok(if turns { Self::Rotation } else { Self::Static })
     }
 
-    /// Finds the state, linearises `document` there, and hands it to `then`.
+    /// Computes the state, linearises `document` there, and passes it to `then`.
     pub(crate) fn linearized<T, E: From<ModesError>>(
         self,
         document: &Document,
@@ -109,7 +109,7 @@ impl OperatingPoint {
     }
 }
 
-/// A warning where a force has a kink at the state.
+/// A warning if a force has a kink at the state.
 fn kink_warning(model: &LinearModel<'_>) -> Option<String> {
     let kink = model.kink()?;
     let quantity = if kink.is_of_rate { "damping" } else { "stiffness" };
@@ -120,10 +120,10 @@ fn kink_warning(model: &LinearModel<'_>) -> Option<String> {
     ))
 }
 
-/// What takes the state that was found.
+/// Receives the computed state.
 type Hand<'h> = &'h mut dyn FnMut(LinearizationPoint<'_, '_>);
 
-/// What `then` makes of the state that `find` hands over. The search for the state is compiled once, whatever is made of it.
+/// Result of `then` for the state that `find` computes. The search for the state is compiled once for all uses.
 fn handed_over<T, E: From<ModesError>>(
     then: impl FnOnce(LinearizationPoint<'_, '_>) -> Result<T, E>,
     find: impl FnOnce(Hand<'_>) -> Result<(), ModesError>,
@@ -159,7 +159,7 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
     drop(model);
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
     let (system, mut state, doubts) = at_rest(system, state, &settings)?;
-    // Instability is reported by the modes themselves.
+    // Instability is reported with the modes themselves.
     let relaxed = doubts.iter().filter(|doubt| matches!(doubt, Warning::Relaxed { .. }));
     let warnings = relaxed.map(|doubt| format!("{}: {doubt}", doubt.code())).collect();
     stop(&mut state);
@@ -178,7 +178,7 @@ fn in_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
     if model.unsteadiness() > STEADY_ROTATION {
         return Err(ModesError::Unsteady(model.unsteadiness()));
     }
-    // Loads at rest in space can be in balance at one azimuth, as gravity across the axis of a rotor.
+    // Loads fixed in space can be in balance at one azimuth, such as gravity perpendicular to the axis of a rotor.
     let later = model.turned()?.unsteadiness();
     if later.is_nan() || later > STEADY_ROTATION {
         return Err(ModesError::SteadyHereAlone(later));
@@ -187,7 +187,7 @@ fn in_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
     Ok(())
 }
 
-/// The state that the model's own analysis reaches.
+/// The state of the model's own analysis.
 fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesError> {
     let (start, end) = (document.analysis.start, document.analysis.end);
     let wrong = |reason: String| Err(ModesError::Time { time, reason });
@@ -209,7 +209,7 @@ fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesErro
     where_it_stands(&session, &document, hand)
 }
 
-/// Linearises where `session`, which runs `document`, is.
+/// Linearises at the state of `session`, which runs `document`.
 pub(crate) fn now<T, E: From<ModesError>>(
     session: &Session,
     document: &Document,

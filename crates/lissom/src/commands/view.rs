@@ -59,7 +59,7 @@ pub(super) struct View {
 impl View {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         if let Some(target) = &self.html {
-            // Before anything is simulated.
+            // Before any simulation.
             files::protect(&self.what);
             files::check_target(target).map_err(|error| unwritable(&error))?;
         }
@@ -73,7 +73,7 @@ impl View {
         }
         refuse_what_does_not_move(&self.what, &self.set)?;
         let run = Run::of_model(&self.what, &self.set, &folder, self.quiet).run();
-        // A run that failed leaves results up to there, one that could not start leaves none to be shown.
+        // A failed run has results up to the failure; one that could not start has none to be shown.
         match run {
             Ok(exit) => self.show(&folder).map(|()| exit),
             Err(failure) if failure.exit == Exit::Failed && folder.join("motion.bin").is_file() => {
@@ -104,7 +104,7 @@ impl View {
         self.write(&target, &results)
     }
 
-    /// Writes the page of a model that has not moved yet.
+    /// Writes the page of a model at its start.
     fn view_start(&self, folder: &Path) -> Result<Exit, Failure> {
         let InitialScene { name, title, scene, motion } =
             InitialScene::of(&self.what, &self.set, self.quiet)?;
@@ -139,7 +139,7 @@ fn unwritable(error: &FileError) -> Failure {
     Failure::file(Exit::Failed, error)
 }
 
-/// Opens a file or address as the desktop does. Whether that could be started.
+/// Opens a file or address with the desktop's default program. Whether that could be started.
 pub(super) fn open(what: impl AsRef<std::ffi::OsStr>) -> bool {
     let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])

@@ -1,15 +1,15 @@
-//! The binary part of a glTF file: numbers, and what describes them.
+//! The binary part of a glTF file: numbers, and their descriptions.
 
 use serde_json::{Value, json};
 
-/// Numbers of 32 bits.
+/// 32-bit floating-point numbers.
 const FLOAT: u32 = 5126;
-/// Whole numbers of 32 bits.
+/// 32-bit integers.
 const WHOLE: u32 = 5125;
-/// Whole numbers of 16 bits.
+/// 16-bit integers.
 const SHORT: u32 = 5123;
 
-/// Numbers one after the other, with their accessors.
+/// Concatenated numbers, with their accessors.
 #[derive(Default)]
 pub(super) struct Buffer {
     pub(super) bytes: Vec<u8>,
@@ -33,7 +33,7 @@ impl Buffer {
         self.accessors.len() - 1
     }
 
-    /// Vectors of so many numbers, with their extremes if `is_bounded`. Returns the number of the accessor.
+    /// Vectors of this number of components, with their extremes if `is_bounded`. Returns the index of the accessor.
     pub(super) fn vectors(
         &mut self,
         values: &[f32],
@@ -58,13 +58,13 @@ impl Buffer {
         self.add(values.iter().flat_map(|value| value.to_le_bytes()), accessor, target)
     }
 
-    /// Numbers of points, three for each triangle.
+    /// Indices of points, three for each triangle.
     pub(super) fn triangles(&mut self, points: &[u32]) -> usize {
         let accessor = json!({ "componentType": WHOLE, "count": points.len(), "type": "SCALAR" });
         self.add(points.iter().flat_map(|point| point.to_le_bytes()), accessor, Some(34963))
     }
 
-    /// The one joint of a skin that each vertex follows.
+    /// The one joint of a skin for each vertex.
     pub(super) fn joints(&mut self, joints: &[u16]) -> usize {
         let accessor = json!({ "componentType": SHORT, "count": joints.len(), "type": "VEC4" });
         let four = |joint: &u16| [*joint, 0, 0, 0];

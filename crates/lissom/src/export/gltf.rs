@@ -1,5 +1,5 @@
-//! glTF 2.0, the binary form `.glb`: the mechanism with its motion as one animation. Bodies and symbols hang on nodes that
-//! move; a beam is a skin over its sections, each of which moves as a whole, so that it is exact at every frame.
+//! glTF 2.0, the binary form `.glb`: the mechanism with its motion as one animation. Bodies and symbols belong to moving
+//! nodes; a beam is a skin over its sections, each of which moves rigidly, so that it is exact at every frame.
 
 use std::collections::BTreeMap;
 
@@ -21,10 +21,10 @@ pub(super) const FORMAT: Format = Format {
     write,
 };
 
-/// Position, rotation and length along the second axis of something at every frame.
+/// Position, rotation and length along the second axis of an object at every frame.
 type Track = Vec<(Pose, f64)>;
 
-/// A file that grows.
+/// A file under construction.
 #[derive(Default)]
 struct File {
     buffer: Buffer,
@@ -44,7 +44,7 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
     let geometry = Geometry::new(&run.scene, motion, false);
     let all: Vec<Vec<Pose>> = frames.iter().map(|frame| poses(motion, *frame)).collect();
     let mut file = File::default();
-    // glTF has y upward.
+    // In glTF y points upward.
     let up = Pose::new(turn_to(&geometry.up).inverse(), Vector3::zeros());
     let root = file.node("model", &(up, 1.0));
     let start = motion.times()[first];
@@ -79,7 +79,7 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
                     (root, clock),
                 ));
             }
-            // Arrows of loads are drawn in pictures alone.
+            // Arrows of loads are drawn only in pictures.
             Carrier::Arrow(_) => {}
         }
     }
@@ -91,7 +91,7 @@ fn floats(values: impl IntoIterator<Item = f64>) -> Vec<f32> {
     values.into_iter().map(|value| value as f32).collect()
 }
 
-/// Quaternion with the scalar last, as glTF has it.
+/// Quaternion with the scalar last, as in glTF.
 fn quaternion(pose: &Pose) -> [f64; 4] {
     let [w, x, y, z] = pose.rotation.quaternion();
     [x, y, z, w]
@@ -109,7 +109,7 @@ impl File {
         self.nodes.len() - 1
     }
 
-    /// A node that shows a mesh and moves with another one.
+    /// A node that contains a mesh and moves with another one.
     fn holding(&mut self, name: &str, mesh: usize) -> usize {
         self.nodes.push(json!({ "name": name, "mesh": mesh }));
         self.nodes.len() - 1
@@ -131,7 +131,7 @@ impl File {
         }
         let places = floats(track.iter().flat_map(|(pose, _)| <[f64; 3]>::from(pose.position)));
         self.channel(node, "translation", (&places, 3), clock);
-        // A quaternion and its opposite are one rotation: those are taken that follow each other.
+        // A quaternion and its opposite are the same rotation: the sign closest to the previous one is chosen.
         let mut last = quaternion(&track[0].0);
         let mut turns = Vec::new();
         for (pose, _) in track {
@@ -159,7 +159,7 @@ impl File {
         if let Some(known) = self.colours.iter().position(|known| *known == colour) {
             return known;
         }
-        // From the numbers of a screen to those of light.
+        // From screen values to linear light.
         let linear = |part: u8| (f64::from(part) / 255.0).powf(2.2);
         let [r, g, b] = shade_of(colour).map(linear);
         self.colours.push(colour);
@@ -168,7 +168,7 @@ impl File {
         self.materials.len() - 1
     }
 
-    /// A mesh whose faces are flat: every face has points of its own.
+    /// A mesh with flat faces: every face has its own points.
     fn mesh(&mut self, mesh: &Mesh, material: usize) -> usize {
         let (attributes, indices, _) = self.faces(mesh);
         self.meshes.push(json!({ "primitives": [
@@ -176,7 +176,7 @@ impl File {
         self.meshes.len() - 1
     }
 
-    /// Attributes and triangles of flat faces, and which point of the mesh each vertex is.
+    /// Attributes and triangles of flat faces, and the point of the mesh for each vertex.
     fn faces(&mut self, mesh: &Mesh) -> (Value, usize, Vec<u32>) {
         let (mut places, mut normals, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
         let mut origins: Vec<u32> = Vec::new();
@@ -234,7 +234,7 @@ impl File {
         }
         let bind = self.buffer.vectors(&floats(bind), 16, false, None);
         self.skins.push(json!({ "inverseBindMatrices": bind, "joints": bones, "skeleton": root }));
-        // A skin takes its position from its bones alone.
+        // The position of a skin is determined by its bones only.
         self.nodes.push(json!({ "name": piece.name, "mesh": mesh, "skin": self.skins.len() - 1 }));
         self.nodes.len() - 1
     }

@@ -15,10 +15,10 @@ use lissom_motion::Motion as Pose;
 use crate::folder_page::RecordedRun;
 use crate::motion::Motion;
 
-/// Takes a file by its name below the target and its bytes.
+/// Writes a file, given its name below the target and its bytes.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), FileError> + 'a;
 
-/// Results that cannot be handed over.
+/// Why results could not be exported.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExportError {
@@ -28,41 +28,41 @@ pub enum ExportError {
     /// The motion has no frames.
     #[error("the motion holds no frame: run the model again")]
     Empty,
-    /// An archive cannot be packed.
+    /// The archive could not be written.
     #[error("the archive cannot be packed: {0}; ask for fewer frames or outputs")]
     Archive(#[from] std::io::Error),
-    /// It is more than the format takes.
+    /// It exceeds the limits of the format.
     #[error("the results are larger than this format takes, 4 GB: ask for fewer frames or outputs")]
     TooLarge,
 }
 
 /// A format of other programs.
 pub struct Format {
-    /// Its word on the command line.
+    /// Its name on the command line.
     pub name: &'static str,
-    /// What it is, and who reads it.
+    /// Its description and the programs that read it.
     pub summary: &'static str,
     /// Name of its one file, or of the folder of its files, below the folder of results.
     pub target: &'static str,
     /// Whether there are several files.
     pub is_folder: bool,
-    /// How the names of its files begin and end, where there are several.
+    /// Beginnings and endings of the names of its files, if there are several.
     pub files: &'static [(&'static str, &'static str)],
-    /// Hands over a run by so many frames of its motion at most.
+    /// Exports a run with at most this number of frames of its motion.
     pub write: fn(&RecordedRun, usize, &mut Sink<'_>) -> Result<(), ExportError>,
 }
 
 /// All formats.
 pub static FORMATS: &[Format] = &[gltf::FORMAT, npz::FORMAT, parquet::FORMAT, vtk::FORMAT];
 
-/// Files that exports have left in a folder of results.
+/// Files of earlier exports in a folder of results.
 pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {
     let of = |format: &Format| -> Vec<PathBuf> {
         let target = folder.join(format.target);
         if !format.is_folder {
             return vec![target];
         }
-        // What others have put there stays.
+        // Other files are kept.
         let is_own = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             format.files.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
@@ -72,7 +72,7 @@ pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {
     FORMATS.iter().flat_map(of).collect()
 }
 
-/// At most so many frames of a motion, its first and last among them, at equal distances.
+/// At most this number of frames of a motion, including its first and last, at equal distances.
 fn chosen_frames(motion: &Motion, most: usize) -> Vec<usize> {
     let count = motion.times().len();
     if count <= most || most < 2 {

@@ -1,11 +1,11 @@
-//! Arrays as NumPy stores them: version 1.0 of the format `.npy`, little-endian, by rows.
+//! Arrays in the format of NumPy: version 1.0 of `.npy`, little-endian, by rows.
 
 /// An array of numbers.
 pub(crate) fn numbers(shape: &[usize], values: &[f64]) -> Vec<u8> {
     with_header("<f8", shape, values.iter().flat_map(|value| value.to_le_bytes()))
 }
 
-/// An array of numbers in half the bytes.
+/// An array of numbers in single precision.
 pub(crate) fn short_numbers(shape: &[usize], values: &[f32]) -> Vec<u8> {
     with_header("<f4", shape, values.iter().flat_map(|value| value.to_le_bytes()))
 }
@@ -24,7 +24,7 @@ fn with_header(kind: &str, shape: &[usize], content: impl Iterator<Item = u8>) -
     let sizes: Vec<String> = shape.iter().map(|size| format!("{size},")).collect();
     let mut header =
         format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", sizes.join(" "));
-    // The content begins at a multiple of 64 bytes; the header ends with a line end.
+    // The content begins at a multiple of 64 bytes; the header ends with a newline.
     let whole = (10 + header.len() + 1).next_multiple_of(64);
     header.extend(std::iter::repeat_n(' ', whole - 10 - header.len() - 1));
     header.push('\n');

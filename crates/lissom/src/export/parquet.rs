@@ -1,4 +1,4 @@
-//! Parquet: the table of a run for pandas, DuckDB, Polars and the like.
+//! Parquet: the table of a run for pandas, DuckDB, Polars and similar programs.
 
 use serde_json::{Map, json};
 

@@ -1,4 +1,4 @@
-//! VTK, as ParaView reads it: one `.vtu` file for every frame and a `.pvd` file that names their times. Beams are swept
+//! VTK, for ParaView: one `.vtu` file for every frame and a `.pvd` file that lists their times. Beams are swept
 //! sections with section forces at their points.
 
 use std::fmt::Write;
@@ -49,7 +49,7 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
     Ok(sink("parts.csv", parts.as_bytes())?)
 }
 
-/// Every part once, in the order of its number.
+/// Every part once, in the order of its index.
 fn names(geometry: &Geometry) -> Vec<(String, Role)> {
     let mut names: Vec<(String, Role)> = Vec::new();
     for piece in &geometry.pieces {
@@ -114,7 +114,8 @@ impl Grid {
         }
     }
 
-    /// Section forces and moments at the points of a beam, straight between those of the motion; zero elsewhere.
+    /// Section forces and moments at the points of a beam, interpolated linearly between those of the motion; zero
+    /// elsewhere.
     fn section_forces(&mut self, piece: &Piece, count: usize, (motion, frame): (&Motion, usize)) {
         let mut first = 0;
         let mut of_beam = None;
@@ -173,7 +174,7 @@ impl Grid {
     }
 }
 
-/// Bytes with their number before them, in letters.
+/// Bytes in base64, preceded by their number.
 fn encoded(bytes: impl Iterator<Item = u8>) -> String {
     let bytes: Vec<u8> = bytes.collect();
     base64(&[&(bytes.len() as u64).to_le_bytes(), bytes.as_slice()].concat())

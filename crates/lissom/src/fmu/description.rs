@@ -77,7 +77,7 @@ fn of_variable(reference: usize, variable: &Variable) -> String {
     text + "/>"
 }
 
-/// A text as the value of an attribute.
+/// A text escaped for the value of an attribute.
 fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for letter in text.chars() {

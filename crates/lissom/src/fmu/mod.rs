@@ -1,5 +1,5 @@
-//! Models as functional mock-up units (FMI 3.0, co-simulation): which variables they have, and the archive that holds model,
-//! description and the shared library that simulates it. The library itself is made in `crates/lissom-fmi`.
+//! Models as functional mock-up units (FMI 3.0, co-simulation): their variables, and the archive with model, description and
+//! the shared library that simulates it. The library itself is built in `crates/lissom-fmi`.
 
 mod description;
 
@@ -14,19 +14,19 @@ use serde::{Deserialize, Serialize};
 use crate::model::{Model, Override};
 use crate::session::columns;
 
-/// Name of the shared library in a unit, without its ending.
+/// Name of the shared library in a unit, without its extension.
 pub const LIBRARY: &str = "lissom_fmi";
 /// Name of the file with the model among the resources of a unit.
 pub const MODEL_FILE: &str = "model.json";
 
-/// A model that cannot become a unit.
+/// Why a model cannot become a unit.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FmuError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
-    /// What is computed has no course in time.
+    /// The analysis has no time history.
     #[error(
         "an analysis of kind `{0}` has no course in time: a unit needs one of kind `dynamics` or `statics`"
     )]
@@ -39,14 +39,14 @@ pub enum FmuError {
     Archive(#[from] std::io::Error),
 }
 
-/// What a variable of a unit is to those that use it.
+/// Role of a variable of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Causality {
     /// The time.
     Independent,
-    /// An entry of `[inputs]`, set while the unit runs.
+    /// An entry of `[inputs]`, which can be set while the unit runs.
     Input,
-    /// An entry of `[parameters]` that is written as a number, set before the unit runs.
+    /// An entry of `[parameters]` with a numeric value, which can be set before the unit runs.
     Parameter,
     /// A column that the model records.
     Output,
@@ -57,51 +57,51 @@ pub enum Causality {
 pub struct Variable {
     /// Its name: that of the input, parameter or column.
     pub name: String,
-    /// What it is.
+    /// Its role.
     pub causality: Causality,
-    /// Value at the start of inputs and parameters; nothing of others.
+    /// Initial value of inputs and parameters; none for others.
     pub start: Option<f64>,
     /// Its unit; empty for none.
     pub unit: String,
-    /// What is recorded of outputs.
+    /// Recorded quantity of outputs.
     pub quantity: String,
 }
 
-/// What a unit offers.
+/// Variables and time range of a unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interface {
     /// All variables: the time, inputs, parameters, outputs. The value reference of each is its index.
     pub variables: Vec<Variable>,
     /// First and last time of the model's analysis [s].
     pub span: [f64; 2],
-    /// Step of the model's analysis [s]; none where steps are chosen by their error, or of load steps.
+    /// Step of the model's analysis [s]; none for adaptive steps, or for load steps.
     pub step: Option<f64>,
     /// One line about the model.
     pub title: String,
 }
 
-/// A model as it is among the resources of a unit: nothing beside it is needed.
+/// A model with all its files, as stored among the resources of a unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PackedModel {
     /// Version of the program that packed it.
     pub version: String,
-    /// What messages call it.
+    /// Its name in messages.
     pub name: String,
     /// Its text.
     pub text: String,
-    /// Values that were put into it.
+    /// Its overrides.
     pub overrides: Vec<Override>,
-    /// Texts of the files that it includes, by their paths.
+    /// Texts of the files that it includes, by path.
     pub included: BTreeMap<String, String>,
 }
 
 impl PackedModel {
-    /// A model with `overrides` put in place.
+    /// A model with `overrides`.
     ///
     /// # Errors
-    /// If the model is wrong.
+    /// If the model is invalid.
     pub fn of(model: &Model, overrides: &[Override]) -> Result<Self, Report> {
-        // The files are read as the document is made.
+        // The files are read when the document is built.
         lower(&model.document(overrides)?)?;
         Ok(Self {
             version: crate::VERSION.to_owned(),
@@ -120,14 +120,14 @@ impl PackedModel {
     /// As the text of a JSON object.
     ///
     /// # Panics
-    /// Never: texts can always be said in JSON.
+    /// Never: texts are valid JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("texts can always be said in JSON")
     }
 
-    /// What distinguishes units: the same for the same model and version.
+    /// Identifier of the unit: equal for equal models and versions.
     pub fn token(&self) -> String {
-        // FNV-1a, from two starts.
+        // FNV-1a, from two initial values.
         let hash = |start: u64| {
             let byte = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
             self.to_json().bytes().fold(start, byte)
@@ -137,10 +137,10 @@ impl PackedModel {
 }
 
 impl Interface {
-    /// What a unit of `model`, with `overrides` put in place, offers.
+    /// The interface of a unit of `model` with `overrides`.
     ///
     /// # Errors
-    /// If the model is wrong, has no course in time, or a name would mean two variables.
+    /// If the model is invalid, has no time history, or two variables would have the same name.
     pub fn of(model: &Model, overrides: &[Override]) -> Result<Self, FmuError> {
         let document = model.document(overrides)?;
         let step = match &document.analysis.kind {
@@ -189,7 +189,7 @@ fn variables(model: &Model, overrides: &[Override], document: &Document) -> Resu
 /// The archive of a unit. `library` is the shared library for this machine's platform.
 ///
 /// # Errors
-/// If the model is wrong or cannot become a unit.
+/// If the model is invalid or cannot become a unit.
 pub fn export(model: &Model, overrides: &[Override], library: &[u8]) -> Result<Vec<u8>, FmuError> {
     let packed = PackedModel::of(model, overrides)?;
     let interface = Interface::of(model, overrides)?;
@@ -201,7 +201,7 @@ pub fn export(model: &Model, overrides: &[Override], library: &[u8]) -> Result<V
     Ok(crate::archive::zip(&files)?)
 }
 
-/// The folder of this machine's platform, as FMI 3.0 calls it.
+/// The folder of this machine's platform, as named by FMI 3.0.
 pub fn platform() -> String {
     let system = match std::env::consts::OS {
         "macos" => "darwin",

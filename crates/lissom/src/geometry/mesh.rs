@@ -1,14 +1,14 @@
-//! Surfaces made of flat faces, and the solids that symbols are made of.
+//! Surfaces of flat faces, and the solids of symbols.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lissom_model::scene::{Form, Solid, Surface};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
 
-/// Sides of what is round.
+/// Number of sides of round shapes.
 const ROUND: usize = 20;
 
-/// A closed surface. Faces are convex and flat or nearly so; seen from outside their points run counterclockwise.
+/// A closed surface. Faces are convex and flat or nearly so; viewed from outside their points are counterclockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Positions [m].
@@ -18,8 +18,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Rings of equally many points, each joined to the next, closed by a face at both ends. Points of a ring run
-    /// counterclockwise about the direction from the first ring to the last.
+    /// Rings with equal numbers of points, each joined to the next, closed by a face at both ends. Points of a ring
+    /// are counterclockwise about the direction from the first ring to the last.
     pub fn of_rings(rings: &[Vec<Vector3>]) -> Self {
         let around = rings.first().map_or(0, Vec::len) as u32;
         let points: Vec<Vector3> = rings.iter().flatten().copied().collect();
@@ -60,12 +60,12 @@ impl Mesh {
         Self::turned(&[(radius, -0.5 * length), (radius, 0.5 * length)], ROUND)
     }
 
-    /// A cone about the second axis with its tip upward.
+    /// A cone about the second axis with its apex upward.
     pub fn cone(radius: f64, length: f64) -> Self {
         Self::turned(&[(radius, -0.5 * length), (1e-3 * radius, 0.5 * length)], ROUND)
     }
 
-    /// A frustum of four sides about the second axis, which is under what the ground holds.
+    /// A four-sided frustum about the second axis, drawn below joints on the ground.
     pub fn plinth(top: f64, bottom: f64, height: f64) -> Self {
         let (top, bottom) = (top * 0.5_f64.sqrt(), bottom * 0.5_f64.sqrt());
         let ring = |half: f64, at: f64| {
@@ -129,8 +129,8 @@ impl Mesh {
         Self { points, faces }.outward()
     }
 
-    /// A coil of length one about the second axis from -0.5 to 0.5: `turns` turns of a wire. `length` is the length at
-    /// which the wire will be as thick along as across.
+    /// A coil of unit length about the second axis from -0.5 to 0.5: `turns` turns of a wire. The wire is round if the
+    /// coil is stretched to `length`.
     pub fn coil(radius: f64, wire: f64, turns: f64, length: f64) -> Self {
         let (along, across) = (160, 6);
         let ring = |k: usize| -> Vec<Vector3> {
@@ -147,7 +147,7 @@ impl Mesh {
             let place = |j: usize| {
                 let (s, c) = (TAU * j as f64 / across as f64).sin_cos();
                 let at = centre + wire * (c * out + s * other);
-                // The wire's own extent along the coil is of the length that the coil will have.
+                // The wire's own extent along the coil refers to the stretched length.
                 Vector3::new(at[0], t - 0.5 + at[1] / length, at[2])
             };
             (0..across).map(place).collect()
@@ -155,7 +155,7 @@ impl Mesh {
         Self::of_rings(&(0..=along).map(ring).collect::<Vec<_>>())
     }
 
-    /// A solid of a symbol that is drawn at a radius.
+    /// A solid of a symbol, drawn at a radius.
     pub fn of_solid(solid: &Solid, radius: f64) -> Self {
         let [a, b, c] = solid.size.map(|size| radius * size);
         let mesh = match solid.form {
@@ -170,7 +170,7 @@ impl Mesh {
         mesh.moved(&Pose::new(turn_to(&Vector3::from(solid.axis)), place))
     }
 
-    /// Faces turned so that they look away from the origin; of a convex solid about it.
+    /// Orients faces away from the origin, for a convex solid about it.
     fn outward(mut self) -> Self {
         for face in &mut self.faces {
             let [a, b, c] = [0, 1, 2].map(|k| self.points[face[k] as usize]);
@@ -199,14 +199,14 @@ impl Mesh {
         self
     }
 
-    /// Takes up the faces of another mesh.
+    /// Adds the faces of another mesh.
     pub fn append(&mut self, other: Self) {
         let first = self.points.len() as u32;
         self.points.extend(other.points);
         self.faces.extend(other.faces.into_iter().map(|face| face.into_iter().map(|k| k + first).collect()));
     }
 
-    /// Its triangles: faces are cut from their first points.
+    /// Its triangles: faces are divided from their first points.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         let fan = |face: &Vec<u32>| {
             let first = face[0];
@@ -216,7 +216,7 @@ impl Mesh {
     }
 }
 
-/// The shortest turn that leads the second axis to `direction`, which has the length one.
+/// The smallest rotation from the second axis to `direction`, a unit vector.
 pub fn turn_to(direction: &Vector3) -> Rotation {
     let from = Vector3::y();
     let axis = from.cross(direction);
@@ -232,7 +232,7 @@ pub fn turn_to(direction: &Vector3) -> Rotation {
 mod tests {
     use super::*;
 
-    /// Six times the volume: faces that look inward would count against it.
+    /// Six times the volume, to which faces that point inward contribute negatively.
     fn volume(mesh: &Mesh) -> f64 {
         let tetrahedron = |[a, b, c]: [u32; 3]| {
             let [a, b, c] = [a, b, c].map(|k| mesh.points[k as usize]);

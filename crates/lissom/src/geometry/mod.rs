@@ -1,5 +1,5 @@
-//! What a model looks like in space: surfaces of parts and symbols, and where they are in the frames of a motion. Pictures
-//! and files for other programs are made of it. Knows no pictures.
+//! Geometry of a model: surfaces of parts and symbols, and their poses in the frames of a motion. Used by pictures and
+//! files for other programs.
 
 mod mesh;
 mod model;

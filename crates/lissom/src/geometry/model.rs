@@ -1,4 +1,4 @@
-//! A whole model in space: its parts, symbols and loads as pieces that nodes carry.
+//! Geometry of a whole model: its parts, symbols and loads as pieces fixed to nodes.
 
 use lissom_model::scene::{Anchor, Body, Load, Scene, Tone};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
@@ -7,14 +7,14 @@ use super::mesh::{Mesh, turn_to};
 use super::sweep::{Sweep, between};
 use crate::motion::Motion;
 
-/// Thinnest half of a section in a picture, relative to the model.
+/// Minimum half thickness of a section in a picture, relative to the model.
 const MIN_THICKNESS: f64 = 0.0045;
-/// The same where lengths are to be true: sections without extent have no surface.
+/// The same for true dimensions: sections of zero thickness have no surface.
 const MIN_TRUE: f64 = 1e-4;
 /// Turns of the coil of a spring.
 const TURNS: f64 = 9.0;
 
-/// What a piece belongs to.
+/// Role of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A beam.
@@ -31,36 +31,36 @@ pub enum Role {
     Load,
 }
 
-/// What a piece is coloured as.
+/// Colour of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colour {
-    /// The part of this number: beams, bodies and point masses are counted on.
+    /// The part of this index: beams, bodies and point masses are numbered consecutively.
     Part(usize),
-    /// What symbols show.
+    /// The tone of a symbol.
     Tone(Tone),
     /// The ground.
     Ground,
 }
 
-/// What moves a piece.
+/// Motion of a piece.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Carrier {
-    /// A node, whose frame the mesh is in.
+    /// That of a node, in whose frame the mesh is given.
     Node(usize),
-    /// A beam: the mesh is that of the model as it is described.
+    /// That of a beam: the mesh is in the configuration of the model file.
     Sections(Sweep),
-    /// Two positions; the mesh has the length one along its second axis.
+    /// Between two positions; the mesh has unit length along its second axis.
     Span([Anchor; 2]),
-    /// A load: the mesh has the length one along its second axis and begins at the origin.
+    /// A load: the mesh has unit length along its second axis and begins at the origin.
     Arrow(Arrow),
 }
 
-/// An arrow whose length gives the size of a load.
+/// An arrow whose length shows the magnitude of a load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
     anchor: Anchor,
     follower: bool,
-    /// Vectors at equal distances from the start to the end of the analysis.
+    /// Vectors at equal intervals from the start to the end of the analysis.
     vectors: Vec<Vector3>,
     span: [f64; 2],
     /// The largest vector of the load.
@@ -71,23 +71,23 @@ pub struct Arrow {
     ends_there: bool,
 }
 
-/// A surface, what it belongs to and what moves it.
+/// A surface with its role and its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// Name of the part, joint, spring or load.
     pub name: String,
-    /// What it belongs to.
+    /// Its role.
     pub role: Role,
-    /// What it is coloured as.
+    /// Its colour.
     pub colour: Colour,
     /// Its surface, before it is moved.
     pub mesh: Mesh,
-    /// What moves it.
+    /// Its motion.
     pub carrier: Carrier,
 }
 
 impl Piece {
-    /// The surface at poses of the nodes and a time [s]; none for a load that is zero then.
+    /// The surface at poses of the nodes and a time [s]; none for a load that is then zero.
     pub fn at(&self, poses: &[Pose], time: f64) -> Option<Mesh> {
         match &self.carrier {
             Carrier::Node(node) => Some(self.mesh.clone().moved(&poses[*node])),
@@ -104,7 +104,7 @@ impl Piece {
     }
 }
 
-/// Middle and direction of what lies between two positions, and its length [m].
+/// Centre and direction of the segment between two positions, and its length [m].
 pub(crate) fn span(anchors: &[Anchor; 2], poses: &[Pose]) -> (Pose, f64) {
     let [a, b] = anchors.map(|anchor| place(&anchor, poses));
     let length = (b - a).norm();
@@ -117,7 +117,7 @@ fn place(anchor: &Anchor, poses: &[Pose]) -> Vector3 {
 }
 
 impl Arrow {
-    /// Where the arrow begins, its direction, and its length [m]; none where the load is zero.
+    /// Origin, direction and length of the arrow [m]; none if the load is zero.
     fn at(&self, poses: &[Pose], time: f64) -> Option<(Pose, f64)> {
         let [start, end] = self.span;
         let last = self.vectors.len() - 1;
@@ -140,24 +140,24 @@ impl Arrow {
     }
 }
 
-/// A model as pieces, and how large it is over its motion.
+/// A model as pieces, and its extent over its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
     /// The pieces, parts first.
     pub pieces: Vec<Piece>,
-    /// Least positions of nodes over the motion [m].
+    /// Lower bounds of positions of nodes over the motion [m].
     pub low: Vector3,
-    /// Greatest positions of nodes over the motion [m].
+    /// Upper bounds of positions of nodes over the motion [m].
     pub high: Vector3,
     /// Distance between them [m].
     pub size: f64,
-    /// Which direction is upward.
+    /// The upward direction.
     pub up: Vector3,
 }
 
 impl Geometry {
-    /// The pieces of a scene that moves so. If `is_picture`, sections too thin to be seen are drawn thicker and loads are
-    /// drawn; otherwise sections are true down to 2e-4 of the model.
+    /// The pieces of a scene with this motion. If `is_picture`, thin sections are drawn thicker and loads are drawn;
+    /// otherwise sections are true down to 2e-4 of the model.
     pub fn new(scene: &Scene, motion: &Motion, is_picture: bool) -> Self {
         let (low, high) = bounds(scene, motion);
         let size = (high - low).norm();
@@ -197,14 +197,14 @@ impl Geometry {
         }
     }
 
-    /// The surface of a body where it has one; otherwise its box, with arms to where something is attached.
+    /// The surface of a body if it has one; otherwise its box, with arms to the points of attachment.
     fn body(&self, body: &Body, anchors: &[Vector3]) -> Mesh {
         if let Some(surface) = &body.surface {
             return Mesh::of_surface(surface);
         }
         let center = Vector3::from(body.shape.center);
         let reach = anchors.iter().map(|at| (at - center).norm()).fold(0.0, f64::max);
-        // Inertias far bulkier than what the body reaches, as of models in a plane, must not hide all else.
+        // Boxes much larger than the body's attachments, for example in planar models, must not hide the rest.
         let most = if reach > 0.02 * self.size { 0.8 * reach } else { 0.3 * self.size };
         let mut sides = body.shape.sides;
         sides.sort_by(f64::total_cmp);
@@ -253,7 +253,7 @@ impl Geometry {
                 self.add(&symbol.name, (role, Colour::Tone(tone)), mesh.moved(&at), carrier);
             }
         }
-        // A plinth is under every joint on the ground.
+        // A plinth is drawn below every joint on the ground.
         for joint in &scene.joints {
             let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == 0) else { continue };
             let around =
@@ -270,7 +270,7 @@ impl Geometry {
         }
     }
 
-    /// Radius of a symbol that sections of this half thickness do not hide.
+    /// Radius of a symbol that is not hidden by sections of this half thickness.
     fn radius(&self, around: f64) -> f64 {
         (1.45 * around).min(0.04 * self.size).max(0.0135 * self.size)
     }
@@ -314,7 +314,7 @@ impl Geometry {
     }
 }
 
-/// Vectors of a load at all instants that are sampled.
+/// Vectors of a load at all sampled instants.
 fn vectors(load: &Load) -> Option<Vec<Vector3>> {
     let vector = Vector3::from(load.vector?);
     Some(if load.scale.is_empty() {
@@ -324,7 +324,7 @@ fn vectors(load: &Load) -> Option<Vec<Vector3>> {
     })
 }
 
-/// An arrow of length one along the second axis with heads that are in proportion where it is `length` long.
+/// An arrow of unit length along the second axis, whose heads are in proportion if it is stretched to `length`.
 fn arrow_mesh(radius: f64, length: f64, heads: u32) -> Mesh {
     let head = 8.0 * radius / length;
     let shaft = 1.0 - head;
@@ -336,7 +336,7 @@ fn arrow_mesh(radius: f64, length: f64, heads: u32) -> Mesh {
     mesh
 }
 
-/// Points of a node where joints, springs and loads are, in its frame.
+/// Points of a node at which joints, springs and loads are attached, in its frame.
 fn attached(scene: &Scene, node: usize) -> Vec<Vector3> {
     let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
     let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
@@ -345,7 +345,7 @@ fn attached(scene: &Scene, node: usize) -> Vec<Vector3> {
     all.filter(|anchor| anchor.node == node).map(|anchor| Vector3::from(anchor.position)).collect()
 }
 
-/// Least and greatest positions of all nodes but the ground over all frames, with what is on the ground.
+/// Bounds of the positions of all nodes except the ground over all frames, with attachments to the ground.
 fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3) {
     let count = motion.reference().len();
     let frames = motion.times().len();
@@ -370,13 +370,13 @@ fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3) {
     if (high - low).norm() > 0.0 {
         return (low, high);
     }
-    // A single point has room about it.
+    // A single point gets space around it.
     let sides = scene.bodies.iter().flat_map(|body| body.shape.sides).fold(0.0, f64::max);
     let room = Vector3::repeat(if sides > 0.0 { 0.5 * sides } else { 0.5 });
     if low.x.is_finite() { (low - room, high + room) } else { (-room, room) }
 }
 
-/// Poses of all nodes at a time [s] within the motion: between two frames displacements are straight and rotations
+/// Poses of all nodes at a time [s] within the motion: between two frames displacements are linear and rotations
 /// uniform. None outside.
 pub fn poses_at(motion: &Motion, time: f64) -> Option<Vec<Pose>> {
     let times = motion.times();

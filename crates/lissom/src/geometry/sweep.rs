@@ -1,25 +1,25 @@
 //! Beams as sections that are swept along the line between the nodes: a cubic whose ends follow the first axes of the
-//! sections, with linear taper between stations, as the page draws them.
+//! sections, with linear taper between stations, as drawn by the page.
 
 use lissom_model::scene::{Beam, Outline};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
 
 use super::mesh::Mesh;
 
-/// Points of outlines that are round.
+/// Number of points of round outlines.
 const ROUND: usize = 20;
-/// Sections that a beam is drawn by, at least.
+/// Minimum number of sections with which a beam is drawn.
 const RINGS: usize = 40;
 
-/// A beam, ready to be drawn at any poses of the nodes.
+/// A beam that can be drawn at any poses of the nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
     nodes: Vec<usize>,
     /// Section frames in the frames of the nodes.
     offsets: Vec<Pose>,
-    /// Lengths between the nodes as the model describes them [m].
+    /// Lengths between the nodes in the configuration of the model file [m].
     lengths: Vec<f64>,
-    /// Sections between two nodes.
+    /// Number of sections between two nodes.
     parts: usize,
     /// Fraction of the beam at every section.
     places: Vec<f64>,
@@ -28,8 +28,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// A beam of a model whose nodes have the poses `reference` as it is described. Sections are drawn at least `least` [m]
-    /// thick to each side.
+    /// A beam of a model whose nodes have the poses `reference` in the configuration of the model file. The minimum half
+    /// thickness of its sections is `least` [m].
     pub fn new(beam: &Beam, reference: &[Pose], least: f64) -> Self {
         let mut offsets = vec![Pose::identity(); beam.nodes.len()];
         for (index, position, quaternion) in &beam.offsets {
@@ -74,7 +74,7 @@ impl Sweep {
         &self.profiles
     }
 
-    /// Frames of all sections where the nodes have these poses.
+    /// Frames of all sections for these poses of the nodes.
     pub fn sections(&self, poses: &[Pose]) -> Vec<Pose> {
         let frames: Vec<Pose> =
             self.nodes.iter().zip(&self.offsets).map(|(node, offset)| poses[*node] * *offset).collect();
@@ -94,7 +94,7 @@ impl Sweep {
         (0..self.places.len()).map(section).collect()
     }
 
-    /// The surface where the nodes have these poses, section after section.
+    /// The surface for these poses of the nodes, section by section.
     pub fn mesh(&self, poses: &[Pose]) -> Mesh {
         let rings: Vec<Vec<Vector3>> = (self.sections(poses).iter())
             .zip(&self.profiles)
@@ -106,7 +106,7 @@ impl Sweep {
     }
 }
 
-/// The rotation between two at a share of the way, along the chord of their quaternions.
+/// The rotation at a fraction between two, along the chord of their quaternions.
 pub(super) fn between(a: &Rotation, b: &Rotation, share: f64) -> Rotation {
     let (p, q) = (a.quaternion(), b.quaternion());
     let same: f64 = (0..4).map(|k| p[k] * q[k]).sum();

@@ -1,51 +1,52 @@
-//! Derivatives that were carried are compared with runs of neighbouring models, all numbers changed at once.
+//! Verification of direct derivatives by runs of neighbouring models, with all numbers changed at once.
 //!
-//! Legend: y the measure, θ_k numbers, g_k their derivatives, δ_k changes of the numbers of the signs of g_k.
+//! Legend: y the measure, θ_k numbers, g_k their derivatives, δ_k changes of the numbers with the signs of g_k.
 //!
 //! ```text
 //! y(θ + δ) - y(θ) = Σ_k g_k δ_k + ...
 //! ```
 //!
-//! All numbers contribute the same, as far as rounding and small changes allow: so no derivative hides behind a larger one. One run confirms what agrees. Otherwise a second one on the other side takes away what is quadratic in the
-//! change; where the two do not confirm either, two runs nearby show whether such differences know the derivative at all.
+//! All numbers contribute equally, as far as round-off and small changes allow, so no derivative is hidden by a larger one. One
+//! run confirms correct derivatives. Otherwise a second run with the opposite change eliminates the quadratic term. If the two do
+//! not confirm them either, two runs with smaller changes show whether such differences determine the derivative at all.
 
 use super::GradientError;
 
-/// Change of the number that contributes most, relative to the number.
+/// Relative change of the number with the largest contribution.
 const CHANGE: f64 = 1e-4;
-/// The largest change of a number, likewise.
+/// The largest relative change of a number.
 const MAX_CHANGE: f64 = 1e-3;
-/// How much nearer the last runs are.
+/// Ratio of the changes of the last runs to the first ones.
 const NEARER: f64 = 0.125;
-/// Differences of runs may miss what the derivatives add up to by this fraction.
+/// Allowed difference between runs and derivatives, relative to the predicted change.
 const MISSED: f64 = 1e-3;
-/// What rounding and the tolerance of the iterations may leave in a difference of runs, as part of the largest value.
+/// Round-off and iteration error in a difference of runs, relative to the largest value.
 const ROUND_OFF: f64 = 1e-11;
-/// Sums below this many times the round-off cannot be seen.
+/// Predicted changes below this multiple of the round-off cannot be measured.
 const SEEN: f64 = 10.0;
-/// What a number is to contribute at least, likewise, if a change that is not too large does.
+/// Required contribution of a number, as a multiple of the round-off, if a sufficiently small change has it.
 const CLEAR: f64 = 1e4;
-/// Differences of both distances that are as near to each other as this fraction of what they miss deny the derivatives.
+/// Differences over both distances that agree to this fraction of their deviation contradict the derivatives.
 const AGREES: f64 = 0.25;
 
-/// What runs of neighbouring models say of the derivatives.
+/// Result of the verification.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Confirmation {
-    /// They agree.
+    /// The runs agree with the derivatives.
     Confirmed {
-        /// What they miss, as part of what the derivatives add up to.
+        /// The difference, relative to the predicted change.
         missed: f64,
-        /// Runs that this took.
+        /// Number of runs.
         runs: usize,
     },
-    /// They cannot decide: the output changes less than is left of runs, or not smoothly.
+    /// The runs are inconclusive: the output changes less than the error of runs, or not smoothly.
     Untold {
-        /// Runs that this took.
+        /// Number of runs.
         runs: usize,
     },
 }
 
-/// A number, and the derivative by it.
+/// A number, and the derivative with respect to it.
 pub(super) struct DirectDerivative {
     pub(super) number: f64,
     pub(super) derivative: f64,
@@ -55,7 +56,7 @@ pub(super) struct DirectDerivative {
 /// without changes, and `scale` the largest value of the column.
 ///
 /// # Errors
-/// If the runs know the derivatives, and know others.
+/// If the runs determine derivatives, and these are different.
 pub(super) fn confirm(
     carried: &[DirectDerivative],
     (value, scale): (f64, f64),
@@ -68,7 +69,7 @@ pub(super) fn confirm(
     let mut difference = |share: f64| {
         runs += 1;
         let changes: Vec<f64> = changes.iter().map(|change| share * change).collect();
-        // A model that has no motion is no information about its neighbour.
+        // A neighbouring model without a solution is inconclusive.
         let found = measure(&changes).map_or(f64::NAN, |changed| (changed - value) / share);
         (found, runs)
     };
@@ -79,7 +80,7 @@ pub(super) fn confirm(
     };
     let above = difference(1.0);
     if expected.abs() <= SEEN * round_off {
-        // Small derivatives of what is seen to change are wrong, and are looked at below.
+        // Small derivatives with measurable changes are wrong, and are examined below.
         if is_near(above.0) {
             return Ok(Confirmation::Untold { runs: above.1 });
         }
@@ -103,8 +104,8 @@ pub(super) fn confirm(
     Ok(Confirmation::Untold { runs: nearby.1 })
 }
 
-/// Changes of the numbers, in the direction in which the measure grows. All contribute what the weakest can, if that is clearly
-/// above the round-off.
+/// Changes of the numbers, in the direction in which the measure increases. All contribute as much as the weakest one can, if
+/// that is clearly above the round-off.
 fn changes(carried: &[DirectDerivative], round_off: f64) -> Vec<f64> {
     let effect = |of: &DirectDerivative| (of.derivative * of.number).abs();
     let effects = || carried.iter().map(effect);
@@ -123,7 +124,7 @@ mod tests {
 
     const NUMBERS: [f64; 3] = [2.0, -3.0, 1e6];
 
-    /// A measure of three numbers, the last of little effect, and its derivatives.
+    /// A measure of three numbers, the last with little effect, and its derivatives.
     fn value(numbers: &[f64; 3]) -> f64 {
         let [a, b, c] = *numbers;
         (3.0 * a).sin() * b * b + 1e-9 * c
@@ -178,7 +179,7 @@ mod tests {
         };
         unconfirmed(asked([1e-12, 0.0, 0.0], |_| Some(value(&NUMBERS))));
         unconfirmed(asked(derivatives(), |_| None));
-        // Differences of what is rough depend on the distance.
+        // Differences of a rough function depend on the distance.
         unconfirmed(asked(derivatives(), |at| Some(value(at) + 1e-4 * (1e9 * at[0] + 1.0).sin())));
     }
 }

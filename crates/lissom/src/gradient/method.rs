@@ -1,5 +1,5 @@
-//! Two ways to the derivatives of a state: carried along the steps as linear unknowns, or as differences of two neighbouring
-//! models that take the same steps.
+//! Two methods for the derivatives of a state: direct differentiation along the steps, with derivatives as linear unknowns,
+//! or differences of two neighbouring models with the same steps.
 
 use lissom_core::analysis::{Sensitivities, Simulation};
 use lissom_core::system::State;
@@ -10,26 +10,26 @@ use super::{GradientError, Target, prepared};
 use crate::model::{Model, Override};
 use crate::session::{Observed, Session};
 
-/// How far neighbouring models that take the same steps are from the model, relative to the number. Differences of both sides
-/// err by its square, and by round-off of a solution over it.
+/// Relative change of the number in neighbouring models with the same steps. The error of central differences is proportional
+/// to its square, and to the round-off of a solution over it.
 const APART: f64 = 1e-4;
-/// The same where only starts and what the number changes directly are compared, with differences of fourth order: round-off
-/// has little of so large a distance.
+/// The same if only initial states and direct effects of the number are compared, with differences of fourth order: at such
+/// a large distance round-off is small.
 const AROUND: f64 = 2e-3;
-/// The same of second order, where models at that distance do not exist.
+/// The same of second order, if models at that distance do not exist.
 const NEAR: f64 = 3e-5;
-/// The largest displacement of a state over which a column is differentiated [-, rad], how much smaller the next is, and how
-/// many there are.
+/// The largest displacement of a state over which a column is differentiated [-, rad], the ratio to the next one, and their
+/// number.
 const MAX_DISPLACEMENT: f64 = 1e-3;
 const SMALLER: f64 = 0.125;
 const TRIED: i32 = 5;
-/// A step that is shorter than the others by more than this fraction is of another size.
+/// A step that is shorter than the others by more than this fraction has a different size.
 const WHOLE: f64 = 1e-9;
 
-/// Kinks that are nearer than this fraction of the run are at the same time.
+/// Kinks closer than this fraction of the run are at the same time.
 const SAME_TIME: f64 = 1e-12;
 
-/// What is asked, of which model.
+/// The request and its model.
 pub(super) struct Question<'a> {
     pub(super) model: &'a Model,
     pub(super) overrides: &'a [Override],
@@ -39,27 +39,27 @@ pub(super) struct Question<'a> {
     pub(super) session: &'a Session,
 }
 
-/// Models whose number is a little smaller and a little larger, each with its weight in their difference.
+/// Models with a slightly smaller and a slightly larger number, each with its weight in their difference.
 struct Neighbours {
     path: String,
     number: f64,
     sensitivity: Sensitivity,
 }
 
-/// How the derivatives by a number are found.
+/// Method for the derivatives with respect to a number.
 enum Sensitivity {
-    /// They are carried, with this index; the neighbours are kept for what they record.
+    /// Direct differentiation, with this index; the neighbours are kept for their outputs.
     Direct(usize, Vec<(Observed, f64)>),
-    /// The neighbours take the steps themselves.
+    /// The neighbours perform the steps themselves.
     FiniteDifference(Vec<(Session, f64)>),
 }
 
-/// All numbers, each on its way.
+/// All numbers, each with its method.
 pub(super) struct ParameterSensitivities {
     numbers: Vec<Neighbours>,
     sensitivities: Option<Sensitivities>,
     corrections: usize,
-    /// Room for displaced states.
+    /// Storage for displaced states.
     state: State,
 }
 
@@ -81,8 +81,8 @@ impl Question<'_> {
         Ok(number)
     }
 
-    /// Models around the number at `path`, with the weights of a difference of second order over this distance, relative to
-    /// the number; or of fourth order.
+    /// Models around the number at `path`, with the weights of a difference of second or fourth order over this relative
+    /// distance.
     fn neighbours(
         &self,
         path: &str,
@@ -117,7 +117,7 @@ impl Question<'_> {
         sides.iter().map(neighbour).collect()
     }
 
-    /// A time of the run at which functions of time have a kink that a neighbouring model has elsewhere [s].
+    /// A time of the run at which functions of time have a kink that a neighbouring model has at another time [s].
     fn moved_kink(&self, neighbour: &Session) -> Option<f64> {
         let plan = self.session.plan();
         let near = SAME_TIME * (plan.end.abs().max(plan.start.abs()) + (plan.end - plan.start));
@@ -129,7 +129,7 @@ impl Question<'_> {
         own.filter(is_within).find(is_elsewhere)
     }
 
-    /// Whether all steps are of one size, as what schemes of one stage remember asks for.
+    /// Whether all steps have one size, as required by the memory of one-stage schemes.
     fn has_even_steps(&self) -> bool {
         let plan = self.session.plan();
         let size = self.session.simulation().settings().step_size;
@@ -141,14 +141,14 @@ impl ParameterSensitivities {
     pub(super) fn new(question: &Question<'_>, paths: &[String]) -> Result<Self, GradientError> {
         let base = question.session.simulation();
         let is_even = base.settings().scheme.stages.len() > 1 || question.has_even_steps();
-        // What is accumulated along the way is no function of the state: neighbours accumulate their own.
+        // Accumulated outputs are not functions of the state: neighbours accumulate their own.
         let is_of_state = base.state().accumulated.is_empty();
         let mut sensitivities = if is_even && is_of_state { Sensitivities::new(base) } else { None };
         let mut count = 0;
         let mut of = |path: &String| {
             let number = question.number(path)?;
             if let Some(sensitivities) = &mut sensitivities {
-                // What does not work at a distance may work nearby.
+                // A difference that fails at one distance may succeed at a smaller one.
                 let sessions = question
                     .neighbours(path, number, (AROUND, true))
                     .or_else(|_| question.neighbours(path, number, (NEAR, false)))?;
@@ -170,7 +170,7 @@ impl ParameterSensitivities {
         Ok(Self { numbers, sensitivities, corrections: 0, state: base.state().clone() })
     }
 
-    /// Takes the step that `session` has taken last.
+    /// Repeats the last step of `session`.
     pub(super) fn advance(&mut self, session: &mut Session) -> Result<(), GradientError> {
         let time = session.progress().time;
         let base = session.simulation_mut();
@@ -192,7 +192,7 @@ impl ParameterSensitivities {
         Ok(())
     }
 
-    /// Derivatives of a column by all numbers, where `session` is.
+    /// Derivatives of a column with respect to all numbers, at the state of `session`.
     pub(super) fn derivatives(&mut self, session: &Session, column: usize) -> Vec<f64> {
         let Self { numbers, sensitivities, state, .. } = self;
         let base = session.simulation();
@@ -208,7 +208,7 @@ impl ParameterSensitivities {
                 }
             };
             let Some(sensitivities) = &*sensitivities else { return f64::NAN };
-            // What the column is made of may depend on the number itself: where it measures, and from where.
+            // The column itself may depend on the number: by the location and reference of its measurement.
             let of = |(observed, weight): &(Observed, f64)| {
                 weight * observed.value(column, base.state(), base.last_step())
             };
@@ -226,7 +226,7 @@ impl ParameterSensitivities {
         numbers.iter().map(&mut of).collect()
     }
 
-    /// Path and value of every number, and whether its derivatives were carried; and corrections of all.
+    /// Path and value of every number, and whether it was differentiated directly; and the number of corrections.
     pub(super) fn into_numbers(self) -> (Vec<(String, f64, bool)>, usize) {
         let carried = self.sensitivities.as_ref().map_or(0, Sensitivities::corrections);
         let of = |number: Neighbours| {
@@ -253,8 +253,8 @@ fn along(
     (above - below) / (2.0 * share)
 }
 
-/// Of differences over ever smaller displacements, the one that differs least from the one before: the curvature of the
-/// column spoils the first, round-off the last.
+/// Of differences over decreasing displacements, the one that differs least from the previous one: the first are
+/// inaccurate due to the curvature of the column, the last due to round-off.
 fn steadiest(found: &[f64]) -> f64 {
     let pairs = found.windows(2).map(|pair| ((pair[1] - pair[0]).abs(), pair[1]));
     pairs.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(f64::NAN, |(_, value)| value)

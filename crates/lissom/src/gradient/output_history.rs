@@ -1,4 +1,4 @@
-//! One column along a run: its values, and its derivatives where the measure needs them.
+//! One column along a run: its values, and its derivatives if the measure needs them.
 
 use super::Measure;
 use crate::session::Session;
@@ -8,7 +8,7 @@ pub(super) struct OutputHistory {
     measure: Measure,
     times: Vec<f64>,
     values: Vec<f64>,
-    /// At the times at which they are needed; of all others none.
+    /// At the times at which they are needed; none at others.
     derivatives: Vec<Vec<f64>>,
     largest: usize,
 }
@@ -23,7 +23,7 @@ impl OutputHistory {
         self.times.len() - 1
     }
 
-    /// Records where `session` is. `derivatives` finds those of the column, now.
+    /// Records the state of `session`. `derivatives` computes those of the column.
     pub(super) fn note(
         &mut self,
         session: &Session,

@@ -1,5 +1,5 @@
-//! Derivatives by differences of whole runs, where forces switch on the way: a stop that is met, a spring that goes slack, free play
-//! that is used up. The instant of a switch depends on the numbers, which nothing that is carried along fixed steps sees.
+//! Derivatives by differences of whole runs, if forces switch during the run: a stop that closes, a spring that goes slack, free
+//! play that is used up. The instant of a switch depends on the numbers, which direct differentiation along fixed steps neglects.
 //!
 //! ```text
 //! D(h) = (y(θ + h) - y(θ - h))/2h,      y' = (16 D(h/4) - D(h))/15 + O(h⁴)
@@ -9,23 +9,24 @@ use super::GradientError;
 
 /// The first distance, relative to the number.
 const APART: f64 = 2e-3;
-/// How much nearer the next runs are, and how often.
+/// Ratio of the next distance to the previous one.
 const NEARER: f64 = 0.25;
 const DISTANCES: i32 = 4;
 /// Differences over two distances that differ by less than this fraction confirm each other …
 const AGREES: f64 = 2e-3;
-/// … and so do those below this fraction of the largest value over the number, which is round-off.
+/// … as do differences below this fraction of the largest value over the number, which are round-off.
 const ROUND_OFF: f64 = 1e-8;
 
 /// A derivative by runs.
 pub(super) struct ByRuns {
     pub(super) value: f64,
-    /// By how much two distances differ, as part of the derivative.
+    /// Difference between the results over two distances, relative to the derivative.
     pub(super) missed: f64,
     pub(super) runs: usize,
 }
 
-/// The derivative by `number`; `measure` is the measure of a run with another value, `scale` the largest value of the column.
+/// The derivative with respect to `number`; `measure` is the measure of a run with another value, `scale` the largest value
+/// of the column.
 ///
 /// # Errors
 /// If differences over no two distances agree.

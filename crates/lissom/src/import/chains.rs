@@ -1,5 +1,5 @@
-//! Joints one after the other through links without mass, as descriptions write a joint of several coordinates, and the joint of
-//! the model that leaves the same free.
+//! Chains of joints through massless links, by which descriptions represent a joint with several coordinates, and the
+//! corresponding joint of the model.
 
 use std::fmt::Write;
 
@@ -9,33 +9,34 @@ use super::joint_text::{Placed, write_effort};
 use super::model_text::list;
 use super::{Freedom, ImportError, Robot, RobotJoint};
 
-/// What two directions of length one may miss of a right angle or of being parallel, and positions of each other [m].
+/// Allowed deviation of two unit vectors from a right angle or from being parallel, and of positions from each other
+/// [m].
 const NEAR: f64 = 1e-9;
 
-/// What a chain of joints becomes.
+/// Joint that replaces a chain.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     /// Two rotations about axes that cross at a right angle.
     Universal,
     /// A rotation about an axis and a displacement along it.
     Cylindrical,
-    /// Two displacements in a plane, which nothing resists, and a rotation across it.
+    /// Two displacements in a plane, without resistance, and a rotation about its normal.
     Planar,
 }
 
-/// Joints that become one.
+/// Joints that are replaced by one.
 pub(super) struct Composite {
     kind: Kind,
     /// Indices of the robot's joints, from the base to the tip.
     pub(super) joints: Vec<usize>,
     /// Groups of links between them.
     pub(super) inner_groups: Vec<usize>,
-    /// Which of them is the rotation.
+    /// Index of the rotation among them.
     rotation: usize,
 }
 
 impl Composite {
-    /// Which coordinate of the model's joint is that of the robot's joint `index`, counted from 1, if it has several.
+    /// Index, from 1, of the coordinate of the model's joint for the robot's joint `index`, if it has several.
     pub(super) fn coordinate(&self, index: usize) -> Option<usize> {
         match self.kind {
             Kind::Universal => self.joints.iter().position(|joint| *joint == index).map(|place| place + 1),
@@ -45,7 +46,7 @@ impl Composite {
         }
     }
 
-    /// Whether its coordinates are zero at the start, whatever the robot's are.
+    /// Whether its coordinates are zero at the start, independent of the robot's.
     pub(super) fn counts_from_the_start(&self) -> bool {
         self.kind == Kind::Universal
     }
@@ -88,11 +89,11 @@ impl Composite {
     }
 }
 
-/// Chains of joints through groups of links without mass. `frames` are those of links at the start, `groups` the groups of links,
-/// `massive` shows which groups have mass.
+/// Chains of joints through groups of massless links. `frames` are those of links at the start, `groups` the groups of links,
+/// `massive` states which groups have mass.
 ///
 /// # Errors
-/// If no joint of the model leaves free what a chain does.
+/// If no joint of the model corresponds to a chain.
 pub(super) fn composites(
     robot: &Robot,
     frames: &[Motion],
@@ -107,7 +108,7 @@ pub(super) fn composites(
         (into, out.next(), out.next())
     };
     let is_inner = |group: usize| {
-        // Two joints with coordinates, and nothing else at it.
+        // Two joints with coordinates, and no other joint.
         !massive[group]
             && matches!(ends(group), (Some(into), Some(out), None)
                 if robot.joints[into].moves() && robot.joints[out].moves())
@@ -140,7 +141,7 @@ pub(super) fn composites(
     Ok(all)
 }
 
-/// What a chain becomes, and which of its joints is the rotation.
+/// The kind of joint that replaces a chain, and which of its joints is the rotation.
 fn kind(robot: &Robot, frames: &[Motion], chain: &[usize]) -> Option<(Kind, usize)> {
     let axis = |index: usize| {
         let joint = &robot.joints[index];

@@ -1,4 +1,4 @@
-//! A model of rigid bodies as the description of a robot, where it can be one.
+//! Conversion of a model of rigid bodies to a robot description, if possible.
 
 use lissom_model::Document;
 use lissom_model::document::{Attachment, Body, Component, NodeReference};
@@ -7,26 +7,26 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
 
-/// Gravity that a description does not have to state [m/s²].
+/// Gravity implied by a description [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
 
-/// A robot and where its joints are at the start of the model.
+/// A robot and the initial values of its joints.
 #[derive(Clone, Debug)]
 pub struct ModelRobot {
-    /// The robot, its frames at zero values of all joints.
+    /// The robot, with frames at zero values of all joints.
     pub robot: Robot,
-    /// Names of joints and their values at the start [rad, m], where these are not zero.
+    /// Names of joints and their nonzero initial values [rad, m].
     pub values: Vec<(String, f64)>,
 }
 
-/// The robot that a model describes: a tree of rigid bodies from the ground, or from one body that moves freely. Links have the
-/// axes of their bodies, and their origins in the joints that carry them.
+/// The robot described by a model: a tree of rigid bodies from the ground, or from one free body. Links have the axes of their
+/// bodies, and their origins at their parent joints.
 ///
-/// What has no position in a description and acts on the bodies (loads, springs, drives, another gravity) is in
-/// [`Robot::unsupported`].
+/// Entries that cannot be expressed in a description and act on the bodies (loads, springs, drives, another gravity)
+/// are in [`Robot::unsupported`].
 ///
 /// # Errors
-/// If the model is no tree of rigid bodies with revolute, prismatic and clamped joints, and which part is the first that is not.
+/// If the model is not a tree of rigid bodies with revolute, prismatic and clamped joints: the first part that violates this.
 pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     refuse_parts(document)?;
     let mut robot = Robot {
@@ -45,7 +45,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     };
     let mut tree = Tree { placed: vec![None; document.bodies.len()], frames: Vec::new(), values: Vec::new() };
 
-    // The root: the ground where anything is joined to it, or else the one body that nothing carries.
+    // The root: the ground if anything is joined to it, otherwise the only body without a parent.
     let links: Vec<&Component> = document
         .joints
         .iter()
@@ -61,7 +61,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         robot.links.push(link(body, &Motion::identity()));
         tree.frames.push(frame);
         tree.placed[0] = Some(0);
-        // A description has no position for its root.
+        // A description does not contain a position of its root.
         if frame.position.norm() > 0.0 || frame.rotation.logarithm().norm() > 0.0 {
             robot.left_out.push(format!("the position of body `{}` at the start", body.name.value));
         }
@@ -130,7 +130,7 @@ fn ends(joint: &Component) -> [&NodeReference; 2] {
     }
 }
 
-/// Rejects models with parts that are no rigid bodies.
+/// Rejects models with parts other than rigid bodies.
 fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     let beam = document.beams.first().map(|beam| format!("beam `{}` is flexible", beam.name.value));
     let element = document.superelements.first();
@@ -149,7 +149,7 @@ fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     }
 }
 
-/// The link of a body whose frame lies at `offset` in the link's.
+/// The link of a body whose frame is at `offset` in the link's.
 fn link(body: &Body, offset: &Motion) -> Link {
     let turn = offset.rotation.matrix();
     let inertia = turn * body.inertia * turn.transpose();
@@ -158,17 +158,17 @@ fn link(body: &Body, offset: &Motion) -> Link {
 }
 
 struct Tree {
-    /// Link of each body, once it is placed.
+    /// Link of each body that has been placed.
     placed: Vec<Option<usize>>,
-    /// Frames of the links at the start.
+    /// Initial frames of the links.
     frames: Vec<Motion>,
-    /// Value of each joint at the start.
+    /// Initial value of each joint.
     values: Vec<(String, f64)>,
 }
 
 impl Tree {
-    /// Adds a joint from link `carrier` and the body that it carries, whose frame is at `frame`. A joint that `is_turned` has the
-    /// carrier on its tip.
+    /// Adds a joint from link `carrier` and the body beyond it, whose frame is at `frame`. If `is_turned`, the carrier is on the
+    /// joint's tip.
     fn add(
         &mut self,
         robot: &mut Robot,
@@ -196,7 +196,7 @@ impl Tree {
         }
         let value =
             joint.parameters.number_or(key, 0.0).map_err(|error| ImportError::new(error.to_string()))?;
-        // The link has its origin in the joint.
+        // The origin of the link is at the joint.
         let link_frame = Motion::new(frame.rotation, *at);
         let along = axis.as_ref().map_or_else(Vector3::z, |axis| axis.value.normalize());
         let own = frame.rotation.apply_inverse(&along) * if is_turned { -1.0 } else { 1.0 };
@@ -225,7 +225,7 @@ impl Tree {
     }
 }
 
-/// Joints between coordinates: gears become followers.
+/// Relations between coordinates: gears become mimic joints.
 fn couplings(document: &Document, tree: &Tree, robot: &mut Robot) -> Result<(), ImportError> {
     let value =
         |name: &str| tree.values.iter().find(|(known, _)| known == name).map_or(0.0, |(_, value)| *value);
@@ -249,7 +249,7 @@ fn couplings(document: &Document, tree: &Tree, robot: &mut Robot) -> Result<(), 
     Ok(())
 }
 
-/// Dampers, friction and stops of joints; all else that springs do is reported.
+/// Dampers, friction and stops of joints; all other effects of springs are reported.
 fn resistance(spring: &Component, robot: &mut Robot) {
     let name = &spring.name.value;
     let only = |known: &[&str]| spring.parameter_spans.iter().all(|(key, _)| known.contains(&key.as_str()));
@@ -287,7 +287,7 @@ fn resistance(spring: &Component, robot: &mut Robot) {
     robot.unsupported.extend(unsupported);
 }
 
-/// What acts on the bodies, and what is only looked at.
+/// Entries that act on the bodies, and those that only observe.
 fn report_omissions(document: &Document, robot: &mut Robot) {
     if document.gravity != GRAVITY {
         let [x, y, z] = document.gravity.into();

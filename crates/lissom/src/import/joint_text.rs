@@ -1,4 +1,4 @@
-//! Joints of a robot in the text of the model file, with what resists their motion.
+//! Joints of a robot in the text of the model file, with springs, dampers, friction and stops.
 
 use std::fmt::Write;
 
@@ -7,20 +7,20 @@ use lissom_motion::Vector3;
 use super::model_text::{Options, list};
 use super::{Freedom, RobotJoint};
 
-/// Where the coordinate of a robot's joint is in the model.
+/// The coordinate of a robot's joint in the model.
 pub(super) struct Placed {
     /// Index of the robot's joint.
     pub(super) index: usize,
-    /// Its name among the names of the model.
+    /// Its name in the model.
     pub(super) own: String,
-    /// The joint of the model that has its coordinate; of several that became one, the same.
+    /// The joint of the model that has its coordinate; the same for all joints that were replaced by one.
     pub(super) joint: String,
-    /// Which coordinate of that joint it is, counted from 1, if there are several.
+    /// Index of the coordinate in that joint, from 1, if there are several.
     pub(super) coordinate: Option<usize>,
-    /// The coordinate's value at the start, and what to add to values of the robot's coordinate [rad, m].
+    /// The coordinate's initial value, and the offset from values of the robot's coordinate [rad, m].
     pub(super) value: f64,
     pub(super) shift: f64,
-    /// Its rate at the start [rad/s, m/s].
+    /// Its initial rate [rad/s, m/s].
     pub(super) rate: f64,
     /// A point of its axis and its direction at the start, in global axes.
     pub(super) at: Vector3,
@@ -33,7 +33,7 @@ impl Placed {
     }
 }
 
-/// A joint alone between two bodies.
+/// A single joint between two bodies.
 pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed, [base, tip]: [&str; 2]) {
     let name = &place.joint;
     let (kind, key) = match joint.freedom {
@@ -72,7 +72,7 @@ pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed,
     write_effort(text, joint);
 }
 
-/// The greatest torque and speed of a motor, as comments.
+/// The maximum torque and speed of a motor, as comments.
 pub(super) fn write_effort(text: &mut String, joint: &RobotJoint) {
     if let Some(effort) = joint.effort {
         let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
@@ -120,8 +120,8 @@ pub(super) fn write_resistance(text: &mut String, joint: &RobotJoint, place: &Pl
     }
 }
 
-/// The inertia of a rotor as it acts on a coordinate alone: ½ a q̇² is the energy of a body on the ground that a gear of ratio one
-/// turns or shifts with the coordinate, across gravity.
+/// The inertia of a rotor that acts on a coordinate only: ½ a q̇² is the energy of a body on the ground that is rotated by a gear
+/// of ratio one, or shifted with the coordinate perpendicular to gravity.
 pub(super) fn write_rotor(text: &mut String, joint: &RobotJoint, place: &Placed, gravity: &Vector3) {
     if joint.armature <= 0.0 || !joint.moves() {
         return;
@@ -150,7 +150,7 @@ pub(super) fn write_rotor(text: &mut String, joint: &RobotJoint, place: &Placed,
     );
 }
 
-/// A direction across `gravity`.
+/// A direction perpendicular to `gravity`.
 fn across(gravity: &Vector3) -> Vector3 {
     let away = if gravity.x.abs() > gravity.y.abs() { Vector3::y() } else { Vector3::x() };
     gravity.cross(&away).try_normalize(0.0).unwrap_or_else(Vector3::x)

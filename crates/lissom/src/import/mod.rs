@@ -1,6 +1,6 @@
-//! Models from files of other programs, and back: read into a [`Robot`], written as a text of the model file that a person can go
-//! on with. A new format is one file that makes a [`Robot`], and a branch in [`from_description`]. [`from_model`] makes a [`Robot`]
-//! of a model, which [`to_urdf`] writes.
+//! Models from files of other programs, and back: read into a [`Robot`], written as the text of a model file for further editing.
+//! A new format is one file that builds a [`Robot`], and a branch in [`from_description`]. [`from_model`] builds a [`Robot`] from
+//! a model, which [`to_urdf`] writes.
 
 mod chains;
 mod from_model;
@@ -21,10 +21,10 @@ pub use model_text::{Options, Root, Unsupported, model_text};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
 
-/// Reads a robot from a URDF or MJCF text: the root of the text decides which it is.
+/// Reads a robot from a URDF or MJCF text, distinguished by the root element.
 ///
 /// # Errors
-/// If it is neither, or holds what a [`Robot`] cannot say.
+/// If it is neither, or contains elements that a [`Robot`] cannot represent.
 pub fn from_description(text: &str) -> Result<Robot, ImportError> {
     match xml::root_tag(text)?.as_str() {
         "robot" => from_urdf(text),
@@ -48,15 +48,16 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Whether the root is the world, which cannot move.
     pub is_root_the_world: bool,
-    /// Its joints, each after the one that carries its parent.
+    /// Its joints, each after the parent joint.
     pub joints: Vec<RobotJoint>,
-    /// What the description holds and a model does not get, one sentence each.
+    /// Contents of the description that are omitted from the model, one sentence each.
     pub left_out: Vec<String>,
-    /// What acts on the robot and no model can hold, one sentence each: rejected unless leaving it out is asked for.
+    /// Elements that act on the robot and cannot be modelled, one sentence each: rejected unless their omission is
+    /// requested.
     pub unsupported: Vec<String>,
 }
 
-/// A link with its inertia, none for a mere frame.
+/// A link with its inertia; none for a frame without mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Its name.
@@ -76,7 +77,7 @@ pub struct LinkInertia {
     pub inertia: Matrix3,
 }
 
-/// What a joint leaves free.
+/// Freedom of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
     /// Nothing.
@@ -96,15 +97,15 @@ pub enum Freedom {
 pub struct RobotJoint {
     /// Its name.
     pub name: String,
-    /// What it leaves free.
+    /// Its freedom.
     pub freedom: Freedom,
-    /// Index of the link that carries it.
+    /// Index of the parent link.
     pub parent: usize,
-    /// Index of the link that it carries.
+    /// Index of the child link.
     pub child: usize,
-    /// Position of the child's frame in the parent's at the reference value.
+    /// Pose of the child's frame in the parent's at the reference value.
     pub origin: Motion,
-    /// Direction of the axis in the child's frame, of length one.
+    /// Direction of the axis in the child's frame, a unit vector.
     pub axis: Vector3,
     /// A point of the axis in the child's frame [m].
     pub anchor: Vector3,
@@ -114,7 +115,7 @@ pub struct RobotJoint {
     pub range: Option<[f64; 2]>,
     /// Greatest torque or force of its motor [N m, N].
     pub effort: Option<f64>,
-    /// Greatest speed that its motor is meant for [rad/s, m/s]; nothing keeps the joint below it.
+    /// Maximum speed for which its motor is designed [rad/s, m/s]; it is not enforced.
     pub speed: Option<f64>,
     /// Stiffness of the spring at the joint [N m/rad, N/m].
     pub stiffness: f64,
@@ -124,7 +125,7 @@ pub struct RobotJoint {
     pub damping: f64,
     /// Coulomb friction [N m, N].
     pub friction: f64,
-    /// Inertia of the motor's rotor, as it acts on the coordinate [kg m², kg].
+    /// Inertia of the motor's rotor, with respect to the coordinate [kg m², kg].
     pub armature: f64,
     /// The joint that it follows by a factor and an offset.
     pub follows: Option<(String, f64, f64)>,
@@ -160,22 +161,22 @@ impl RobotJoint {
     }
 }
 
-/// Values of joints and their rates at the start, by name; those that are not named have their reference value, and no rate.
+/// Initial values of joints and their rates, by name; others have their reference value, and zero rate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// Rotations and displacements [rad, m].
     pub values: BTreeMap<String, f64>,
     /// Their rates [rad/s, m/s].
     pub rates: BTreeMap<String, f64>,
-    /// Twist of the root in its own axes, for robots whose root moves freely [m/s, rad/s].
+    /// Twist of the root in its own axes, for robots with a free root [m/s, rad/s].
     pub root_twist: Vector6,
 }
 
-/// What cannot be imported.
+/// An error of an import.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{message}")]
 pub struct ImportError {
-    /// What is wrong, where, and what to do.
+    /// The error, its location, and the remedy.
     pub message: String,
 }
 

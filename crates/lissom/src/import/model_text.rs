@@ -1,7 +1,7 @@
-//! A robot as a text of the model file.
+//! A robot as the text of a model file.
 //!
-//! Links that fixed joints hold together are one body, with the frame of the link nearest to the root. With C₁ … Cₙ the centres
-//! of mass and C the common one:
+//! Links connected by fixed joints are one body, with the frame of the link nearest to the root. With C₁ … Cₙ the centres of
+//! mass and C the common one:
 //!
 //! ```text
 //! J = Σ_i [R_i J_i R_iᵀ + m_i (d_i·d_i I - d_i d_iᵀ)],      d_i = C_i - C
@@ -16,38 +16,38 @@ use super::chains::{Composite, composites};
 use super::joint_text::{Placed, write_follower, write_joint, write_resistance, write_rotor};
 use super::{Freedom, ImportError, LinkInertia, Pose, Robot};
 
-/// What becomes of the root.
+/// Treatment of the root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Root {
-    /// It is held to the ground.
+    /// It is fixed to the ground.
     #[default]
     Held,
     /// It moves freely.
     Floating,
 }
 
-/// What becomes of what acts on a robot and no model can hold.
+/// Treatment of elements that act on a robot and cannot be modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Unsupported {
     /// The robot is rejected.
     #[default]
     Refused,
-    /// It is omitted, and the model says so.
+    /// They are omitted, with a comment in the model.
     LeftOut,
 }
 
-/// What is written, and how.
+/// Contents of the model file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// What becomes of the root.
+    /// Treatment of the root.
     pub root: Root,
     /// Whether joints have stops at their limits.
     pub limits: bool,
-    /// Whether joints have their damping and friction.
+    /// Whether joints include damping and friction.
     pub friction: bool,
-    /// Whether joints follow others where they mimic them.
+    /// Whether mimic joints follow others.
     pub mimic: bool,
-    /// What becomes of what acts on the robot and no model can hold.
+    /// Treatment of elements that act on the robot and cannot be modelled.
     pub unsupported: Unsupported,
 }
 
@@ -66,23 +66,23 @@ impl Default for Options {
 /// Stiffness of stops [N m/rad, N/m].
 const STOPS: f64 = 1e4;
 
-/// Links that move as one.
+/// Links that move as one body.
 struct Group {
     /// The link whose frame it has, the nearest to the root.
     link: usize,
-    /// Name of its body; of the ground for what is held.
+    /// Name of its body, or of the ground for fixed links.
     name: String,
-    /// Frame of that link and its twist in its own axes at the start.
+    /// Initial frame of that link and its twist in its own axes.
     frame: Motion,
     twist: Vector6,
     mass: Option<LinkInertia>,
 }
 
-/// The model file of `robot` with its joints at `pose`, held to the ground at its root or floating.
+/// The model file of `robot` with its joints at `pose`, with a fixed or floating root.
 ///
 /// # Errors
-/// If a link that moves has no mass, if the pose names no joint of the robot, or leaves the range of one, or if something acts
-/// on the robot that no model can hold.
+/// If a moving link has no mass, if the pose refers to an unknown joint or exceeds a range, or if an element acts on the robot
+/// that cannot be modelled.
 pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String, ImportError> {
     check_support(robot, options)?;
     check_pose(robot, pose, options)?;
@@ -157,7 +157,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
     Ok(text)
 }
 
-/// Where the coordinate of a robot's joint is in the model.
+/// The coordinate of a robot's joint in the model.
 fn placed(
     robot: &Robot,
     pose: &Pose,
@@ -171,14 +171,14 @@ fn placed(
     let own = names.joints[index].clone();
     let of = composites.iter().find(|composite| composite.joints.contains(&index));
     let (joint_name, coordinate) = match of {
-        // A joint of several has the name of the last.
+        // A joint that replaces several has the name of the last one.
         Some(composite) => {
             let last = composite.joints[composite.joints.len() - 1];
             (names.joints[last].clone(), composite.coordinate(index))
         }
         None => (own.clone(), None),
     };
-    // Joints that know no value at the start count from there.
+    // Joints without an initial value have the zero of their coordinates at the start.
     let start = if of.is_some_and(Composite::counts_from_the_start) { 0.0 } else { value };
     Placed {
         index,
@@ -193,7 +193,7 @@ fn placed(
     }
 }
 
-/// Rejects what no model can hold.
+/// Rejects elements that cannot be modelled.
 fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
     if robot.is_root_the_world && options.root == Root::Floating {
         return Err(ImportError::new(
@@ -225,7 +225,7 @@ fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Rejects values of joints that do not exist or lie beyond a limit, and followers that do not follow.
+/// Rejects values for unknown joints or beyond a limit, and values of mimic joints that contradict their leader.
 fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), ImportError> {
     for name in pose.values.keys().chain(pose.rates.keys()) {
         if !robot.joints.iter().any(|joint| joint.name == *name && joint.moves()) {
@@ -270,7 +270,7 @@ fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), Import
     Ok(())
 }
 
-/// Frames and twists of all links at the start, and the link at the root of the group of each.
+/// Initial frames and twists of all links, and the link at the root of the group of each.
 fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector6>, Vec<usize>) {
     let count = robot.links.len();
     let mut frames = vec![Motion::identity(); count];
@@ -301,7 +301,7 @@ fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector
     (frames, twists, group_of)
 }
 
-/// The mass of a link whose frame lies at `offset` in another.
+/// The mass of a link whose frame is at `offset` in another.
 pub(super) fn carried(mass: &LinkInertia, offset: &Motion) -> LinkInertia {
     let turn = offset.rotation.matrix();
     LinkInertia {
@@ -311,7 +311,7 @@ pub(super) fn carried(mass: &LinkInertia, offset: &Motion) -> LinkInertia {
     }
 }
 
-/// The mass of two links that move as one.
+/// The mass of two links that move as one body.
 pub(super) fn together(one: Option<&LinkInertia>, other: &LinkInertia) -> LinkInertia {
     let Some(one) = one else { return *other };
     let mass = one.mass + other.mass;
@@ -326,7 +326,7 @@ pub(super) fn together(one: Option<&LinkInertia>, other: &LinkInertia) -> LinkIn
     LinkInertia { mass, centre, inertia: about(one) + about(other) }
 }
 
-/// Names as the model file has them.
+/// Names in the model file.
 struct Names {
     links: Vec<String>,
     joints: Vec<String>,
@@ -342,7 +342,7 @@ impl Names {
     }
 }
 
-/// A name that can be in expressions: letters, digits and underscores.
+/// A name that can be used in expressions: letters, digits and underscores.
 fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let mut free: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
@@ -391,7 +391,7 @@ fn footer(robot: &Robot, placed: &[Placed]) -> String {
     text + "\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\nend = 1.0\n"
 }
 
-/// Numbers as the model file has them. A zero has no sign: it would be noise in the text.
+/// Numbers for the model file, without the sign of negative zeros.
 pub(super) fn list(vector: &Vector3) -> String {
     let [x, y, z] = [vector.x + 0.0, vector.y + 0.0, vector.z + 0.0];
     format!("[{x:?}, {y:?}, {z:?}]")
@@ -399,7 +399,7 @@ pub(super) fn list(vector: &Vector3) -> String {
 
 fn write_body(text: &mut String, group: &Group, mass: &LinkInertia, renamed: bool, link: &str) {
     let note = if renamed { format!("   # link {}", link.escape_debug()) } else { String::new() };
-    // Symmetric to the last digit, as a matrix of inertia must be.
+    // Exactly symmetric, as required for a matrix of inertia.
     let inertia = 0.5 * (mass.inertia + mass.inertia.transpose());
     let rows: Vec<String> = (0..3).map(|k| list(&inertia.row(k).transpose())).collect();
     let _ = write!(

@@ -7,10 +7,11 @@ use lissom_motion::{Motion, Rotation, Vector3};
 use super::urdf::NO_LIMIT;
 use super::{Freedom, LinkInertia, Robot, RobotJoint};
 
-/// A range that the format asks for, where a prismatic joint has none [m].
+/// Range required by the format for a prismatic joint without limits [m].
 const FAR: f64 = 1e6;
 
-/// The description of `robot`, its frames at zero values of all joints. Numbers have the fewest digits that give them back exactly.
+/// The description of `robot`, with frames at zero values of all joints. Numbers have the fewest digits that reproduce them
+/// exactly.
 pub fn to_urdf(robot: &Robot) -> String {
     let mut text = String::from("<?xml version=\"1.0\"?>\n");
     // Writing to a string cannot fail.
@@ -61,8 +62,8 @@ fn inertial(mass: &LinkInertia) -> String {
     )
 }
 
-/// Roll, pitch and yaw: rotations about the fixed axes x, y, z one after the other. Yaw first, so that what pitch and roll are
-/// measured in is exact near a pitch of a quarter turn, too.
+/// Roll, pitch and yaw: rotations about the fixed axes x, y, z in this order. Yaw is computed first, so that pitch and roll
+/// are also accurate near a pitch of a quarter turn.
 fn roll_pitch_yaw(rotation: &Rotation) -> Vector3 {
     let own = rotation.matrix();
     let yaw = own[(1, 0)].atan2(own[(0, 0)]);
@@ -101,7 +102,7 @@ fn write_joint(text: &mut String, robot: &Robot, joint: &RobotJoint) {
         let _ = writeln!(text, "    <axis xyz=\"{}\"/>", three(&joint.axis));
         let range = joint.range.or((joint.freedom == Freedom::Displacement).then_some([-FAR, FAR]));
         if let Some([low, high]) = range {
-            // Torque and rate must be given; a model has no limits of them.
+            // Torque and rate are required; a model has no such limits.
             let effort = joint.effort.unwrap_or(NO_LIMIT);
             let speed = joint.speed.unwrap_or(NO_LIMIT);
             let _ = writeln!(

@@ -1,5 +1,5 @@
-//! URDF, the robot description of ROS: links with inertia, joints with axes, limits, friction. Shapes, transmissions and what
-//! simulators add are omitted.
+//! URDF, the robot description of ROS: links with inertia, joints with axes, limits, friction. Shapes, transmissions and
+//! extensions of simulators are omitted.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,13 +12,13 @@ use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
 /// Gravity as in ROS [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
 
-/// Where the format asks for a number and there is no limit [rad/s, m/s, N, N m].
+/// Value of a required limit if there is none [rad/s, m/s, N, N m].
 pub(super) const NO_LIMIT: f64 = 1e9;
 
 /// Reads a robot from the text of a URDF file.
 ///
 /// # Errors
-/// If it is no URDF, a number is wrong, a link is missing, or the joints make no tree.
+/// If it is not URDF, a number is invalid, a link is missing, or the joints do not form a tree.
 pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     let document = xml::parse(text)?;
     let root = document.root_element();
@@ -33,7 +33,8 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
             return Err(ImportError::new(format!("two links are called `{}`", link.name)));
         }
     }
-    // Transmissions and simulators have elements of the same name elsewhere: only those of the robot itself count.
+    // Transmissions and simulators have elements of the same name elsewhere: only those of the robot itself are
+    // joints.
     let joints = children(root, "joint").map(|node| joint(node, &numbers)).collect::<Result<Vec<_>, _>>()?;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
     let mut left_out = left_out(root);
@@ -53,7 +54,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     })
 }
 
-/// What a model does not get.
+/// Contents that are omitted from the model.
 fn left_out(root: Node<'_, '_>) -> Vec<String> {
     let known = ["link", "joint"];
     let others = root
@@ -74,7 +75,7 @@ fn left_out(root: Node<'_, '_>) -> Vec<String> {
     if words.is_empty() { Vec::new() } else { vec![format!("elements: {}", words.join(", "))] }
 }
 
-/// Puts the root first and joints behind those that carry them.
+/// Moves the root to the front and joints after their parent joints.
 fn in_order(robot: Robot) -> Result<Robot, ImportError> {
     let Robot { links, joints, .. } = &robot;
     let mut names = BTreeSet::new();
@@ -155,7 +156,7 @@ fn required(node: Node<'_, '_>, key: &str) -> Result<f64, ImportError> {
     })
 }
 
-/// A frame by `xyz` and by `rpy`: rotations about the fixed axes x, y, z one after the other.
+/// A frame from `xyz` and `rpy`: rotations about the fixed axes x, y, z in this order.
 fn origin(node: Node<'_, '_>) -> Result<Motion, ImportError> {
     let Some(node) = child(node, "origin") else { return Ok(Motion::identity()) };
     let [roll, pitch, yaw] = numbers::<3>(node, "rpy")?.unwrap_or_default();
@@ -228,7 +229,7 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
         effort = number(limit, "effort")?;
         speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
         if kind != "continuous" {
-            // Omitted they are zero, as the format has it.
+            // Default zero, as specified by the format.
             let ends = [number(limit, "lower")?.unwrap_or(0.0), number(limit, "upper")?.unwrap_or(0.0)];
             if ends[0] > ends[1] {
                 return Err(fault(format!("its lower limit {} is above the upper one {}", ends[0], ends[1])));

@@ -1,4 +1,4 @@
-//! What readers of XML share: parsing, positions in the text, numbers.
+//! Common functions of readers of XML: parsing, positions in the text, numbers.
 
 use std::collections::BTreeMap;
 

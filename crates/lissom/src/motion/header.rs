@@ -1,4 +1,4 @@
-//! What is before the frames of a motion file.
+//! Header of a motion file.
 
 use lissom_core::kinematics::{Layout, NodeMotion};
 use lissom_model::lower::Lowered;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{MAGIC, PREFIX, VERSION};
 
-/// Where section forces of a beam are recorded.
+/// Points of a beam at which section forces are recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ForcePoints {
     /// Name of the beam.
@@ -15,12 +15,12 @@ pub struct ForcePoints {
     pub at: Vec<f64>,
 }
 
-/// What a motion file states about its frames.
+/// Description of the frames of a motion file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// Name of every node; the first is the ground.
     pub nodes: Vec<String>,
-    /// Where section forces are recorded, beam after beam.
+    /// Points at which section forces are recorded, beam by beam.
     pub force_points: Vec<ForcePoints>,
     /// Length of a frame.
     pub frame_bytes: usize,
@@ -52,12 +52,12 @@ impl Header {
         self.force_points.iter().map(|beam| beam.at.len()).sum()
     }
 
-    /// Length of a frame that holds all that is named.
+    /// Length of a frame with all these data.
     pub(super) fn needed_bytes(&self) -> usize {
         (8 + 4 * 6 * (self.nodes.len() + self.point_count())).next_multiple_of(8)
     }
 
-    /// All that is before the first frame.
+    /// All bytes before the first frame.
     pub(super) fn to_bytes(&self, reference: &[NodeMotion]) -> Vec<u8> {
         let mut text = serde_json::to_vec(self).expect("names and numbers can always be said in JSON");
         text.resize(text.len().next_multiple_of(8), b' ');

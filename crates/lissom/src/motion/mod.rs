@@ -1,11 +1,11 @@
-//! The motion file `motion.bin`: poses of all nodes and section forces of all beams, frame by frame, as a picture that
-//! moves needs them. Written while a run goes on; a file that ends within a frame, as after a crash, is read up to there.
+//! The motion file `motion.bin`: poses of all nodes and section forces of all beams, frame by frame, for animations.
+//! Written during a run; a file that ends within a frame, for example after a crash, is read up to that frame.
 //!
 //! ```text
 //! 8 bytes    LISSOMMO
 //! u32        version, 1
 //! u32        length n of the header, a multiple of 8
-//! n bytes    header: JSON, filled up with spaces
+//! n bytes    header: JSON, padded with spaces
 //! reference  f64, nodes x 7: position [m] and quaternion (scalar first) of every node as the model describes it
 //! frames     each of the same length, in the order of time:
 //!   f64                 time [s]
@@ -15,8 +15,8 @@
 //!   filled up with zeros to a multiple of 8
 //! ```
 //!
-//! Numbers are little-endian. Displacements are kept instead of positions, so that small ones of large structures keep
-//! their digits: the relative error of a displacement is 6e-8.
+//! Numbers are little-endian. Displacements are stored instead of positions, so that small ones of large structures
+//! keep their digits: the relative error of a displacement is 6e-8.
 
 mod header;
 mod reader;

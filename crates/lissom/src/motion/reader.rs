@@ -5,11 +5,11 @@ use lissom_motion::{Motion as Pose, Rotation, Vector3, Vector6};
 use super::header::Header;
 use super::{MAGIC, PREFIX, VERSION};
 
-/// A text or file that is no motion file.
+/// Why a file is not a valid motion file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// It begins otherwise.
+    /// It begins differently.
     #[error("it is no motion file of this program")]
     Foreign,
     /// It was written by another version.
@@ -20,12 +20,12 @@ pub enum MotionError {
     /// It ends before its first frame, or its header is damaged.
     #[error("its beginning is damaged: run the model again")]
     Damaged,
-    /// A number is none.
+    /// A number is not finite.
     #[error("frame {0} holds a number that is not finite: run the model again")]
     NotFinite(usize),
 }
 
-/// A motion file in memory. A last frame that is not whole is omitted.
+/// A motion file in memory. An incomplete last frame is omitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     header: Header,
@@ -39,7 +39,7 @@ impl Motion {
     /// Reads the bytes of a motion file.
     ///
     /// # Errors
-    /// If they are something else, or damaged.
+    /// If they are not a motion file, or damaged.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, MotionError> {
         let (header, frames) = Self::split(bytes)?;
         let reference_bytes = 56 * header.nodes.len();
@@ -61,7 +61,7 @@ impl Motion {
         Ok(Self { header, reference, times, numbers })
     }
 
-    /// Header, and where the frames begin.
+    /// Header, and offset of the frames.
     fn split(bytes: &[u8]) -> Result<(Header, usize), MotionError> {
         if bytes.len() < PREFIX || &bytes[..8] != MAGIC {
             return Err(MotionError::Foreign);
@@ -81,16 +81,16 @@ impl Motion {
         }
     }
 
-    /// Time of the last whole frame [s], without reading the others; none where there is no frame.
+    /// Time of the last complete frame [s], without reading the others; none without frames.
     ///
     /// # Errors
-    /// If the bytes are no motion file.
+    /// If the bytes are not a motion file.
     pub fn last_time(bytes: &[u8]) -> Result<Option<f64>, MotionError> {
         let (header, frames) = Self::split(bytes)?;
         Ok(bytes[frames..].chunks_exact(header.frame_bytes).next_back().map(number))
     }
 
-    /// What the file states about its frames.
+    /// Description of the frames.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -105,12 +105,12 @@ impl Motion {
         self.header.nodes.iter().position(|known| known == name)
     }
 
-    /// Poses of the nodes as the model describes them.
+    /// Poses of the nodes in the configuration of the model file.
     pub fn reference(&self) -> &[Pose] {
         &self.reference
     }
 
-    /// Displacements, rotations and section forces of a frame, one after the other.
+    /// Displacements, rotations and section forces of a frame, concatenated.
     ///
     /// # Panics
     /// If there is no such frame.
@@ -131,8 +131,8 @@ impl Motion {
         Pose::new(rotation, start.position + vector(node))
     }
 
-    /// Another motion: each frame has its time, and nodes but the ground moved from where they are in the first frame of this
-    /// one, by three displacements [m] and a rotation vector [rad] each, in global axes. Section forces are zero.
+    /// Another motion: each frame has its time, and displacements of nodes except the ground from the first frame of this
+    /// one, three displacements [m] and a rotation vector [rad] each, in global axes. Section forces are zero.
     pub(crate) fn with_moved(&self, frames: &[(f64, Vec<f64>)]) -> Self {
         let count = self.header.nodes.len();
         let (mut times, mut numbers) = (Vec::new(), Vec::new());
@@ -168,7 +168,7 @@ impl Motion {
     }
 }
 
-/// The number at the beginning of some bytes.
+/// The number at the beginning of a slice of bytes.
 fn number(bytes: &[u8]) -> f64 {
     bytes.first_chunk().map_or(f64::NAN, |word| f64::from_le_bytes(*word))
 }

@@ -1,8 +1,8 @@
 //! Records frames of a running session.
 //!
-//! Frames are wanted at equal distances of time. A step that is shorter gives its end, as the first at or after the wanted
-//! instant; one that is longer gives its end and states between, interpolated to the order of the scheme. So no frame
-//! depends on anything but the steps, and a run that goes on from a checkpoint records what an undisturbed one does.
+//! Target instants of frames are equidistant. A shorter step contributes its end, if it is the first at or after a target
+//! instant; a longer one its end and states between, interpolated to the order of the scheme. So frames depend only on the
+//! steps, and a run that is resumed from a checkpoint records the same as an uninterrupted one.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -17,17 +17,17 @@ use lissom_model::lower::Lowered;
 use super::header::{Header, POINTS};
 use crate::state_writer::StateWriter;
 
-/// Most frames where no rate is asked for.
+/// Maximum number of frames if no rate is given.
 const FRAMES: f64 = 600.0;
-/// Instants this close to a wanted one, relative to the distance of frames, are it.
+/// Instants within this distance of a target, relative to the interval of frames, are equal to it.
 const WHOLE: f64 = 1e-9;
-/// Longest time that frames stay in the buffer.
+/// Maximum time for which frames remain in the buffer.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Writes a motion file.
 pub struct MotionRecorder<W> {
     to: W,
-    /// Whole frames only, so that the file seldom ends within one.
+    /// Complete frames only, so that the file seldom ends within one.
     buffer: Vec<u8>,
     flushed: Instant,
     header: Header,
@@ -42,7 +42,7 @@ pub struct MotionRecorder<W> {
 
 impl<W: Write + Send> MotionRecorder<W> {
     /// A recorder of the model `lowered` that writes to `to`; `frames_per_second` [1/s] of simulated time, or at most 600
-    /// spread over the run.
+    /// distributed over the run.
     pub fn new(lowered: &Lowered, frames_per_second: Option<f64>, to: W) -> Self {
         let plan = &lowered.plan;
         let probes = lowered.names.lines.values().flat_map(|line| line.elements.iter().cloned());
@@ -66,12 +66,12 @@ impl<W: Write + Send> MotionRecorder<W> {
         MotionRecorder { to, buffer, flushed, header, reference, probes, start, interval, last, between }
     }
 
-    /// Goes on after the frame of the time `last` [s], which has been written already.
+    /// Continues after the frame of the time `last` [s], which has already been written.
     pub fn resume_after(&mut self, last: f64) {
         self.last = Some(last);
     }
 
-    /// Writes what is before the frames, and one frame: a picture that is at rest.
+    /// Writes the header and one frame: a picture at rest.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -82,7 +82,7 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.flush()
     }
 
-    /// Writes what is before the frames, and these, whose times must ascend.
+    /// Writes the header and these frames, whose times must ascend.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -95,12 +95,12 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.flush()
     }
 
-    /// Takes section forces of the elements of another system from now on, whose nodes and beams are those of the first.
+    /// Uses section forces of the elements of another system from now on, with the same nodes and beams.
     pub fn read_elements_of(&mut self, lowered: &Lowered) {
         self.probes = lowered.names.lines.values().flat_map(|line| line.elements.iter().cloned()).collect();
     }
 
-    /// Writes the next frame, and before the first what is before the frames.
+    /// Writes the next frame, preceded by the header if it is the first.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -113,7 +113,7 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.flush_if_full()
     }
 
-    /// The next instant at which a frame is wanted [s].
+    /// The next target instant of a frame [s].
     fn due(&self) -> f64 {
         self.last.map_or(self.start, |last| {
             let passed = ((last - self.start) / self.interval + WHOLE).floor();

@@ -1,4 +1,4 @@
-//! Elements of MJCF with the attributes that they have of their own and by default.
+//! Elements of MJCF with their own and default attributes.
 
 use std::collections::BTreeMap;
 
@@ -9,15 +9,15 @@ use super::super::xml::{finite_numbers, line};
 
 type Attributes = BTreeMap<String, String>;
 
-/// Default attributes by class and tag; a class has those of the classes around it.
+/// Default attributes by class and tag; a class inherits those of its enclosing classes.
 pub(super) struct Classes {
     by_name: BTreeMap<String, BTreeMap<String, Attributes>>,
-    /// Name of the outermost.
+    /// Name of the outermost class.
     main: String,
 }
 
 impl Classes {
-    /// Those of `<default>`, of which there may be several.
+    /// Reads `<default>` elements, of which there may be several.
     pub(super) fn read(root: Node<'_, '_>) -> Result<Self, ImportError> {
         let mut classes = Self { by_name: BTreeMap::new(), main: "main".to_owned() };
         for node in root.children().filter(|child| child.has_tag_name("default")) {
@@ -54,7 +54,7 @@ impl Classes {
         Ok(())
     }
 
-    /// An element with its defaults: of its own class, or else of `around`, the class of the bodies around it.
+    /// An element with the defaults of its own class, or of `around`, the class of the enclosing bodies.
     pub(super) fn element(&self, node: Node<'_, '_>, around: Option<&str>) -> Result<Element, ImportError> {
         let tag = node.tag_name().name();
         let own = node.attribute("class");
@@ -87,13 +87,13 @@ impl Element {
         Self { tag: node.tag_name().name().to_owned(), line: line(node), attributes }
     }
 
-    /// Complains about this element.
+    /// An error about this element.
     pub(super) fn fault(&self, message: impl std::fmt::Display) -> ImportError {
         let name = self.text("name").map(|name| format!(" `{name}`")).unwrap_or_default();
         ImportError::new(format!("line {}: <{}>{name}: {message}", self.line, self.tag))
     }
 
-    /// Complains about attributes that nobody here has heard of, for they may matter.
+    /// Reports unknown attributes, because they may have an effect.
     pub(super) fn check_known(&self, used: &[&str], harmless: &[&str]) -> Result<(), ImportError> {
         let unknown = self.attributes.keys().find(|key| {
             !used.contains(&key.as_str())
@@ -116,7 +116,7 @@ impl Element {
         self.attributes.get(key).map(String::as_str)
     }
 
-    /// As many finite numbers as there are.
+    /// All numbers of an attribute, if they are finite.
     pub(super) fn list(&self, key: &str) -> Result<Option<Vec<f64>>, ImportError> {
         let Some(text) = self.text(key) else { return Ok(None) };
         let values = finite_numbers(text);
@@ -130,18 +130,18 @@ impl Element {
         values.try_into().map(Some).map_err(wrong)
     }
 
-    /// A number, or what it is where it is omitted.
+    /// A number, or its default.
     pub(super) fn number(&self, key: &str, default: f64) -> Result<f64, ImportError> {
         Ok(self.numbers::<1>(key)?.map_or(default, |[value]| value))
     }
 
-    /// A number that may not be negative; zero where it is omitted.
+    /// A number that must not be negative; default zero.
     pub(super) fn not_negative(&self, key: &str) -> Result<f64, ImportError> {
         let value = self.number(key, 0.0)?;
         if value < 0.0 { Err(self.fault(format!("`{key}` is negative: {value}"))) } else { Ok(value) }
     }
 
-    /// A word that says yes or no.
+    /// A boolean attribute.
     pub(super) fn flag(&self, key: &str, default: bool) -> Result<bool, ImportError> {
         match self.text(key) {
             None => Ok(default),

@@ -1,23 +1,23 @@
-//! Positions and orientations as MJCF writes them.
+//! Positions and orientations in MJCF.
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::super::ImportError;
 use super::element::Element;
 
-/// The attributes that place a frame.
+/// The attributes of a frame.
 pub(super) const ATTRIBUTES: [&str; 6] = ["pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
-/// How angles are written.
+/// Format of angles.
 pub(super) struct Angles {
     /// Radians per unit.
     pub(super) unit: f64,
-    /// Axes of `euler`, each with whether it turns with those before it.
+    /// Axes of `euler`, and for each whether it rotates with the previous ones.
     pub(super) sequence: [(Vector3, bool); 3],
 }
 
 impl Angles {
-    /// As `<compiler>` says.
+    /// As specified by `<compiler>`.
     pub(super) fn read(compiler: &Element) -> Result<Self, ImportError> {
         let unit = match compiler.text("angle").unwrap_or("degree") {
             "degree" => std::f64::consts::PI / 180.0,
@@ -47,15 +47,15 @@ pub(super) fn direction(element: &Element, key: &str, vector: [f64; 3]) -> Resul
     direction.ok_or_else(|| element.fault(format!("`{key}` has no direction: all its numbers are zero")))
 }
 
-/// The least rotation that brings z to a direction of length one.
+/// The smallest rotation from z to a unit vector.
 pub(super) fn from_z(direction: &Vector3) -> Rotation {
     let across = Vector3::z().cross(direction);
     let angle = across.norm().atan2(direction.z);
-    // Along z there is no axis: any across it will do.
+    // For directions along z the axis is not unique: any perpendicular one is valid.
     Rotation::about_axis(&across.try_normalize(1e-14).unwrap_or_else(Vector3::x), angle)
 }
 
-/// The position of an element in the frame around it.
+/// The position of an element in the enclosing frame.
 pub(super) fn frame(element: &Element, angles: &Angles) -> Result<Motion, ImportError> {
     let position = Vector3::from(element.numbers::<3>("pos")?.unwrap_or_default());
     Ok(Motion::new(rotation(element, angles)?, position))

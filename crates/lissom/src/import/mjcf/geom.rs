@@ -43,14 +43,14 @@ const HARMLESS: &[&str] = &[
     "fluidcoef",
     "user",
 ];
-/// Density where none is given [kg/m³].
+/// Default density [kg/m³].
 const DENSITY: f64 = 1000.0;
 
 /// A shape.
 pub(super) struct Geom {
     /// Its group.
     pub(super) group: f64,
-    /// Whether it may touch others.
+    /// Whether it may collide with others.
     pub(super) touches: bool,
     element: Element,
 }
@@ -95,7 +95,7 @@ impl Geom {
         Ok(Some(LinkInertia { mass, centre: placed.position, inertia }))
     }
 
-    /// Where it is, and its sizes; lengths between two points are sizes along z.
+    /// Its frame and its dimensions; for shapes between two points the length is along z.
     fn placed(&self, kind: &str, angles: &Angles) -> Result<(Motion, [f64; 3]), ImportError> {
         let element = &self.element;
         let mut sizes = element.list("size")?.unwrap_or_default();
@@ -132,7 +132,7 @@ impl Geom {
 
 const KINDS: [&str; 8] = ["plane", "hfield", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh"];
 
-/// Volume of a solid and its inertia per mass about its own axes; sizes are radii and half lengths.
+/// Volume of a solid and its inertia per mass about its own axes; dimensions are radii and half lengths.
 fn solid(kind: &str, [a, b, c]: [f64; 3]) -> Option<(f64, Vector3)> {
     let of = |along_x: f64, along_y: f64, along_z: f64| {
         Vector3::new(along_y + along_z, along_x + along_z, along_x + along_y)

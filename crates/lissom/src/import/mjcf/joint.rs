@@ -77,7 +77,7 @@ pub(super) fn joint(
     Ok(joint)
 }
 
-/// A range that counts: by its own word, or where it is given.
+/// The range, if it is enabled by its flag or by being given.
 fn limits(
     element: &Element,
     (key, word): (&str, &str),

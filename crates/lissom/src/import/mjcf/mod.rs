@@ -1,5 +1,5 @@
-//! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or that of their shapes, default classes, gravity.
-//! Contacts, actuators and sensors are omitted; what acts on the motion and is unknown here is rejected.
+//! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or computed from shapes, default classes, gravity.
+//! Contacts, actuators and sensors are omitted; unknown elements that affect the motion are rejected.
 
 mod element;
 mod frame;
@@ -19,13 +19,13 @@ use super::model_text::{carried, together};
 use super::xml::{self, children};
 use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
 
-/// Elements of a body that are only seen or measured.
+/// Elements of a body that are only drawn or measured.
 const SEEN: [&str; 3] = ["site", "camera", "light"];
 
 /// Reads a robot from the text of an MJCF file.
 ///
 /// # Errors
-/// If it is no MJCF, a number is wrong, or it holds what is neither known nor without influence on the motion.
+/// If it is not MJCF, a number is invalid, or it contains unknown elements that affect the motion.
 pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
     let document = xml::parse(text)?;
     let root = document.root_element();
@@ -77,7 +77,7 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
     Ok(robot)
 }
 
-/// Where the inertia of a body comes from.
+/// Source of the inertia of a body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Inertias {
     Given,
@@ -105,14 +105,14 @@ struct Reader {
     from_geoms: Inertias,
     groups: [f64; 2],
     classes: Classes,
-    /// How many geoms may touch others.
+    /// Number of geoms that may collide.
     touching: usize,
-    /// Tags of what is only seen.
+    /// Tags of elements that are only drawn or measured.
     seen: Vec<String>,
     robot: Robot,
 }
 
-/// What a body is made of.
+/// Contents of a body.
 #[derive(Default)]
 struct Content {
     joints: Vec<Element>,
@@ -120,22 +120,22 @@ struct Content {
     geoms: Option<LinkInertia>,
 }
 
-/// Where elements are read.
+/// Context of elements that are read.
 #[derive(Clone)]
 struct Place<'a> {
-    /// Frame of the element around, in the body's.
+    /// Enclosing frame relative to the body's.
     offset: Motion,
-    /// Default class around.
+    /// Enclosing default class.
     class: Option<&'a str>,
     is_world: bool,
     /// Whether the body has the mass of its geoms.
     needs_geoms: bool,
-    /// Whether they are in a frame of a body.
+    /// Whether they are within a frame of a body.
     is_frame: bool,
 }
 
 impl Reader {
-    /// Reads what is in a body, or in a frame of it, but not the bodies in it.
+    /// Reads the contents of a body, or of a frame of it, except nested bodies.
     fn content(
         &mut self,
         node: Node<'_, '_>,
@@ -178,7 +178,7 @@ impl Reader {
         Ok(())
     }
 
-    /// What is around the elements of a `<frame>`.
+    /// The context of the elements of a `<frame>`.
     fn frame<'a>(&self, node: Node<'a, 'a>, around: &Place<'a>) -> Result<Place<'a>, ImportError> {
         let own = Element::bare(node);
         own.check_known(&frame::ATTRIBUTES, &["childclass"])?;
@@ -187,7 +187,7 @@ impl Reader {
         Ok(Place { offset, class, is_frame: true, ..around.clone() })
     }
 
-    /// Reads the bodies that link `parent` carries.
+    /// Reads the child bodies of link `parent`.
     fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Place<'_>) -> Result<(), ImportError> {
         for child in node.children().filter(Node::is_element) {
             if child.has_tag_name("frame") {
@@ -199,7 +199,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Reads a body that link `parent` carries, and all bodies that this one carries.
+    /// Reads a child body of link `parent`, and all its descendants.
     fn body(&mut self, node: Node<'_, '_>, parent: usize, around: &Place<'_>) -> Result<(), ImportError> {
         let own = Element::bare(node);
         own.check_known(&frame::ATTRIBUTES, &["childclass", "mocap", "gravcomp", "user", "sleep"])?;
@@ -227,7 +227,7 @@ impl Reader {
         self.content(node, &place, &mut content)?;
         let inertia = if place.needs_geoms { content.geoms } else { content.inertial };
 
-        // Several joints of a body act one after the other, through links without mass.
+        // Several joints of a body are in series, through massless links.
         let (mut carrier, count) = (parent, content.joints.len());
         for (number, element) in content.joints.iter().enumerate() {
             let is_last = number + 1 == count;
@@ -260,7 +260,7 @@ impl Reader {
     }
 }
 
-/// The inertia that a body is given.
+/// The explicit inertia of a body.
 fn inertial(own: &Element, placed: &Motion) -> Result<LinkInertia, ImportError> {
     own.check_known(&frame::ATTRIBUTES, &["mass", "diaginertia", "fullinertia"])?;
     let mass = own.numbers::<1>("mass")?.ok_or_else(|| own.fault("it has no `mass`"))?[0];

@@ -1,4 +1,4 @@
-//! What an MJCF file holds beside bodies: what a robot gets of it, and what it does not.
+//! Sections of an MJCF file other than bodies: those that are converted, and those that are reported.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +9,20 @@ use super::super::xml::{children, counted};
 use super::super::{ImportError, Robot};
 use super::element::{Classes, Element};
 
-/// Sections without influence on the motion.
+/// Sections that do not affect the motion.
 const SHOWN: [&str; 7] = ["size", "visual", "statistic", "asset", "custom", "sensor", "keyframe"];
-/// Settings of a compiler that change masses, and their harmless values.
+/// Settings of a compiler that change masses, and their values without effect.
 const MASS_SETTINGS: [(&str, &[&str]); 4] = [
     ("boundmass", &["0"]),
     ("boundinertia", &["0"]),
     ("settotalmass", &["-1"]),
     ("balanceinertia", &["false"]),
 ];
-/// What the flags of the options can switch off.
+/// Forces that flags of the options can disable.
 const FORCES: [&str; 8] =
     ["constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "clampctrl"];
 
-/// Complains about settings of the compiler that are unknown here.
+/// Reports unknown settings of the compiler.
 pub(super) fn check_compiler(compiler: &Element) -> Result<(), ImportError> {
     if compiler.text("coordinate").is_some_and(|word| word != "local") {
         return Err(compiler.fault("only coordinate=\"local\" is known"));
@@ -36,7 +36,7 @@ pub(super) fn check_compiler(compiler: &Element) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Gravity as `<option>` says [m/s²].
+/// Gravity from `<option>` [m/s²].
 pub(super) fn gravity(root: Node<'_, '_>) -> Result<Vector3, ImportError> {
     let mut gravity = [0.0, 0.0, -9.81];
     for node in children(root, "option") {
@@ -49,7 +49,7 @@ pub(super) fn gravity(root: Node<'_, '_>) -> Result<Vector3, ImportError> {
     Ok(gravity.into())
 }
 
-/// Reads all sections but bodies into `robot`.
+/// Reads all sections except bodies into `robot`.
 pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
     let handled = ["compiler", "default", "worldbody", "option", "contact", "equality", "tendon", "actuator"];
     for node in root.children().filter(Node::is_element) {
@@ -103,7 +103,7 @@ fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Joints that follow others become followers; what else closes loops is reported.
+/// Joints that follow others become mimic joints; other loop closures are reported.
 fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
     for node in inner(node) {
         let own = classes.element(node, None)?;
@@ -138,7 +138,7 @@ fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<
     Ok(())
 }
 
-/// Tendons that only lead actuators do nothing themselves.
+/// Tendons that only transmit actuators have no effect of their own.
 fn tendons(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
     for node in inner(node) {
         let own = classes.element(node, None)?;
