@@ -1,22 +1,22 @@
-//! Tables in memory as Parquet files: columns of numbers and texts without nulls, plain and not packed, so that pandas, DuckDB, Polars
-//! and Spark read them in one line.
+//! Tables in memory as Parquet files: columns of numbers and texts without nulls, plain and uncompressed, which pandas, DuckDB,
+//! Polars and Spark can read directly.
 //!
-//! The format (Apache Parquet 2.9): after the magic word the pages of the columns, one page per column and row group; then the
-//! metadata in Thrift's compact protocol, its length and the magic word again.
+//! The format (Apache Parquet 2.9): after the magic bytes the pages of the columns, one page per column and row group; then
+//! the metadata in Thrift's compact protocol, its length and the magic bytes again.
 
 use std::io;
 
 /// First and last bytes of a file.
 const MAGIC: &[u8; 4] = b"PAR1";
-/// Rows of a group: its pages stay far below the 2 GB that their headers can express.
+/// Rows of a group: its pages remain far below the limit of 2 GB of their headers.
 const GROUP: usize = 1 << 17;
 
 /// Values of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Values {
-    /// Numbers; NaN where there is none.
+    /// Numbers; NaN for missing ones.
     Numbers(Vec<f64>),
-    /// Whole numbers.
+    /// Integers.
     Whole(Vec<i64>),
     /// Texts.
     Texts(Vec<String>),
@@ -64,7 +64,7 @@ fn too_large() -> io::Error {
     io::Error::new(io::ErrorKind::FileTooLarge, "a column is larger than a Parquet file takes")
 }
 
-/// A table as a file; `facts` are texts about it by their keys.
+/// A table as a file; `facts` are texts of its metadata by key.
 pub(crate) fn parquet(columns: &[(String, Values)], facts: &[(&str, String)]) -> io::Result<Vec<u8>> {
     let rows = columns.first().map_or(0, |(_, values)| values.len());
     let mut file = MAGIC.to_vec();
@@ -120,7 +120,7 @@ pub(crate) fn parquet(columns: &[(String, Values)], facts: &[(&str, String)]) ->
     Ok(file)
 }
 
-/// Header of a page of so many bytes and values.
+/// Header of a page with these numbers of bytes and values.
 fn page_header(size: usize, count: usize) -> Vec<u8> {
     let mut page = Struct::default();
     // Encoding 0 is plain; levels would be encoding 3, and there are none.
@@ -130,7 +130,7 @@ fn page_header(size: usize, count: usize) -> Vec<u8> {
     header.end()
 }
 
-/// What the metadata says of a column within a group.
+/// Metadata of a column within a group.
 fn chunk(name: &str, values: &Values, count: usize, (start, end): (usize, usize)) -> Vec<u8> {
     let size = end - start;
     let mut of = Struct::default();
@@ -155,13 +155,13 @@ impl Struct {
         &mut self.bytes
     }
 
-    /// A number of 32 bits.
+    /// A 32-bit integer.
     fn short(&mut self, number: u8, value: usize) -> &mut Self {
         zigzag(self.field(number, 5), value);
         self
     }
 
-    /// A number of 64 bits.
+    /// A 64-bit integer.
     fn number(&mut self, number: u8, value: usize) -> &mut Self {
         zigzag(self.field(number, 6), value);
         self
@@ -224,7 +224,7 @@ fn binary(bytes: &mut Vec<u8>, text: &str) {
     bytes.extend(text.as_bytes());
 }
 
-/// A number as the protocol has those with a sign: twice as large. There are no negative ones here.
+/// A signed number in the protocol's zigzag encoding: doubled, because there are no negative ones here.
 fn zigzag(bytes: &mut Vec<u8>, value: usize) {
     unsigned(bytes, (value as u64) << 1);
 }
@@ -253,7 +253,7 @@ mod tests {
         assert_eq!(of(1 << 40).len(), 6);
     }
 
-    /// The bytes of a small file: page, metadata, length, magic words.
+    /// The bytes of a small file: page, metadata, length, magic bytes.
     #[test]
     fn a_file_has_pages_and_metadata_where_it_says() {
         let columns = [("a".to_owned(), Values::Numbers(vec![1.5, -2.0]))];

@@ -30,19 +30,20 @@ use number::Varied;
 pub use number::varied_number;
 use pictures::PathPictures;
 
-/// First step of a path as part of its way, where it is not given.
+/// Default first step of a path, as a fraction of its range.
 const FIRST_OF_PATH: f64 = 0.02;
-/// Most steps to the loads of a model whose number is varied.
+/// Maximum number of steps to the loads of a model whose number is varied.
 const MAX_STEPS_TO_LOADS: usize = 1000;
 
-/// Where the path to the loads ends or has a critical point below this fraction of them, nothing resists them at first.
+/// If the path to the loads ends or has a critical point below this fraction of them, the model has no stiffness
+/// initially.
 const UNRESISTED: f64 = 1e-3;
 
-/// A path that has no start.
+/// Why a path has no start.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathSessionError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis is of another kind.
@@ -78,25 +79,25 @@ pub enum PathSessionError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathRunError {
-    /// The path cannot be followed any farther.
+    /// The path cannot be continued.
     #[error(transparent)]
     Path(#[from] PathError),
-    /// The model is wrong with a number at which there is an equilibrium.
+    /// The model is invalid for a number with an equilibrium.
     #[error(transparent)]
     Model(#[from] Report),
-    /// A writer did not take the results.
+    /// A writer failed.
     #[error("the results cannot be written: {0}")]
     Write(#[from] io::Error),
 }
 
-/// How a path ended.
+/// End of a path.
 #[derive(Debug)]
 pub enum PathEnd {
     /// At its load factor.
     Reached,
     /// Because it was interrupted.
     Interrupted,
-    /// Because it could not go on.
+    /// Because of a failure.
     Failed(PathRunError),
 }
 
@@ -117,7 +118,7 @@ pub struct PathReport {
     pub end: PathEnd,
     /// Limit points and bifurcations, in their order along the path.
     pub critical: Vec<CriticalPoint>,
-    /// What changes along the path: `load factor`, or the path to a number of the model file.
+    /// The varied quantity: `load factor`, or the path of a number of the model file.
     pub name: String,
     /// Last load factor, or value of the number.
     pub load_factor: f64,
@@ -125,18 +126,18 @@ pub struct PathReport {
     pub arc: f64,
     /// Equilibria recorded.
     pub records: usize,
-    /// Steps taken, and attempts given up.
+    /// Steps accepted, and attempts rejected.
     pub steps: [usize; 2],
     /// Newton iterations.
     pub iterations: usize,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// A model on its way along an equilibrium path.
+/// A model on an equilibrium path.
 pub struct PathSession {
     path: EquilibriumPath,
-    /// What changes along the path, unless it is the load factor.
+    /// The varied number, unless it is the load factor.
     varied: Option<Varied>,
     /// The system of the last equilibrium, with its channels.
     system: Arc<System>,
@@ -150,10 +151,10 @@ pub struct PathSession {
 }
 
 impl PathSession {
-    /// At load factor zero, or where the number that is varied has the value of the model file.
+    /// At load factor zero, or at the value of the varied number in the model file.
     ///
     /// # Errors
-    /// If the model is wrong, has no load or no equilibrium without one, or the number changes nothing.
+    /// If the model is invalid, has no load or no equilibrium without one, or the number has no effect.
     pub fn new(model: &Model, overrides: &[Override]) -> Result<Self, PathSessionError> {
         let began = Instant::now();
         let document = model.document(overrides)?;
@@ -202,18 +203,18 @@ impl PathSession {
         Ok(Self { path, varied, system: own, channels, columns: all, unknowns, began, pictures, doubts })
     }
 
-    /// Writes every equilibrium as a frame of a motion file, with the length of the path as its time.
+    /// Writes every equilibrium as a frame of a motion file, with the arc length of the path as its time.
     #[must_use]
     pub fn with_motion(self, to: Box<dyn Write + Send>) -> Self {
         Self { pictures: self.pictures.writing_to(to), ..self }
     }
 
-    /// What the model looks like along the path as far as it has been followed.
+    /// The scene of the model along the path so far.
     pub fn scene(&self) -> Scene {
         self.pictures.scene()
     }
 
-    /// What is recorded: the load factor or the number that is varied, the number of unstable directions, then the outputs.
+    /// The recorded columns: the load factor or the varied number, the number of unstable directions, then the outputs.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -223,7 +224,7 @@ impl PathSession {
         &self.path
     }
 
-    /// Warnings about the equilibrium at which a path along a parameter begins.
+    /// Warnings about the equilibrium at the start of a path along a parameter.
     pub fn warnings(&self) -> &[Warning] {
         &self.doubts
     }
@@ -235,7 +236,7 @@ impl PathSession {
         for channel in &self.channels {
             let first = out.len();
             channel.evaluate(&self.system, self.path.state(), out);
-            // The potential of gravity grows with the load factor.
+            // The potential of gravity increases with the load factor.
             if channel.kind == OutputKind::Energy && self.varied.is_none() {
                 let mut without = Vec::new();
                 channel.evaluate(self.path.unloaded(), self.path.state(), &mut without);
@@ -246,8 +247,8 @@ impl PathSession {
         }
     }
 
-    /// Follows the path to its end. `writers` receive a row at the start and after every step, with the length of the path
-    /// as the time; `watch` is asked after every step whether to go on.
+    /// Follows the path to its end. `writers` receive a row at the start and after every step, with the arc length of the
+    /// path as the time; `watch` decides after every step whether to continue.
     pub fn run(
         &mut self,
         writers: &mut [&mut dyn Writer],
@@ -282,7 +283,7 @@ impl PathSession {
         report
     }
 
-    /// Follows the path to its end and keeps the results in memory.
+    /// Follows the path to its end and stores the results in memory.
     pub fn record(&mut self) -> (Record, PathReport) {
         let mut record = Record::default();
         let report = self.run(&mut [&mut record], &mut || ControlFlow::Continue(()));
@@ -318,7 +319,7 @@ impl PathSession {
             report.iterations += step.iterations;
             report.critical.extend(step.critical);
             if let Some(varied) = &self.varied {
-                // Outputs may depend on the number, too.
+                // Outputs may also depend on the number.
                 let lowered = varied.at(self.path.load_factor())?;
                 self.pictures.read_elements_of(&lowered);
                 Lowered { system: self.system, channels: self.channels, .. } = lowered;
@@ -326,7 +327,7 @@ impl PathSession {
         }
     }
 
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, mut summary: Summary, report: &PathReport) -> Summary {
         let mut warnings = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
         warnings.extend(self.doubts.iter().map(|doubt| json!(format!("{}: {doubt}", doubt.code()))));
@@ -365,8 +366,8 @@ impl PathSession {
     }
 }
 
-/// The equilibrium under the loads of a model whose number has its first value: loads grow from nothing, so that it is the one
-/// of the loaded model. If nothing resists the loads at first, it is found by relaxation, with warnings.
+/// The equilibrium under the loads of a model whose number has its first value: loads increase from zero, so that it is the
+/// one of the loaded model. If the model has no stiffness initially, it is computed by relaxation, with warnings.
 fn under_loads(
     varied: &Varied,
     [unloaded, loaded]: [Arc<System>; 2],
@@ -382,7 +383,7 @@ fn under_loads(
     };
     let mut path = match EquilibriumPath::new(unloaded, Arc::clone(&loaded), state.clone(), settings) {
         Ok(path) => path,
-        // Stresses may be those of springs alone.
+        // Stresses may be caused by springs only.
         Err(PathError::NoLoad {}) => return Ok((state, Vec::new())),
         Err(error) => return Err(error.into()),
     };
@@ -407,7 +408,7 @@ fn under_loads(
     Ok((path.state().clone(), Vec::new()))
 }
 
-/// Facts known before the first step.
+/// Contents that are known before the first step.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
     crate::summary::of_request("path", name, overrides, document)
 }

@@ -1,4 +1,4 @@
-//! Where a linear model is driven and observed: inputs and outputs by the names of the model file.
+//! Inputs and outputs of a linear model, by the names of the model file.
 
 use lissom_core::linear::OutputDerivatives;
 use lissom_core::signals::{Argument, HeldId};
@@ -10,32 +10,32 @@ use crate::operating_point::LinearizationPoint;
 use crate::session::columns;
 use lissom_model::output::Column;
 
-/// An input or output that the model does not have.
+/// An unknown input or output.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PortError {
-    /// No input is called so.
+    /// No input has this name.
     #[error("the model has no input `{name}`: name an input, a load or a prescribed motion; it has {known}")]
     Input {
-        /// The name asked for.
+        /// The given name.
         name: String,
-        /// Those there are.
+        /// The existing inputs.
         known: String,
     },
-    /// Several things are called so.
+    /// Several entries have this name.
     #[error("`{name}` may mean {meanings}: write one of these")]
     Ambiguous {
-        /// The name asked for.
+        /// The given name.
         name: String,
-        /// What it may mean.
+        /// Its possible meanings.
         meanings: String,
     },
-    /// No output is called so.
+    /// No output has this name.
     #[error("the model has no output or output column `{name}`: its columns are {known}")]
     Output {
-        /// The name asked for.
+        /// The given name.
         name: String,
-        /// Those there are.
+        /// The existing outputs.
         known: String,
     },
     /// Energy or momentum.
@@ -43,36 +43,36 @@ pub enum PortError {
         "the output `{0}` has no linear response: name positions, velocities, accelerations, reactions, section forces or signals"
     )]
     NotLinear(String),
-    /// An input that acts on nothing.
+    /// An input without effect.
     #[error("the input `{0}` acts on nothing: no load, state or output that is asked for depends on it here")]
     WithoutEffect(String),
-    /// The model with the load as an input is another one.
+    /// The model could not be built with the load as an input.
     #[error(transparent)]
     Model(#[from] ModesError),
 }
 
-/// An input: what a unit of it adds to the right-hand sides, by row.
+/// An input: the change of the right-hand sides for a unit of it, by row.
 pub(crate) struct Input {
     pub(crate) name: String,
     pub(crate) right: Vec<f64>,
-    /// The held value it is, for those outputs that depend on it at once.
+    /// The held value of the input, for outputs that depend on it directly.
     held: Option<HeldId>,
 }
 
-/// An output column, and its derivatives by the unknowns.
+/// An output column, and its derivatives with respect to the unknowns.
 pub(crate) struct Observed {
     pub(crate) column: Column,
     pub(crate) derivatives: OutputDerivatives,
 }
 
 impl Observed {
-    /// Its derivative by the input itself, the motion omitted.
+    /// Its direct derivative with respect to the input, without the motion.
     pub(crate) fn direct(&self, input: &Input) -> f64 {
         input.held.and_then(|held| self.derivatives.by_held.get(&held).copied()).unwrap_or(0.0)
     }
 }
 
-/// The inputs of these names, all columns of whose outputs are asked for.
+/// The inputs of these names, for outputs with all requested columns.
 pub(crate) fn inputs(
     document: &Document,
     reached: &LinearizationPoint<'_, '_>,
@@ -122,7 +122,7 @@ fn listed<'n>(names: impl Iterator<Item = &'n String>) -> String {
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 
-/// All inputs there are, with the table they are in.
+/// All existing inputs, with their tables.
 fn known_inputs(document: &Document, reached: &LinearizationPoint<'_, '_>) -> Vec<String> {
     let inputs = document.inputs.iter().map(|(input, _)| format!("inputs.{}", input.value));
     let loads = document.loads.iter().map(|load| format!("loads.{}", load.name.value));
@@ -131,13 +131,13 @@ fn known_inputs(document: &Document, reached: &LinearizationPoint<'_, '_>) -> Ve
     inputs.chain(loads).chain(drives).collect()
 }
 
-/// What a drive is called as an input: that of a `prescribed_motion` `shaker, x` is `shaker.x`, since lists of inputs are
-/// divided by commas.
+/// Name of a drive as an input: that of a `prescribed_motion` `shaker, x` is `shaker.x`, because lists of inputs are
+/// separated by commas.
 fn drive_as_input(name: &str) -> String {
     name.replace(", ", ".")
 }
 
-/// What a load of size one adds to the left-hand sides: its size as an input of another system with the same unknowns.
+/// The change of the left-hand sides by a unit load: its size as an input of another system with the same unknowns.
 fn load(
     document: &Document,
     reached: &LinearizationPoint<'_, '_>,
@@ -195,7 +195,7 @@ pub(crate) fn outputs(
     Ok(found)
 }
 
-/// An input that does nothing is more likely a mistake than a wish.
+/// An input without effect is probably a mistake.
 pub(crate) fn check_effect(inputs: &[Input], outputs: &[Observed]) -> Result<(), PortError> {
     let acts = |input: &&Input| {
         input.right.iter().all(|&value| value == 0.0)

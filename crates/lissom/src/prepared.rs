@@ -1,4 +1,4 @@
-//! A model ready to run, shared by many sessions: its system is built once.
+//! A prepared model, shared by many sessions: its system is built once.
 
 use std::sync::Arc;
 
@@ -12,28 +12,28 @@ use lissom_model::lower::{Lowered, Plan, lower};
 use crate::builder::{ForeignId, IdNames, InputId, Part};
 use crate::session::{Session, SessionError};
 
-/// Largest violation of a constraint in a given state: of an angle [rad], and of a length over the size of the model.
+/// Allowed violation of a constraint in a given state: of an angle [rad], and of a length over the size of the model.
 const MAX_VIOLATION: f64 = 1e-6;
 
-/// A model ready to run. Sessions that are started from it, or from its copies, share one [`System`], also in several threads.
+/// A prepared model. Sessions that are started from it, or from its copies, share one [`System`], also in several threads.
 #[derive(Clone)]
 pub struct Prepared {
     lowered: Lowered,
     ids: Option<Arc<IdNames>>,
 }
 
-/// A state from which no session can start.
+/// Why no session can start from a state.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StartError {
-    /// It does not fit the model.
+    /// It does not match the model.
     #[error("the state has {found} {what}, the model {wanted}: it belongs to another model")]
     OtherModel {
-        /// What there are too few or too many of.
+        /// The quantity with a different number.
         what: &'static str,
-        /// How many there are.
+        /// The number found.
         found: usize,
-        /// How many there should be.
+        /// The number expected.
         wanted: usize,
     },
     /// A number is not finite.
@@ -57,11 +57,11 @@ pub enum StartError {
     Initial(#[from] InitialError),
 }
 
-/// An id whose motion at the start cannot be set.
+/// Why the initial motion of an id cannot be set.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PartError {
-    /// The model was read from a text: its parts have names alone.
+    /// The model was read from a text: its parts have no ids.
     #[error("the model was not built in code: its parts have no ids")]
     NotBuilt,
     /// The id belongs to another model.
@@ -76,10 +76,10 @@ pub enum PartError {
 }
 
 impl Prepared {
-    /// Makes a document ready to run.
+    /// Prepares a document.
     ///
     /// # Errors
-    /// If the model is wrong, or nothing in it is computed over time.
+    /// If the model is invalid, or its analysis has no time history.
     pub(crate) fn new(document: &Document, ids: Option<Arc<IdNames>>) -> Result<Self, SessionError> {
         let kind = &document.analysis.kind;
         if !matches!(kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
@@ -88,17 +88,17 @@ impl Prepared {
         Ok(Self { lowered: lower(document)?, ids })
     }
 
-    /// The system that all sessions share.
+    /// The shared system.
     pub fn system(&self) -> &Arc<System> {
         &self.lowered.system
     }
 
-    /// The state at the start, as the model gives it: accelerations and multipliers are still to be found.
+    /// The initial state of the model: accelerations and multipliers are not yet computed.
     pub fn state(&self) -> &State {
         &self.lowered.state
     }
 
-    /// A session at the start that the model gives.
+    /// A session at the initial state of the model.
     ///
     /// # Errors
     /// If there are no consistent initial values.
@@ -106,12 +106,12 @@ impl Prepared {
         Ok(Session::start(self.lowered.clone())?.with_ids(self.ids.clone()))
     }
 
-    /// A session that starts from `state`, at its time: from its positions, velocities and held values. Velocities are made to fit
-    /// the constraints, accelerations and multipliers follow. This is a new start; to go on to the last bit, use
-    /// [`Session::snapshot`] or [`Session::try_clone`].
+    /// A session that starts from `state`, at its time: from its positions, velocities and held values. Velocities are made
+    /// consistent with the constraints, accelerations and multipliers follow. This is a new start; to continue to the last bit,
+    /// use [`Session::snapshot`] or [`Session::try_clone`].
     ///
     /// # Errors
-    /// If the state does not fit the model, or its positions violate the constraints.
+    /// If the state does not match the model, or its positions violate the constraints.
     pub fn session_from(&self, state: State) -> Result<Session, StartError> {
         self.check(&state)?;
         let mut lowered = self.lowered.clone();
@@ -122,7 +122,7 @@ impl Prepared {
         Ok(Session::start(lowered)?.with_ids(self.ids.clone()))
     }
 
-    /// Makes `velocity` [m/s, global axes] and `angular_velocity` [rad/s, body axes] those of a body or point mass in `state`.
+    /// Sets `velocity` [m/s, global axes] and `angular_velocity` [rad/s, body axes] of a body or point mass in `state`.
     ///
     /// # Errors
     /// If the part is a beam, or of another model.
@@ -148,7 +148,7 @@ impl Prepared {
         Ok(())
     }
 
-    /// Makes `value` that of an input in `state`.
+    /// Sets the value of an input in `state`.
     ///
     /// # Errors
     /// If the input belongs to another model.
@@ -200,7 +200,7 @@ impl Prepared {
             given.iter().zip(violations(&own.kinematics)).zip(rows).enumerate()
         {
             let unit = if *quantity == lissom_core::kinematics::Quantity::Angle { 1.0 } else { size };
-            // What the model starts with is reported when it is read.
+            // Violations at the start of the model are reported when it is read.
             if violation.abs() > known.abs() + MAX_VIOLATION * unit {
                 let (joint, equation) = system.layout().constraint_name(index);
                 return Err(StartError::Violated {

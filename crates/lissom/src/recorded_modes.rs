@@ -1,4 +1,4 @@
-//! Natural modes with their shapes, read back from a folder of results, as motions that pictures can show.
+//! Natural modes with their shapes, read back from a folder of results, as motions for pictures.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -11,7 +11,8 @@ use crate::folder_page::{foreign, read_scene};
 use crate::motion::{Motion, MotionError};
 use crate::view::modes::{Mode, read};
 
-/// The largest displacement over the size of the model, and the largest turn of a mode that only turns [rad]: as the page.
+/// The largest displacement over the size of the model, and the largest rotation of a mode without displacements [rad], as
+/// on the page.
 const FAR: f64 = 1.0 / 12.0;
 const TURN: f64 = 0.3;
 
@@ -20,15 +21,15 @@ const TURN: f64 = 0.3;
 pub struct RecordedModes {
     /// One line about the model; empty for none.
     pub title: String,
-    /// What the model looks like.
+    /// The scene of the model.
     pub scene: Scene,
-    /// The state about which the modes are.
+    /// The state about which the model is linearised.
     state: Motion,
     modes: Vec<Mode>,
 }
 
 impl ResultFolder {
-    /// Whether `lissom modes` has left the folder.
+    /// Whether the folder was written by `lissom modes`.
     pub fn holds_modes(path: &Path) -> bool {
         path.join(MODES).is_file()
     }
@@ -36,7 +37,7 @@ impl ResultFolder {
     /// Natural modes with their shapes.
     ///
     /// # Errors
-    /// If the folder holds no modes, or if they, their state or the scene are damaged or do not belong together.
+    /// If the folder contains no modes, or if they, their state or the scene are damaged or inconsistent.
     pub fn recorded_modes(path: &Path) -> Result<RecordedModes, FolderError> {
         let (modes, shapes) = (files::read_text(&path.join(MODES))?, files::read_text(&path.join(SHAPES))?);
         let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
@@ -57,7 +58,7 @@ impl ResultFolder {
 }
 
 impl RecordedModes {
-    /// How many there are.
+    /// Their number.
     pub fn count(&self) -> usize {
         self.modes.len()
     }
@@ -68,7 +69,7 @@ impl RecordedModes {
         self.modes.iter().enumerate().map(label).collect()
     }
 
-    /// The first shapes, at most so many: a frame for each, with the number of the mode for its time.
+    /// The first shapes, at most this number: a frame for each, with the number of the mode as its time.
     pub fn shapes(&self, most: usize) -> Motion {
         let frames = (1_u32..).zip(self.modes.iter().take(most));
         let frames: Vec<_> =
@@ -76,16 +77,16 @@ impl RecordedModes {
         self.state.with_moved(&frames)
     }
 
-    /// The oscillation of a mode, the first having the number 1: a frame for each of these shares of its period, which
-    /// ascend. None if there is no such mode.
+    /// The oscillation of a mode, counted from 1: a frame for each of these fractions of its period, which ascend.
+    /// None if there is no such mode.
     pub fn oscillation(&self, number: usize, shares: &[f64]) -> Option<Motion> {
         let mode = self.modes.get(number.checked_sub(1)?)?;
         let frames: Vec<_> = shares.iter().map(|share| (*share, self.moved(mode, *share))).collect();
         Some(self.state.with_moved(&frames))
     }
 
-    /// Displacements and rotations of all nodes but the ground at a share of the period: the real part of the shape times
-    /// exp(2πi share).
+    /// Displacements and rotations of all nodes except the ground at a fraction of the period: the real part of the shape
+    /// times exp(2πi share).
     fn moved(&self, mode: &Mode, share: f64) -> Vec<f64> {
         let (sine, cosine) = (TAU * share).sin_cos();
         let factor = self.amplitude(mode);
@@ -96,7 +97,7 @@ impl RecordedModes {
         mode.real.iter().enumerate().map(value).collect()
     }
 
-    /// What a shape is multiplied by: its largest displacement becomes a twelfth of the model.
+    /// Factor of a shape that scales its largest displacement to a twelfth of the model.
     fn amplitude(&self, mode: &Mode) -> f64 {
         let places = || self.state.reference().iter().skip(1).map(|pose| pose.position);
         let low = places().reduce(|low, place| low.inf(&place)).unwrap_or_default();

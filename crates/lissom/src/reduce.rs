@@ -1,5 +1,5 @@
-//! Reduction of a flexible assembly to the matrices of a superelement: which part of the model is reduced, where it is, and
-//! the files that describe the superelement.
+//! Reduction of a flexible assembly to the matrices of a superelement: selection of the parts, their state, and the files
+//! that describe the superelement.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -22,37 +22,38 @@ use crate::model::{Model, Override};
 use crate::modes::ModesError;
 use crate::operating_point::OperatingPoint;
 
-/// Modes that corrections are made of: as many times those asked for, and so many more. What the modes beyond would add falls with the
-/// square of their number.
+/// Modes for corrections: this multiple of the requested number, plus a constant. The contribution of further modes decreases
+/// with the square of their number.
 const SOUGHT: [usize; 2] = [3, 24];
 
 /// The request.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReduceRequest {
-    /// Names of bodies, point masses, beams, superelements or entries of `[parts]` that are reduced; all where there are none.
+    /// Names of bodies, point masses, beams, superelements or entries of `[parts]` that are reduced; all if there are none.
     pub parts: Vec<String>,
     /// The interfaces by the names of their nodes; the first one carries the floating frame.
     pub interfaces: Vec<String>,
-    /// Number of modes with the interfaces held.
+    /// Number of modes with fixed interfaces.
     pub modes: usize,
-    /// Whether shapes are added that make up for the modes omitted where loads and rotation change the stiffness.
+    /// Whether correction shapes are added, which compensate for omitted modes if loads and rotation change the
+    /// stiffness.
     pub corrections: bool,
-    /// The state, whose stresses the stiffness holds.
+    /// The state, whose stresses are included in the stiffness.
     pub about: OperatingPoint,
     /// Name of the superelement.
     pub name: String,
 }
 
-/// A reduced assembly, as files and as facts.
+/// A reduced assembly, as files and with its properties.
 #[derive(Clone, Debug)]
 pub struct ReduceReport {
     /// Names of text files and their texts.
     pub files: Vec<(String, String)>,
     /// The matrices as a NumPy archive.
     pub archive: Vec<u8>,
-    /// Frequencies of the modes with the interfaces held [Hz].
+    /// Frequencies of the modes with fixed interfaces [Hz].
     pub frequencies: Vec<f64>,
-    /// Number of shapes behind them that make up for the modes omitted.
+    /// Number of correction shapes after the modes.
     pub corrections: usize,
     /// Names of the interfaces.
     pub interfaces: Vec<String>,
@@ -62,26 +63,26 @@ pub struct ReduceReport {
     pub mass: f64,
     /// Whether the state has forces at the interfaces.
     pub is_preloaded: bool,
-    /// What may be wrong with it.
+    /// Warnings about it.
     pub warnings: Vec<String>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// A reduction that does not exist.
+/// Why a reduction failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReduceError {
-    /// There is no state to reduce about, or the model is wrong.
+    /// There is no state, or the model is invalid.
     #[error(transparent)]
     State(#[from] ModesError),
-    /// The question makes no sense for the model.
+    /// The request is invalid for the model.
     #[error("{0}")]
     Question(String),
     /// It cannot be computed.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
-    /// The matrices are those of no free part.
+    /// The matrices are not those of a free part.
     #[error("the reduced {0}; this is no reduction to be used")]
     Matrices(#[from] ParameterError),
     /// The archive could not be packed.
@@ -90,7 +91,7 @@ pub enum ReduceError {
 }
 
 impl ReduceError {
-    /// Whether the question is wrong rather than the answer missing.
+    /// Whether the request is invalid, as opposed to a failed computation.
     pub fn is_of_question(&self) -> bool {
         matches!(self, Self::Question(_) | Self::State(ModesError::Time { .. }))
     }
@@ -100,11 +101,10 @@ fn question<T>(words: impl Into<String>) -> Result<T, ReduceError> {
     Err(ReduceError::Question(words.into()))
 }
 
-/// Reduces parts of `model`, with `overrides` put in place. Gravity is omitted: weight is that of the model which uses the
-/// superelement.
+/// Reduces parts of `model` with `overrides`. Gravity is omitted: weight belongs to the model that uses the superelement.
 ///
 /// # Errors
-/// If the question makes no sense for the model, the state cannot be reached, or the parts are no elastic assembly.
+/// If the request is invalid for the model, the state cannot be reached, or the parts are not an elastic assembly.
 pub fn reduce(
     model: &Model,
     overrides: &[Override],
@@ -149,8 +149,8 @@ pub fn reduce(
         interfaces: &interfaces,
         solver: settings.solver,
     };
-    // The lowest mode shows whether something moves freely while the interfaces are held, also where no mode is asked for.
-    // The estimate of what loads do to the stiffness needs the modes that are omitted, with and without corrections.
+    // The lowest mode shows whether a part can move freely with fixed interfaces, even if no mode is requested. The
+    // estimate of the effect of loads on the stiffness needs the omitted modes, with and without corrections.
     let sought = SOUGHT[0] * request.modes + SOUGHT[1];
     let found = assembly.reduce(sought.min(inner))?.with_modes(request.modes, request.corrections);
     if found.frequencies.len() < request.modes {
@@ -188,7 +188,7 @@ pub fn reduce(
     })
 }
 
-/// Mass in translations along an axis.
+/// Mass for translations along an axis.
 fn total(matrices: &ReducedMatrices, interfaces: usize, axis: usize) -> f64 {
     let rows = || (0..interfaces).map(|i| 6 * i + axis);
     rows().flat_map(|row| rows().map(move |column| (row, column))).map(|at| matrices.mass[at]).sum()
@@ -219,12 +219,12 @@ fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
     }
 }
 
-/// The name of a node as that of an interface.
+/// The name of an interface for the name of a node.
 fn label(name: &str) -> String {
     name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect()
 }
 
-/// Takes positions and coordinates of the whole model into those of a part of it, by their names.
+/// Copies positions and coordinates of the whole model to those of a part of it, by name.
 fn take_places(
     own: &Layout,
     at: &mut Kinematics,
@@ -253,24 +253,24 @@ fn take_places(
     Ok(())
 }
 
-/// What of a model is reduced.
+/// The reduced part of a model.
 struct Chosen {
     /// Names of parts.
     parts: BTreeSet<String>,
     /// Names of the interfaces' nodes.
     interfaces: Vec<String>,
-    /// Names of the interfaces' nodes and those that represent them in the whole model.
+    /// Names of the interfaces' nodes, and the corresponding nodes in the whole model.
     nodes: Vec<NodeId>,
     names: Names,
 }
 
-/// How a component touches the parts that are reduced.
+/// Relation of a component to the reduced parts.
 enum Touches {
-    /// Nothing of them.
+    /// It is not connected to them.
     Nothing,
-    /// Nothing else.
+    /// It is connected only to them.
     Inside,
-    /// Interfaces from outside.
+    /// It connects interfaces to other parts.
     Interfaces,
 }
 
@@ -335,7 +335,7 @@ impl Chosen {
         found.is_some_and(|node| self.nodes.contains(&node))
     }
 
-    /// How nodes touch the parts.
+    /// The relation of nodes to the parts.
     fn touches(&self, component: &Component, nodes: &[&NodeReference]) -> Result<Touches, ReduceError> {
         let inside = nodes.iter().filter(|node| self.is_part(node)).count();
         if inside == 0 {
@@ -353,7 +353,7 @@ impl Chosen {
         ))
     }
 
-    /// Rejects beams that hang on something outside otherwise than at interfaces.
+    /// Rejects beams that are connected to other parts elsewhere than at interfaces.
     fn refuse_beams(&self, own: &Document) -> Result<(), ReduceError> {
         for beam in &own.beams {
             if !beam.distributed.is_empty() {
@@ -374,7 +374,7 @@ impl Chosen {
         Ok(())
     }
 
-    /// The document of the parts alone: what acts on the interfaces from outside is omitted.
+    /// The document of the parts only: external components on the interfaces are omitted.
     fn document(&self, whole: &Document) -> Result<Document, ReduceError> {
         let mut own = whole.clone();
         let is_in = |name: &String| self.parts.contains(name);
@@ -397,7 +397,7 @@ impl Chosen {
                     vec![&base.value, &tip.value]
                 }
                 Attachment::OneNode { on, .. } => vec![&on.value],
-                // Of a rope with drums all is kept or nothing.
+                // A rope with drums is kept or omitted as a whole.
                 Attachment::Places(places, drums)
                     if !drums.iter().all(|(joint, _)| joints.contains(&joint.value)) =>
                 {
@@ -438,7 +438,7 @@ impl Chosen {
             };
             Ok(matches!(self.touches(component, &nodes)?, Touches::Inside))
         };
-        // Joints between nodes come before what acts on their coordinates.
+        // Joints between nodes come before components on their coordinates.
         for pass in [true, false] {
             for component in &whole.joints {
                 let is_between = matches!(
@@ -544,7 +544,7 @@ fn archive(
     matrices: &ReducedMatrices,
 ) -> std::io::Result<Vec<u8>> {
     let size = matrices.mass.nrows();
-    // By rows is by columns: the matrices are symmetric.
+    // Rows and columns are equal: the matrices are symmetric.
     let square = |values: &[f64]| npy::numbers(&[size, size], values);
     let mut arrays = vec![
         ("mass.npy", square(matrices.mass.as_slice())),
@@ -570,7 +570,7 @@ fn archive(
 }
 
 impl ReduceReport {
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("reduce", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);

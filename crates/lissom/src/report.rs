@@ -17,19 +17,19 @@ pub enum RunError {
     /// A step has no solution.
     #[error(transparent)]
     Step(#[from] StepError),
-    /// A writer did not take the results.
+    /// A writer failed.
     #[error("the results cannot be written: {0}")]
     Write(#[from] io::Error),
 }
 
-/// How a run ended.
+/// End of a run.
 #[derive(Debug)]
 pub enum Stopped {
     /// At its planned end.
     End,
     /// Because it was interrupted.
     Interrupted,
-    /// Because it could not go on.
+    /// Because of a failure.
     Failed(RunError),
 }
 
@@ -66,11 +66,11 @@ pub struct RunReport {
     pub records: usize,
     /// Counts over all steps.
     pub totals: Totals,
-    /// From before the initial values to the last record.
+    /// Time from before the initial values to the last record.
     pub wall: Duration,
-    /// Steps alone, without initial values, outputs and writing.
+    /// Time of steps only, without initial values, outputs and writing.
     pub solving: Duration,
-    /// Where the time went.
+    /// Time by kind of work.
     pub seconds: Seconds,
     /// Largest violation of a constraint, evaluated from absolute positions, over all records [m, rad].
     pub violation: f64,

@@ -1,4 +1,4 @@
-//! Frequency response: amplitudes of outputs for harmonic inputs of amplitude one, without steps in time.
+//! Frequency response: amplitudes of outputs for harmonic inputs of unit amplitude, without time integration.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -15,23 +15,23 @@ use crate::modes::ModesError;
 use crate::operating_point::{LinearizationPoint, OperatingPoint};
 use crate::ports::{self, Input, Observed, PortError};
 
-/// Frequencies where nothing says otherwise.
+/// Default number of frequencies.
 pub const DEFAULT_POINTS: usize = 400;
-/// Natural frequencies that are looked for, so that no peak is passed over.
+/// Natural frequencies that are computed, so that no peak is missed.
 const MODES: usize = 40;
-/// A frequency is put between two others where a response changes by more than this fraction of itself …
+/// A frequency is inserted between two others if a response changes by more than this fraction of itself …
 const CHANGE: f64 = 0.15;
-/// … or than this fraction of its largest size, where that is more …
+/// … or than this fraction of its largest magnitude, if that is more …
 const SMALL: f64 = 1e-4;
-/// … or than this fraction of the terms it is the sum of, …
+/// … or than this fraction of its terms, …
 const ROUND_OFF: f64 = 1e-9;
-/// … so many times over, at most, …
+/// … at most this many times, …
 const DEPTH: usize = 10;
-/// … and until there are so many frequencies.
+/// … and up to this number of frequencies.
 const MAX_FREQUENCIES: usize = 20_000;
-/// Distance from a natural frequency without damping, relative to it.
+/// Distance from an undamped natural frequency, relative to it.
 const BESIDE: f64 = 1e-4;
-/// Damping ratios below this are none.
+/// Damping ratios below this are considered zero.
 const UNDAMPED: f64 = 1e-9;
 
 /// The request.
@@ -47,15 +47,15 @@ pub struct ResponseRequest {
     pub from: f64,
     /// Last frequency [Hz].
     pub to: f64,
-    /// Number of frequencies; more are put where a response changes fast.
+    /// Number of frequencies; more are inserted where a response changes fast.
     pub points: usize,
 }
 
-/// A response that was not found.
+/// Why no response was found.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FrequencyError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(Report),
     /// There is no state to linearise about.
@@ -64,7 +64,7 @@ pub enum FrequencyError {
     /// An input or output does not exist.
     #[error(transparent)]
     Port(#[from] PortError),
-    /// The frequencies are no range.
+    /// The frequencies are not a range.
     #[error("frequencies from {from} to {to} Hz: both must be above zero, and the first below the last")]
     Range {
         /// First frequency [Hz].
@@ -72,7 +72,7 @@ pub enum FrequencyError {
         /// Last frequency [Hz].
         to: f64,
     },
-    /// Wheels roll on.
+    /// Wheels are rolling.
     #[error(
         "wheels roll on at that instant: their contacts move through the axes of the parts, in which responses are found; take a \
          state in which they are, or `lissom modes`, which knows axes that do not spin with the wheels"
@@ -83,7 +83,7 @@ pub enum FrequencyError {
     Response {
         /// The frequency [Hz].
         frequency: f64,
-        /// What went wrong.
+        /// The error.
         error: ResponseError,
     },
 }
@@ -98,7 +98,7 @@ impl From<ModesError> for FrequencyError {
 }
 
 impl FrequencyError {
-    /// Whether the question is wrong rather than the answer missing.
+    /// Whether the request is invalid, as opposed to a failed computation.
     pub fn is_of_question(&self) -> bool {
         matches!(self, Self::Port(_) | Self::Range { .. } | Self::State(ModesError::Time { .. }))
     }
@@ -122,7 +122,7 @@ impl Transfer {
     }
 }
 
-/// Responses, and what is reported of them.
+/// Responses, with warnings.
 #[derive(Clone, Debug)]
 pub struct ResponseReport {
     /// Frequencies [Hz], ascending.
@@ -135,16 +135,16 @@ pub struct ResponseReport {
     pub about: String,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
-    /// What may be wrong with them.
+    /// Warnings about them.
     pub warnings: Vec<String>,
-    /// How long it took.
+    /// Wall-clock time.
     pub wall: Duration,
 }
 
-/// Frequency response of `model`, with `overrides` put in place.
+/// Frequency response of `model` with `overrides`.
 ///
 /// # Errors
-/// If the question makes no sense for the model, the state cannot be reached, or a solve fails.
+/// If the request is invalid for the model, the state cannot be reached, or a solve fails.
 pub fn response(
     model: &Model,
     overrides: &[Override],
@@ -209,7 +209,7 @@ fn of_state(
     })
 }
 
-/// Natural frequencies within the range, where peaks are to be looked for.
+/// Natural frequencies within the range, near which peaks are searched for.
 fn natural_frequencies(
     model: &LinearModel<'_>,
     request: &ResponseRequest,
@@ -276,20 +276,20 @@ fn frequencies(request: &ResponseRequest, natural: &[(f64, f64)]) -> Vec<f64> {
     all
 }
 
-/// A frequency and what is found there.
+/// A frequency and the responses there.
 #[derive(Clone)]
 struct Row {
     frequency: f64,
     amplitudes: Vec<Complex64>,
 }
 
-/// Responses by frequency, as they are found.
+/// Responses by frequency, as they are computed.
 struct Table<'p, 'm, 'a> {
     solver: FrequencyResponse<'m, 'a>,
     inputs: &'p [Input],
     outputs: &'p [Observed],
     right: Vec<Vec<f64>>,
-    /// Below these, changes of each response do not count.
+    /// Changes of each response below these are ignored.
     small: Vec<f64>,
     rows: Vec<Row>,
 }
@@ -317,7 +317,7 @@ impl<'p, 'm, 'a> Table<'p, 'm, 'a> {
         Ok(Row { frequency, amplitudes })
     }
 
-    /// Fills the rows of these frequencies, and of more between them where a response changes fast.
+    /// Computes the rows of these frequencies, and of more between them where a response changes fast.
     fn fill(&mut self, frequencies: &[f64]) -> Result<(), FrequencyError> {
         let first = frequencies.iter().map(|&frequency| self.at(frequency)).collect::<Result<Vec<_>, _>>()?;
         for (index, row) in first.iter().enumerate() {
@@ -385,7 +385,7 @@ impl ResponseReport {
         }
     }
 
-    /// The facts of `summary.json`.
+    /// The contents of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("response", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
@@ -415,7 +415,7 @@ impl ResponseReport {
         summary
     }
 
-    /// Frequency [Hz] and size of the largest magnitude of a response.
+    /// Frequency [Hz] and magnitude at the largest magnitude of a response.
     pub fn peak(&self, transfer: &Transfer) -> (f64, f64) {
         let sizes = self.frequencies.iter().zip(&transfer.amplitudes).map(|(&f, value)| (f, value.norm()));
         sizes.reduce(|most, one| if one.1 > most.1 { one } else { most }).unwrap_or((0.0, 0.0))

@@ -1,36 +1,36 @@
-//! When steps end and which of them are recorded: planned instants at equal distances, or whatever steps are chosen up to
-//! the next instant that must be met. Knows no system.
+//! Ends of steps and the selection of records: planned instants at equal distances, or adaptive steps up to the next
+//! mandatory instant. Independent of the system.
 
 use lissom_model::lower::Plan;
 use serde::{Deserialize, Serialize};
 
-/// A remainder this close to a whole step, relative to the step, is one.
+/// A remainder this close to a whole step, relative to the step, is a whole step.
 const WHOLE: f64 = 1e-9;
 
-/// What the next step is to be.
+/// The next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
-    /// Of this size [s], to this instant [s].
+    /// Of this size [s], up to this instant [s].
     Planned { size: f64, end: f64 },
     /// Of any size, not beyond this instant [s].
     Until(f64),
 }
 
-/// Where a run is between its start and its end.
+/// Progress of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Schedule {
     plan: Plan,
     step_size: f64,
-    /// Time from which planned instants are counted, and steps planned from there to the end [s].
+    /// Reference time of planned instants, and step size from there to the end [s].
     base: f64,
     steps: usize,
     /// Planned instants reached since then.
     reached: usize,
-    /// Steps taken.
+    /// Steps done.
     taken: usize,
-    /// Records at equal distances that are reached since the start.
+    /// Records at equal distances since the start.
     recorded: usize,
-    /// Where steps are chosen: the time reached [s].
+    /// For adaptive steps: the time reached [s].
     time: f64,
 }
 
@@ -54,12 +54,12 @@ impl Schedule {
         if self.plan.is_controlled { self.time >= self.plan.end } else { self.reached >= self.steps }
     }
 
-    /// Time [s], free of the round-off of many additions.
+    /// Time [s], without the round-off of many additions.
     pub(crate) fn time(&self) -> f64 {
         if self.plan.is_controlled { self.time } else { self.planned(self.reached) }
     }
 
-    /// Steps done and planned; where steps are chosen, thousandths of the time.
+    /// Steps done and planned; for adaptive steps, thousandths of the time.
     pub(crate) fn done(&self) -> (usize, usize) {
         if self.plan.is_controlled {
             let share = (self.time - self.plan.start) / (self.plan.end - self.plan.start);
@@ -69,7 +69,7 @@ impl Schedule {
         }
     }
 
-    /// A planned instant [s]; where a run was diverted beyond its end, that time.
+    /// A planned instant [s]; if a run was diverted beyond its end, that time.
     fn planned(&self, index: usize) -> f64 {
         if index >= self.steps {
             self.plan.end.max(self.base)
@@ -87,7 +87,7 @@ impl Schedule {
         })
     }
 
-    /// Planned instants and records that are nearest to `time` [s], and the end [s].
+    /// Planned instants and records nearest to `time` [s], and the end [s].
     pub(crate) fn next_instants(&self, time: f64) -> impl Iterator<Item = f64> {
         let nearest =
             move |(base, distance): (f64, f64)| base + ((time - base) / distance).round() * distance;
@@ -96,7 +96,7 @@ impl Schedule {
         planned.into_iter().chain(records).map(nearest).chain([self.plan.end])
     }
 
-    /// What the next step is to be.
+    /// The next step.
     pub(crate) fn next(&self) -> Next {
         if self.plan.is_controlled {
             return Next::Until(self.next_record());
@@ -110,7 +110,7 @@ impl Schedule {
         Next::Planned { size: whole, end: self.planned(self.reached + 1) }
     }
 
-    /// A step was taken that ends at `time` [s]. Whether it is to be recorded.
+    /// Records a step that ends at `time` [s]. Whether its end is a record.
     pub(crate) fn accept(&mut self, time: f64) -> bool {
         self.taken += 1;
         if self.plan.is_controlled {
@@ -126,7 +126,7 @@ impl Schedule {
         self.taken.is_multiple_of(self.plan.output_every)
     }
 
-    /// A step was taken to `time` [s] outside the plan: planned steps go on from there.
+    /// Records a step to `time` [s] outside the plan: planned steps continue from there.
     pub(crate) fn divert(&mut self, time: f64) {
         self.taken += 1;
         self.time = time;

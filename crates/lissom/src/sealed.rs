@@ -1,4 +1,5 @@
-//! Values as bytes with a checksum: a state with a single changed byte would often be read, and go on from somewhere else.
+//! Values as bytes with a checksum: a state with a single changed byte could often be read, and would continue from a
+//! wrong state.
 
 use flate2::Crc;
 use serde::Serialize;
@@ -24,10 +25,10 @@ pub fn to_bytes<T: Serialize>(value: &T) -> Result<Vec<u8>, postcard::Error> {
     Ok(bytes)
 }
 
-/// The value of bytes that [`to_bytes`] has returned; nothing if they are others.
+/// The value of bytes that [`to_bytes`] returned; none for other bytes.
 pub fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
     let (bytes, sum) = bytes.split_at_checked(bytes.len().checked_sub(CHECKSUM)?)?;
-    // Bytes that are left over belong to another value.
+    // Remaining bytes belong to another value.
     let (value, rest) = (checksum(bytes) == sum).then(|| postcard::take_from_bytes(bytes).ok())??;
     rest.is_empty().then_some(value)
 }

@@ -1,4 +1,4 @@
-//! The facts of `summary.json`: the request and its result. Scripts read these names.
+//! The contents of `summary.json`: the request and its result. Scripts read these names.
 
 use lissom_core::analysis::InitialError;
 use lissom_core::analysis::assembly::Gap;
@@ -20,7 +20,7 @@ pub(crate) fn insert(summary: &mut Summary, name: &str, fact: Value) {
     summary.insert(name, fact).expect("a JSON value can be said in JSON");
 }
 
-/// What is known of an analysis without time steps before it has a result: it is reported as failed until then.
+/// Contents for an analysis without time steps before it has a result: it is reported as failed until then.
 pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: &Document) -> Summary {
     let mut summary = Summary::new();
     let mut insert = |name: &str, fact: Value| insert(&mut summary, name, fact);
@@ -39,14 +39,14 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
     summary
 }
 
-/// What was omitted from the model's text, if anything was.
+/// Paths that were omitted from the model's text, if any.
 pub fn of_left_out(summary: &mut Summary, model: &Model) {
     if !model.left_out().is_empty() {
         insert(summary, "unset", json!(model.left_out()));
     }
 }
 
-/// Facts known before the first step. A run that cannot even start is reported as failed, with `steps` zero;
+/// Contents that are known before the first step. A run that cannot start is reported as failed, with `steps` zero;
 /// [`of_run`] replaces this.
 pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered: &Lowered) -> Summary {
     let Lowered { system, settings, plan, channels, .. } = lowered;
@@ -102,7 +102,7 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     summary
 }
 
-/// What was moved so that joints close.
+/// The displacements by which joints were closed.
 pub(crate) fn of_assembly(assembly: &Assembly) -> Value {
     let gap = |gap: &Gap| json!({ "joint": gap.joint, "distance": gap.distance, "angle": gap.angle });
     let moved =
@@ -118,7 +118,7 @@ pub(crate) fn of_assembly(assembly: &Assembly) -> Value {
     })
 }
 
-/// Says that a run has begun: what is read of one that was killed.
+/// Records that a run has begun, which remains in the summary if it is killed.
 pub fn of_beginning(summary: &mut Summary) {
     insert(summary, "stopped", json!("running"));
 }
@@ -223,7 +223,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     );
 }
 
-/// Adds why a run could not start.
+/// Adds the reason why a run could not start.
 pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
     insert(summary, "stopped", json!("failed"));
     insert(summary, "error", json!(error.to_string()));
@@ -231,7 +231,7 @@ pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
     for name in ["records", "rejected_steps", "stagnated_steps", "newton_iterations", "factorizations"] {
         insert(summary, name, json!(0));
     }
-    // The names are there, so that scripts need not ask.
+    // The names are always present, so that scripts need not check.
     for name in [
         "fell_back_at",
         "yielded_at",
@@ -251,7 +251,7 @@ pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
     }
 }
 
-/// How often each event has happened, and when first and last.
+/// Number of occurrences of each event, and the first and last time.
 fn of_events(session: &Session) -> Value {
     let mut facts = serde_json::Map::new();
     for event in session.simulation().system().signals().events() {
@@ -263,7 +263,7 @@ fn of_events(session: &Session) -> Value {
     Value::Object(facts)
 }
 
-/// Of each column what a sweep could collect of it; `null` where a record is not finite.
+/// Statistics of each column, as in sweeps; `null` if a record is not finite.
 fn statistics(session: &Session) -> Value {
     let of = |column: &Column, history: &Accumulator| -> Value {
         let asked = STATISTICS.iter().filter(|known| known.name != OF_FATIGUE || column.fatigue.is_some());

@@ -1,28 +1,28 @@
-//! What every step reports about its tangent: condition, pivots, iterations. Long runs are thinned out, so that the
-//! summary stays small, and the condition is estimated ever more rarely. Nothing depends on the clock: a run that is
-//! continued reports the same as one that was not interrupted.
+//! Data of every step about its tangent: condition, pivots, iterations. For long runs samples are merged, so that the
+//! summary remains small, and the condition is estimated less and less often. Nothing depends on the clock: a resumed
+//! run reports the same as an uninterrupted one.
 
 use lissom_core::analysis::{Simulation, StepReport};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-/// Most samples kept.
+/// Maximum number of samples.
 const MAX_SAMPLES: usize = 512;
 
-/// One step, or several in a row where the run is long.
+/// One step, or several consecutive ones in a long run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// Number of the step, from 1.
     pub step: usize,
     /// Time at its end [s].
     pub time: f64,
-    /// Condition number of the tangent in use, as estimated last in the 1-norm.
+    /// Condition number of the tangent in use, by its last estimate in the 1-norm.
     pub condition: Option<f64>,
-    /// Smallest pivot over largest diagonal entry of the tangent factored last.
+    /// Smallest pivot over largest diagonal entry of the tangent factorised last.
     pub relative_pivot: Option<f64>,
     /// Newton iterations since the last sample.
     pub iterations: usize,
-    /// Tangents factored since the last sample.
+    /// Tangents factorised since the last sample.
     pub factorizations: usize,
 }
 
@@ -30,11 +30,11 @@ pub struct Sample {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Telemetry {
     samples: Vec<Sample>,
-    /// Steps from one sample to the next.
+    /// Number of steps per sample.
     every: usize,
     /// Iterations and tangents since the last sample.
     open: (usize, usize),
-    /// The last estimate, and whether another tangent has been factored since.
+    /// The last estimate, and whether another tangent has been factorised since.
     condition: Option<f64>,
     is_stale: bool,
     range: Option<(f64, f64)>,
@@ -62,7 +62,7 @@ impl Telemetry {
         self.range
     }
 
-    /// Whether noting the last step will look at its tangent.
+    /// Whether recording the last step will estimate the condition of its tangent.
     pub(crate) fn will_estimate(&self, simulation: &Simulation, report: &StepReport) -> bool {
         (self.is_stale || report.factorizations > 0) && is_estimated(simulation.totals().steps)
     }
@@ -72,7 +72,7 @@ impl Telemetry {
         step == 1 || step.is_multiple_of(self.every)
     }
 
-    /// Notes a step that was completed.
+    /// Records a completed step.
     pub(crate) fn note(&mut self, simulation: &mut Simulation, report: &StepReport) {
         self.open.0 += report.iterations;
         self.open.1 += report.factorizations;
@@ -108,7 +108,7 @@ impl Telemetry {
         }
     }
 
-    /// Joins pairs of samples.
+    /// Merges pairs of samples.
     fn thin_out(&mut self) {
         self.every *= 2;
         let mut kept: Vec<Sample> = Vec::with_capacity(MAX_SAMPLES);
@@ -141,7 +141,7 @@ impl Telemetry {
     }
 }
 
-/// Whether the condition is estimated after so many steps: the first ones, then ever more rarely.
+/// Whether the condition is estimated after this number of steps: after the first ones, then less and less often.
 fn is_estimated(steps: usize) -> bool {
     steps <= 8 || steps.is_power_of_two()
 }

@@ -1,5 +1,5 @@
-//! What a person at a terminal sees and does: texts, a progress bar, Ctrl-C. Output that nobody takes, as
-//! behind a closed pipe, is no reason to stop.
+//! Output to and input from a terminal: texts, a progress bar, Ctrl-C. Failing output, for example to a closed pipe,
+//! does not stop the program.
 
 use std::io::{IsTerminal, Write, stderr, stdout};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use lissom::Progress;
 
 use crate::commands::Exit;
 
-/// How often the progress bar is looked after.
+/// Refresh interval of the progress bar.
 const REFRESH: Duration = Duration::from_millis(50);
 
 /// Writes results.
@@ -20,17 +20,17 @@ pub(crate) fn print(text: &str) {
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
-/// Writes complaints.
+/// Writes error messages.
 pub(crate) fn complain(text: &str) {
     let _ = stderr().lock().write_all(text.as_bytes());
 }
 
-/// Whether complaints are in colour.
+/// Whether error messages are in colour.
 pub(crate) fn in_colour() -> bool {
     stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// A bar of steps on the terminal; nothing in a pipe.
+/// A progress bar of steps on the terminal; none in a pipe.
 pub(crate) struct Bar {
     shown: ProgressBar,
     began: Instant,
@@ -51,7 +51,7 @@ impl Bar {
         Self { shown: bar, began: now, drawn: now }
     }
 
-    /// Shows where a session is.
+    /// Shows the progress of a session.
     pub(crate) fn show(&mut self, progress: &Progress) {
         if self.drawn.elapsed() < REFRESH || self.shown.is_hidden() {
             return;
@@ -62,7 +62,7 @@ impl Bar {
         self.shown.set_message(format!("t = {:.4} of {} s, {speed:.0} steps/s", progress.time, progress.end));
     }
 
-    /// Takes it away.
+    /// Removes it.
     pub(crate) fn clear(&self) {
         self.shown.finish_and_clear();
     }
@@ -73,11 +73,11 @@ impl Bar {
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// From now on the first Ctrl-C is noted and the second ends the program.
+    /// From now on the first Ctrl-C is recorded and the second ends the program.
     pub(crate) fn listen() -> Self {
         let interrupt = Self::default();
         let noted = interrupt.clone();
-        // Where no handler can be set, Ctrl-C ends the program as ever.
+        // If no handler can be set, Ctrl-C ends the program as usual.
         let _ = ctrlc::set_handler(move || {
             if noted.0.swap(true, Ordering::Relaxed) {
                 std::process::exit(i32::from(Exit::Interrupted.code()));
@@ -86,7 +86,7 @@ impl Interrupt {
         interrupt
     }
 
-    /// What is set when it is pressed.
+    /// The flag that is set when it is pressed.
     pub(crate) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }

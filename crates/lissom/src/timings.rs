@@ -1,5 +1,5 @@
-//! Where the time of a run went. Short steps are watched now and then only, so that looking at the clock does
-//! not become part of what is seen.
+//! Distribution of a run's time. Only some of the short steps are measured, so that reading the clock does not affect
+//! the result.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,13 +8,12 @@ use std::time::{Duration, Instant};
 use lissom_core::analysis::{Phase, Stopwatch};
 use lissom_core::interrupt;
 
-/// Steps that take longer than this on average are all watched.
+/// Steps that take longer than this on average are all measured.
 const LONG: Duration = Duration::from_micros(20);
-/// Of shorter ones, one in so many.
+/// Of shorter ones, one in this number.
 const STRIDE: u32 = 16;
 
-/// Time by kind of work [s]. What steps spend is their whole time, shared out as it was seen in the steps that
-/// were watched.
+/// Time by kind of work [s]. The whole time of steps is distributed in the proportions of the measured ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seconds {
     /// Consistent initial values, first analysis of the tangent's pattern.
@@ -27,7 +26,7 @@ pub struct Seconds {
     pub factorisation: f64,
     /// Forward and backward substitution.
     pub solve: f64,
-    /// What else a step does: prediction, corrections and their size, the end of the step.
+    /// Other parts of a step: prediction, corrections and their size, the end of the step.
     pub rest: f64,
     /// Outputs, energy and violations of recorded instants, and writing them.
     pub output: f64,
@@ -40,14 +39,14 @@ impl Seconds {
     }
 }
 
-/// Watches steps.
+/// Measures steps.
 pub(crate) struct Timings {
     by_phase: [Duration; Phase::COUNT],
-    /// Of that, the first step's, which is like no other: it makes a tangent, and all memory is new to it.
+    /// The part of the first step, which is exceptional: it computes a tangent, and all memory is new to it.
     first: [Duration; Phase::COUNT],
-    /// Of the steps whose end was seen.
+    /// Time of the steps whose end was measured.
     steps: Duration,
-    /// When the steps after those began.
+    /// Start of the subsequent steps.
     open: Option<Instant>,
     count: u32,
     are_short: bool,
@@ -56,7 +55,7 @@ pub(crate) struct Timings {
     phase: Phase,
     pub(crate) start: Duration,
     pub(crate) output: Duration,
-    /// Set by somebody who wants a step to be given up.
+    /// Set to cancel a step.
     pub(crate) cancelled: Option<Arc<AtomicBool>>,
 }
 
@@ -105,7 +104,7 @@ impl Timings {
         }
     }
 
-    /// What follows is no step.
+    /// Stops measuring until the next step.
     pub(crate) fn pause(&mut self) {
         if self.open.is_some() {
             self.close(Instant::now());
@@ -118,7 +117,7 @@ impl Timings {
         }
     }
 
-    /// All steps up to the last pause, failed ones included.
+    /// Time of all steps up to the last pause, failed ones included.
     pub(crate) fn steps(&self) -> Duration {
         self.steps
     }

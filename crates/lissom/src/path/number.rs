@@ -12,10 +12,10 @@ use lissom_model::{Document, ModelText, Problem, Report};
 
 use crate::model::{Model, Override};
 
-/// Positions that differ by less, over the size of the model, and angles [rad], are the same.
+/// Positions that differ by less than this, over the size of the model, and angles [rad], are equal.
 const SAME: f64 = 1e-9;
 
-/// A model with a number that is varied.
+/// A model with a varied number.
 #[derive(Clone)]
 pub(super) struct Varied {
     text: Arc<ModelText>,
@@ -40,7 +40,7 @@ impl Varied {
         Ok(Some(Self { text, path, from, start: Arc::new(start.kinematics.clone()) }))
     }
 
-    /// The model where the number has this value.
+    /// The model with this value of the number.
     pub(super) fn at(&self, value: f64) -> Result<Lowered, Report> {
         let document = self.text.document(&registry(), &[(self.path.clone(), format!("{value:?}"))])?;
         lower(&document)
@@ -65,7 +65,7 @@ impl Family for Varied {
 /// Path and value of the number that an analysis varies; none for the load factor.
 ///
 /// # Errors
-/// If there is no such number, it is none of the model, or it has its last value already.
+/// If there is no such number, it has no effect, or it already has its last value.
 pub fn varied_number(
     model: &Model,
     overrides: &[Override],
@@ -97,7 +97,7 @@ pub fn varied_number(
     Ok(Some((path.to_owned(), from)))
 }
 
-/// A node that is elsewhere in a direction in which it has no freedom.
+/// A node that is displaced in a locked direction.
 fn moved_where_locked(lowered: &Lowered, start: &Kinematics) -> Option<String> {
     let layout = lowered.system.layout();
     let own = &lowered.state.kinematics.nodes;

@@ -1,4 +1,4 @@
-//! What pictures need of an equilibrium path: a motion with a frame for every equilibrium, and the scene along it.
+//! Data of an equilibrium path for pictures: a motion with a frame for every equilibrium, and the scene along it.
 
 use std::io::{self, Write};
 
@@ -14,13 +14,13 @@ use crate::state_writer::StateWriter;
 pub(super) struct PathPictures {
     scene: Scene,
     passed: PathValues,
-    /// Whether the load factor is what changes.
+    /// Whether the load factor is the varied quantity.
     scales_loads: bool,
     recorder: MotionRecorder<Box<dyn Write + Send>>,
 }
 
 impl PathPictures {
-    /// None yet, written nowhere.
+    /// Without equilibria and without a file.
     pub(super) fn new(document: &Document, lowered: &Lowered) -> Self {
         let nowhere: Box<dyn Write + Send> = Box::new(io::sink());
         Self {
@@ -31,7 +31,7 @@ impl PathPictures {
         }
     }
 
-    /// The same, where what changes is called so.
+    /// The same with this name of the varied quantity.
     pub(super) fn along(self, name: &str, scales_loads: bool) -> Self {
         Self { passed: PathValues::new(name), scales_loads, ..self }
     }
@@ -41,12 +41,12 @@ impl PathPictures {
         Self { recorder: self.recorder.writing_to(to), ..self }
     }
 
-    /// Takes section forces from the elements of another model from now on.
+    /// Uses section forces of the elements of another model from now on.
     pub(super) fn read_elements_of(&mut self, lowered: &Lowered) {
         self.recorder.read_elements_of(lowered);
     }
 
-    /// Adds an equilibrium at a length of the path.
+    /// Adds an equilibrium at an arc length of the path.
     pub(super) fn push(&mut self, (length, value): (f64, f64), at: &Kinematics) -> io::Result<()> {
         self.passed.push(length, value);
         self.recorder.write_next(&Kinematics { time: length, ..at.clone() })
@@ -56,7 +56,7 @@ impl PathPictures {
         self.recorder.flush()
     }
 
-    /// What the model looks like along the path as far as it has been followed.
+    /// The scene of the model along the path so far.
     pub(super) fn scene(&self) -> Scene {
         self.scene.clone().along(self.passed.clone(), self.scales_loads)
     }

@@ -1,6 +1,6 @@
-//! Pictures of a mechanism without a browser: one instant, or several beside each other, drawn from the same shapes as the
-//! page shows. Faces are shaded; those that others hide are omitted, and those that are partly hidden are cut into small
-//! ones and painted from the farthest to the nearest.
+//! Pictures of a mechanism without a browser: one instant, or several side by side, drawn from the same shapes as on the
+//! page. Faces are shaded; hidden ones are omitted, and partly hidden ones are divided into small faces and painted from
+//! the farthest to the nearest.
 
 mod painter;
 mod snapshot;

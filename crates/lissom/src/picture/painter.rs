@@ -1,4 +1,4 @@
-//! Surfaces as shaded polygons in the order in which they are painted.
+//! Surfaces as shaded polygons in painting order.
 
 use lissom_model::output::Shade;
 use lissom_model::scene::Tone;
@@ -8,10 +8,10 @@ use super::view::Projection;
 use super::visible::{self, ItemBuffer, Laid};
 use crate::geometry::{Colour, Geometry, Mesh};
 
-/// Longest edge of a face that is partly hidden, relative to the model: long faces have no one distance.
+/// Longest edge of a partly hidden face, relative to the model: long faces have no unique distance.
 const LONGEST: f64 = 0.02;
 
-/// Colours of parts, that can be distinguished by colour-blind eyes.
+/// Colours of parts that colour-blind viewers can distinguish.
 const PARTS: [Shade; 8] = [
     [0x6f, 0x9b, 0xc8],
     [0xd9, 0x9a, 0x6c],
@@ -23,7 +23,7 @@ const PARTS: [Shade; 8] = [
     [0xb5, 0xa9, 0x8f],
 ];
 
-/// The colour of a piece, as the page has it.
+/// The colour of a piece, as on the page.
 pub fn shade_of(colour: Colour) -> Shade {
     match colour {
         Colour::Part(number) => PARTS[number % PARTS.len()],
@@ -37,17 +37,17 @@ pub fn shade_of(colour: Colour) -> Shade {
     }
 }
 
-/// A face as it is seen: points to the right and upward [m], and its colour.
+/// A projected face: points to the right and upward [m], and its colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// Its points.
     pub points: Vec<[f64; 2]>,
-    /// Its colour in this light.
+    /// Its shaded colour.
     pub shade: Shade,
 }
 
-/// The faces of a model at poses of its nodes and a time [s], in the order in which they are painted: first those that are
-/// partly hidden, cut into small ones, the farthest first; then those that nothing hides.
+/// The faces of a model at poses of its nodes and a time [s], in painting order: first the partly hidden ones, divided
+/// into small faces, the farthest first; then those that are fully visible.
 pub fn painted(geometry: &Geometry, projection: &Projection, poses: &[Pose], time: f64) -> Vec<Seen> {
     let (mut laid, mut shades) = (Vec::new(), Vec::new());
     for piece in &geometry.pieces {
@@ -86,8 +86,8 @@ fn seen(face: &Laid, shade: Shade) -> Seen {
     Seen { points: face.iter().map(|[x, y, _]| [*x, *y]).collect(), shade }
 }
 
-/// The faces of a surface that look towards the one who looks, and how bright they are. Surfaces are closed: what looks
-/// away is hidden.
+/// The faces of a surface towards the viewer, and their brightness. Surfaces are closed: faces away from the viewer are
+/// hidden.
 fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut visit: impl FnMut(Laid, f64)) {
     for face in &mesh.faces {
         let points: Vec<Vector3> = face.iter().map(|k| mesh.points[*k as usize]).collect();
@@ -103,15 +103,15 @@ fn faces(mesh: &Mesh, (geometry, projection): (&Geometry, &Projection), mut visi
     }
 }
 
-/// The normal of a face by Newell's formula; none of a face without area.
+/// The normal of a face by Newell's formula; none for a face without area.
 fn normal(points: &[Vector3]) -> Option<Vector3> {
-    // About the first point, so that positions far from the origin keep their digits.
+    // Relative to the first point, so that positions far from the origin keep their digits.
     let from_first = |k: usize| points[k % points.len()] - points[0];
     let twice: Vector3 = (0..points.len()).map(|k| from_first(k).cross(&from_first(k + 1))).sum();
     twice.try_normalize(0.0)
 }
 
-/// A face of four corners with an edge that is too long, cut across.
+/// A face of four corners, divided across an edge that is too long.
 fn halved(face: &Laid, longest: f64) -> Option<[Laid; 2]> {
     let &[a, b, c, d] = face.as_slice() else { return None };
     let length = |p: [f64; 3], q: [f64; 3]| Vector3::from(p).metric_distance(&Vector3::from(q));

@@ -15,50 +15,50 @@ const TRACE: Shade = [0xd5, 0x5e, 0x00];
 /// The global axes.
 const AXES: [(&str, Shade); 3] =
     [("x", [0xd1, 0x49, 0x5b]), ("y", [0x2f, 0x9e, 0x63]), ("z", [0x3b, 0x74, 0xd9])];
-/// Room about what is drawn, and below it for words.
+/// Margin around the drawing, and below it for text.
 const MARGIN: f64 = 14.0;
 const LINE: f64 = 22.0;
 const FOOT: f64 = 64.0;
-/// Widest and highest part of the sheet that panels share.
+/// Maximum width and height of the area of panels.
 const MAX_EXTENT: [f64; 2] = [1200.0, 900.0];
-/// Of a moving picture.
+/// The same for an animation.
 const MAX_MOVING: [f64; 2] = [640.0, 480.0];
-/// Most panels.
+/// Maximum number of panels.
 const MAX_PANELS: usize = 100;
-/// Most pictures of a moving one.
+/// Maximum number of frames of an animation.
 const MAX_FRAMES: usize = 600;
 
-/// A picture that cannot be drawn.
+/// Why a picture cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// An instant lies outside of the motion.
+    /// An instant is outside the motion.
     #[error("there is no motion at t = {time} s: it was recorded from {first} s to {last} s")]
     Outside {
         /// The instant [s].
         time: f64,
-        /// The first that was recorded [s].
+        /// The first recorded one [s].
         first: f64,
-        /// The last that was recorded [s].
+        /// The last recorded one [s].
         last: f64,
     },
     /// The motion has no frames.
     #[error("the motion holds no frame: run the model again")]
     Empty,
-    /// There are none, or more than a sheet or a moving picture takes.
+    /// There are none, or too many for a sheet or an animation.
     #[error("{count} pictures were asked for, and 1 to {most} are possible")]
     TooMany {
-        /// How many.
+        /// Their number.
         count: usize,
-        /// How many there may be.
+        /// The maximum number.
         most: usize,
     },
-    /// It cannot be put on the sheet.
+    /// The drawing failed.
     #[error(transparent)]
     Drawing(#[from] DrawingError),
 }
 
-/// What a picture shows, and how.
+/// Contents of a picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// Instants, one for each panel [s].
@@ -67,14 +67,14 @@ pub struct Picture {
     pub view: View,
     /// Whether the paths of observed points are drawn.
     pub paths: bool,
-    /// What is below the panels, one after the other; their instants where there is nothing.
+    /// Captions of the panels, in their order; by default their instants.
     pub labels: Vec<String>,
 }
 
-/// So many instants at equal distances over a motion, its ends among them; the last for one.
+/// This number of instants at equal distances over a motion, including its ends; the last if it is one.
 ///
 /// # Errors
-/// If there is no motion, or they are too many for a sheet.
+/// If there is no motion, or there are too many for a sheet.
 pub fn instants(motion: &Motion, count: usize) -> Result<Vec<f64>, PictureError> {
     let (Some(first), Some(last)) = (motion.times().first(), motion.times().last()) else {
         return Err(PictureError::Empty);
@@ -112,30 +112,30 @@ impl Frame {
     }
 }
 
-/// What is seen at all instants.
+/// The projections at all instants.
 struct Panels {
     seen: Vec<Vec<Seen>>,
     paths: Vec<Vec<[f64; 2]>>,
     projection: Projection,
-    /// About all of them.
+    /// Their common bounds.
     frame: Frame,
 }
 
 impl Picture {
-    /// Draws a model that moves so, with the instants beside each other.
+    /// Draws a model with this motion, with the instants side by side.
     ///
     /// # Errors
-    /// If an instant lies outside of the motion, or there are none or too many.
+    /// If an instant is outside the motion, or there are none or too many.
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
         let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MAX_PANELS)?;
         let sheet = Sheet::of(frame, seen.len(), MAX_EXTENT);
         Ok(sheet.drawn(&seen, &paths, &projection, (title, &self.labels(scene))))
     }
 
-    /// Draws a model that moves so, with a sheet for each instant, all of one size and scale.
+    /// Draws a model with this motion, with a sheet for each instant, all of the same size and scale.
     ///
     /// # Errors
-    /// If an instant lies outside of the motion, or there are none or too many.
+    /// If an instant is outside the motion, or there are none or too many.
     pub fn draw_moving(
         &self,
         scene: &Scene,
@@ -149,7 +149,7 @@ impl Picture {
         Ok(seen.chunks(1).zip(labels.chunks(1)).map(drawn).collect())
     }
 
-    /// What is below each panel.
+    /// Captions of the panels.
     fn labels(&self, scene: &Scene) -> Vec<String> {
         let of_time = |time: f64| match &scene.path {
             Some(path) => format!("{} {}", path.name, short(path.at(time))),
@@ -184,7 +184,7 @@ impl Picture {
     }
 }
 
-/// Paths of the points that are observed, as they are seen [m].
+/// Projected paths of the observed points [m].
 fn paths(scene: &Scene, motion: &Motion, projection: &Projection) -> Vec<Vec<[f64; 2]>> {
     let points = scene.outputs.iter().filter_map(|output| output.point).filter(|point| point.node != 0);
     let path = |anchor: lissom_model::scene::Anchor| {
@@ -200,7 +200,7 @@ fn paths(scene: &Scene, motion: &Motion, projection: &Projection) -> Vec<Vec<[f6
     anchors.into_iter().map(path).collect()
 }
 
-/// How panels lie on a sheet.
+/// Arrangement of panels on a sheet.
 struct Sheet {
     frame: Frame,
     columns: usize,
@@ -210,7 +210,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    /// As many columns as give the largest panels on a sheet of at most this width and height.
+    /// The number of columns with the largest panels on a sheet of at most this width and height.
     fn of(frame: Frame, count: usize, most: [f64; 2]) -> Self {
         let [width, height] = frame.extent();
         let of_columns = |columns: usize| {
@@ -275,7 +275,7 @@ impl Sheet {
     }
 }
 
-/// The global axes about a position; the farthest first.
+/// The global axes at a position; the farthest first.
 fn axes(drawing: &mut Drawing, projection: &Projection, [x, y]: [f64; 2]) {
     let mut order = [0, 1, 2];
     order.sort_by(|a, b| {

@@ -1,4 +1,4 @@
-//! The direction a picture is seen from: an orthographic projection.
+//! The direction of view of a picture: an orthographic projection.
 
 use lissom_motion::{Rotation, Vector3};
 
@@ -20,22 +20,22 @@ pub enum View {
     Top,
 }
 
-/// An orthographic projection: what is to the right, above and nearer.
+/// An orthographic projection: directions to the right, upward and towards the viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
     right: Vector3,
     above: Vector3,
-    /// From the model to the one who looks.
+    /// From the model to the viewer.
     pub away: Vector3,
-    /// Where light comes from.
+    /// Direction of the light source.
     light: Vector3,
 }
 
 impl Projection {
-    /// Of a model, from a direction.
+    /// For a model, from a direction.
     pub fn of(geometry: &Geometry, view: View) -> Self {
         let up = geometry.up;
-        // Directions given for z upward, for the axis that is upward here.
+        // Directions are given for z upward and rotated to the actual upward axis.
         let to_up = turn_to(&up) * turn_to(&Vector3::z()).inverse();
         let oblique = to_up.apply(&Vector3::new(1.0, -1.35, 0.75));
         let (away, up) = match view {
@@ -48,7 +48,7 @@ impl Projection {
         Self::new(&away, &up)
     }
 
-    /// The direction of view and what is upward, for a model in a plane.
+    /// The direction of view and the upward direction, for a model in a plane.
     fn chosen(geometry: &Geometry, to_up: &Rotation) -> Option<(Vector3, Vector3)> {
         let extent = geometry.high - geometry.low;
         let mut thin = (0..3).filter(|k| extent[*k] < 0.02 * geometry.size);
@@ -68,17 +68,17 @@ impl Projection {
         Self { right, above, away, light }
     }
 
-    /// To the right and upward [m].
+    /// Coordinates to the right and upward [m].
     pub fn flat(&self, point: &Vector3) -> [f64; 2] {
         [self.right.dot(point), self.above.dot(point)]
     }
 
-    /// Towards the one who looks [m].
+    /// Coordinate towards the viewer [m].
     pub fn near(&self, point: &Vector3) -> f64 {
         self.away.dot(point)
     }
 
-    /// How bright a face with this normal of length one is, about 1 where it faces the light.
+    /// Brightness of a face with this unit normal, about 1 if it faces the light.
     pub fn brightness(&self, normal: &Vector3, up: &Vector3) -> f64 {
         0.56 + 0.1 * normal.dot(up) + 0.42 * normal.dot(&self.light).max(0.0)
     }

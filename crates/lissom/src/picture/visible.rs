@@ -1,12 +1,13 @@
-//! Which faces are seen: an item buffer. Faces are laid over a grid of points, and at every point the nearest is kept.
+//! Visibility of faces by an item buffer: faces are projected onto a grid of points, and for every point the nearest
+//! is stored.
 
 /// Points of the grid across a model.
 const ACROSS: f64 = 1100.0;
 
-/// A face as it lies before the one who looks: points to the right, upward and towards him [m].
+/// A projected face: points to the right, upward and towards the viewer [m].
 pub(super) type Laid = Vec<[f64; 3]>;
 
-/// How much of a face is seen.
+/// Visibility of a face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seen {
     /// All of it.
@@ -20,10 +21,10 @@ pub(super) enum Seen {
 /// The nearest face at every point of a grid.
 pub(super) struct ItemBuffer {
     low: [f64; 2],
-    /// Distance of neighbouring points [m].
+    /// Distance between neighbouring points [m].
     spacing: f64,
     columns: usize,
-    /// How near the nearest face is [m], and its number.
+    /// Coordinate of the nearest face towards the viewer [m], and its index.
     nearest: Vec<(f64, u32)>,
 }
 
@@ -31,7 +32,7 @@ pub(super) struct ItemBuffer {
 const NONE: u32 = u32::MAX;
 
 impl ItemBuffer {
-    /// Of the faces of a model of this size [m].
+    /// Built from the faces of a model of this size [m].
     pub(super) fn of(faces: &[Laid], size: f64) -> Self {
         let points = || faces.iter().flatten();
         let bound = |k: usize, least: f64, pick: fn(f64, f64) -> f64| {
@@ -40,7 +41,7 @@ impl ItemBuffer {
         let low = [0, 1].map(|k| bound(k, f64::INFINITY, f64::min));
         let high = [0, 1].map(|k| bound(k, f64::NEG_INFINITY, f64::max));
         let widest = (high[0] - low[0]).max(high[1] - low[1]);
-        // A part that reaches far beyond the nodes makes the grid coarser, not larger.
+        // A part that extends far beyond the nodes makes the grid coarser, not larger.
         let spacing = (size / ACROSS).max(widest / (3.0 * ACROSS)).max(f64::MIN_POSITIVE);
         let count =
             |k: usize| if high[k] > low[k] { ((high[k] - low[k]) / spacing).ceil() as usize + 1 } else { 1 };
@@ -59,7 +60,7 @@ impl ItemBuffer {
         buffer
     }
 
-    /// How much of `face`, which is the face of this number or a part of it, is seen.
+    /// Visibility of `face`, which is the face of this index or a part of it.
     pub(super) fn seen(&self, face: &Laid, number: usize) -> Seen {
         let (mut all, mut own) = (0_u32, 0_u32);
         self.covered(face, |point, _| {
@@ -73,7 +74,7 @@ impl ItemBuffer {
         }
     }
 
-    /// The points of the grid within a convex face, and how near it is there.
+    /// The points of the grid within a convex face, and its coordinate towards the viewer there.
     fn covered(&self, face: &Laid, mut visit: impl FnMut(usize, f64)) {
         let Some(plane) = Plane::of(face) else { return };
         let range = |k: usize| {
@@ -103,14 +104,14 @@ impl ItemBuffer {
     }
 }
 
-/// The plane of a face: how near it is at a position.
+/// The plane of a face: its coordinate towards the viewer at a position.
 struct Plane {
     at: [f64; 3],
     slope: [f64; 2],
 }
 
 impl Plane {
-    /// By Newell's formula; none where it is seen from its edge.
+    /// By Newell's formula; none if only its edge is visible.
     fn of(face: &Laid) -> Option<Self> {
         let first = face[0];
         let from_first = |k: usize| {
@@ -148,7 +149,7 @@ mod tests {
         let buffer = ItemBuffer::of(&faces, 1.0);
         let seen: Vec<Seen> = (0..4).map(|k| buffer.seen(&faces[k], k)).collect();
         assert_eq!(seen, [Seen::Partly, Seen::Wholly, Seen::Hidden, Seen::Hidden]);
-        // A part of the first that nothing covers, and one that is covered.
+        // A part of the first that is not covered, and one that is.
         assert_eq!(buffer.seen(&square(0.65, 0.95, 0.0), 0), Seen::Wholly);
         assert_eq!(buffer.seen(&square(0.25, 0.55, 0.0), 0), Seen::Hidden);
     }

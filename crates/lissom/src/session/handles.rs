@@ -1,4 +1,4 @@
-//! A session of a model that was built in code: what ids of the builder mean in it, and copies of it.
+//! A session of a model that was built in code: access by ids of the builder, and copies of it.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,17 +12,17 @@ use super::{Observed, Session};
 use crate::builder::{ForeignId, IdNames, InputId, OutputId, Quantity};
 use crate::timings::Timings;
 
-/// An id that cannot be read or set.
+/// Why an id cannot be read or set.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadError {
-    /// The model was read from a text: its parts have names alone.
+    /// The model was read from a text: its parts have no ids.
     #[error("the model was not built in code: ask for its quantities by name")]
     NotBuilt,
     /// The id belongs to another model.
     #[error(transparent)]
     Foreign(#[from] ForeignId),
-    /// An override has taken the output away.
+    /// An override has removed the output.
     #[error("`{0}` is not recorded")]
     NotRecorded(String),
     /// The input cannot be set.
@@ -39,13 +39,13 @@ impl Session {
         Self { ids, ..self }
     }
 
-    /// Positions, velocities, accelerations and multipliers, now. A session starts from a state with
+    /// The present positions, velocities, accelerations and multipliers. To start a session from a state, use
     /// [`Prepared::session_from`](crate::Prepared::session_from).
     pub fn state(&self) -> &State {
         self.simulation.state()
     }
 
-    /// The components of an output, now, in the order of its columns [SI].
+    /// The present components of an output, in the order of its columns [SI].
     ///
     /// # Errors
     /// If the output belongs to another model.
@@ -55,7 +55,7 @@ impl Session {
         Ok(self.values_of(channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?))
     }
 
-    /// Where the components of an output are among the [`columns`](Self::columns), and in what is recorded.
+    /// Indices of the components of an output in the [`columns`](Self::columns) and in records.
     ///
     /// # Errors
     /// If the output belongs to another model.
@@ -67,7 +67,7 @@ impl Session {
         Ok(first..first + self.columns.iter().filter(|column| is_own(column)).count())
     }
 
-    /// The value of a signal, an input or a state, now.
+    /// The present value of a signal, an input or a state.
     ///
     /// # Errors
     /// If it belongs to another model.
@@ -79,17 +79,17 @@ impl Session {
     /// Sets an input from now on, until it is set again.
     ///
     /// # Errors
-    /// If it belongs to another model, if the value is not finite, or nothing can move so.
+    /// If it belongs to another model, if the value is not finite, or no motion is consistent with it.
     pub fn set(&mut self, input: InputId, value: f64) -> Result<(), ReadError> {
         let name = self.ids()?.name(input)?.to_owned();
         Ok(self.set_input(&name, value)?)
     }
 
-    /// A second session that is where this one does, and goes on from there to the same bits. It shares the system, and
+    /// A second session in the same state, which continues from there to the same bits. It shares the system, and
     /// writes no states.
     ///
     /// # Errors
-    /// If the tangent in use cannot be factored again.
+    /// If the tangent in use cannot be factorised again.
     pub fn try_clone(&self) -> Result<Self, SnapshotError> {
         let simulation = self.simulation.try_clone()?;
         Ok(Self {

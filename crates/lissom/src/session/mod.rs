@@ -1,5 +1,5 @@
-//! One model on its way from start to end: steps, and what is recorded on the way. The only loop over steps
-//! there is. Knows no files and no terminal.
+//! A run of one model from start to end: steps, and the records between them. Contains the only loop over steps.
+//! Independent of files and terminal.
 
 mod handles;
 mod observed;
@@ -36,38 +36,38 @@ pub(crate) use observed::Observed;
 use snapshot::NoCheckpoints;
 pub use snapshot::{Checkpoints, SessionSnapshot};
 
-/// Times this close to the end of a planned step, relative to the step, are its end.
+/// Times this close to the end of a planned step, relative to the step, are equal to its end.
 const WHOLE: f64 = 1e-9;
 
-/// A session that cannot start.
+/// Why a session cannot start.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SessionError {
-    /// The model is wrong.
+    /// The model is invalid.
     #[error(transparent)]
     Model(#[from] Report),
     /// There are no consistent initial values.
     #[error(transparent)]
     Initial(#[from] InitialError),
-    /// What is computed has no course in time.
+    /// The analysis has no time history.
     #[error("an analysis of kind `{0}` has no steps to be taken")]
     NotInTime(&'static str),
 }
 
-/// Where a session is.
+/// Progress of a session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Time [s].
     pub time: f64,
-    /// Time at which it ends [s].
+    /// End time [s].
     pub end: f64,
-    /// Planned steps done; where steps are chosen by their error, thousandths of the time.
+    /// Planned steps done; for adaptive steps, thousandths of the time.
     pub done: usize,
-    /// The same in all.
+    /// The total of these.
     pub planned: usize,
 }
 
-/// A model on its way.
+/// A model during a run.
 pub struct Session {
     simulation: Simulation,
     observed: Observed,
@@ -79,14 +79,14 @@ pub struct Session {
     scale: f64,
     telemetry: Telemetry,
     state_writers: Vec<Box<dyn StateWriter>>,
-    /// Of the model, before it ran.
+    /// Warnings of the model, before the run.
     warnings: Vec<Warning>,
-    /// What ids mean, where the model was built in code.
+    /// Names of ids, if the model was built in code.
     ids: Option<Arc<IdNames>>,
     began: Instant,
 }
 
-/// What is summed up over the records.
+/// Values accumulated over the records.
 #[derive(Clone, Default)]
 struct Tally {
     records: usize,
@@ -94,7 +94,7 @@ struct Tally {
     energy: EnergyChange,
     values: Vec<f64>,
     violations: Vec<f64>,
-    /// What is known of each column.
+    /// Statistics of each column.
     histories: Vec<Accumulator>,
 }
 
@@ -111,10 +111,10 @@ pub fn columns(channels: &[Channel]) -> Vec<Column> {
 }
 
 impl Session {
-    /// A session at the start of what `document` asks for.
+    /// A session at the start of the analysis of `document`.
     ///
     /// # Errors
-    /// If the model is wrong, or has no consistent initial values.
+    /// If the model is invalid, or has no consistent initial values.
     pub fn new(document: &Document) -> Result<Self, SessionError> {
         Ok(Prepared::new(document, None)?.session()?)
     }
@@ -149,7 +149,7 @@ impl Session {
         })
     }
 
-    /// Gives up a step that is tried again and again, once `cancelled` is set; the run then counts as interrupted.
+    /// Cancels a step that is repeated many times, once `cancelled` is set; the run is then interrupted.
     pub fn cancel_by(&mut self, cancelled: Arc<AtomicBool>) {
         self.timings.cancelled = Some(cancelled);
     }
@@ -159,17 +159,17 @@ impl Session {
         &self.simulation
     }
 
-    /// What is recorded, as it is evaluated.
+    /// The outputs, as they are evaluated.
     pub(crate) fn observed(&self) -> &Observed {
         &self.observed
     }
 
-    /// What is recorded, without the rest.
+    /// The outputs, without the rest.
     pub(crate) fn into_observed(self) -> Observed {
         self.observed
     }
 
-    /// Hands the states of a [`run`](Self::run) to `writer`, too.
+    /// Also passes the states of a [`run`](Self::run) to `writer`.
     pub fn write_states_to(&mut self, writer: Box<dyn StateWriter>) {
         self.state_writers.push(writer);
     }
@@ -179,22 +179,23 @@ impl Session {
         &mut self.simulation
     }
 
-    /// Warnings up to now.
+    /// Warnings so far.
     pub fn warnings(&self) -> impl Iterator<Item = &Warning> {
         self.warnings.iter().chain(self.simulation.warnings())
     }
 
-    /// From when to when, in how many steps.
+    /// Time range and steps.
     pub fn plan(&self) -> &Plan {
         self.schedule.plan()
     }
 
-    /// What is recorded, in the order of [`values`](Self::values).
+    /// The recorded columns, in the order of [`values`](Self::values).
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// What is known of the records of each column, in the order of [`columns`](Self::columns); none before the first.
+    /// Statistics of the records of each column, in the order of [`columns`](Self::columns); none before the first
+    /// record.
     pub fn histories(&self) -> &[Accumulator] {
         &self.tally.histories
     }
@@ -204,23 +205,23 @@ impl Session {
         self.scale
     }
 
-    /// What the steps so far show of their tangents.
+    /// Data about the tangents of the steps so far.
     pub fn telemetry(&self) -> &Telemetry {
         &self.telemetry
     }
 
-    /// Where it is.
+    /// Its progress.
     pub fn progress(&self) -> Progress {
         let (done, planned) = self.schedule.done();
         Progress { time: self.schedule.time(), end: self.schedule.plan().end, done, planned }
     }
 
-    /// Whether the end is reached, or an event has happened that ends the run.
+    /// Whether the end is reached, or an event has ended the run.
     pub fn is_finished(&self) -> bool {
         self.schedule.is_finished() || self.stopped_by().is_some()
     }
 
-    /// Name of the event at which the session is, if that is to end the run. It can still be driven on.
+    /// Name of the event at the present state, if it ends the run. The session can still be continued.
     pub fn stopped_by(&self) -> Option<&str> {
         self.simulation.stopped_by()
     }
@@ -232,17 +233,17 @@ impl Session {
         self.simulation.occurrences().iter().map(of)
     }
 
-    /// Appends the values of all columns, now.
+    /// Appends the present values of all columns.
     pub fn values(&self, out: &mut Vec<f64>) {
         self.observed.values(self.simulation.state(), self.simulation.last_step(), out);
     }
 
-    /// The values of one channel, now.
+    /// The present values of one channel.
     fn values_of(&self, channel: &Channel) -> Vec<f64> {
         self.observed.values_of(channel, self.simulation.state(), self.simulation.last_step())
     }
 
-    /// The value of a signal, an input or a state, or of a column, such as `tip.u1`, now; none where nothing is called so.
+    /// The present value of a signal, an input or a state, or of a column, such as `tip.u1`; none if the name is unknown.
     pub fn value(&self, name: &str) -> Option<f64> {
         let (system, state) = (self.simulation.system(), self.simulation.state());
         if let Some(&argument) = self.signals.get(name) {
@@ -262,8 +263,8 @@ impl Session {
         self.simulation.set_input(name, value)
     }
 
-    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the state stays
-    /// where it was.
+    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the state remains
+    /// unchanged.
     ///
     /// # Errors
     /// If the step has no solution.
@@ -273,18 +274,19 @@ impl Session {
         outcome.map(|(report, _)| report)
     }
 
-    /// Goes on to `time` [s], which is met exactly; in steps of one size the last one is shorter. Does nothing where
-    /// `time` is reached already, and stands still before it at an event that ends the run. Planned steps, and
-    /// [`run`](Self::run), go on from there.
+    /// Continues to `time` [s], which is reached exactly; with a constant step size the last step is shorter. Does
+    /// nothing if `time` has been reached, and stops before it at an event that ends the run. Planned steps, and
+    /// [`run`](Self::run), continue from there.
     ///
     /// # Errors
-    /// If `time` is not finite, or a step has no solution; the session then is at the end of the last one that has.
+    /// If `time` is not finite, or a step has no solution; the session is then at the end of the last successful
+    /// step.
     pub fn step_to(&mut self, time: f64) -> Result<(), StepError> {
         self.step_to_watched(time, &mut |_| ControlFlow::Continue(())).map(|_| ())
     }
 
-    /// Goes on to `time` [s] as [`step_to`](Self::step_to) does. `watch` is asked before every step whether to go on; once
-    /// it says no, the session is at the end of a step before `time`.
+    /// Continues to `time` [s] as [`step_to`](Self::step_to) does. `watch` decides before every step whether to continue;
+    /// if it stops, the session is at the end of a step before `time`.
     ///
     /// # Errors
     /// As [`step_to`](Self::step_to).
@@ -348,14 +350,15 @@ impl Session {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// How far a clock outside of the program may be from that of the session [s], if it adds steps of `size` [s] to a sum.
+    /// Allowed difference between an external clock and that of the session [s], if the clock adds steps of `size` [s] to a
+    /// sum.
     pub fn clock_tolerance(&self, size: f64) -> f64 {
         let (now, start) = (self.schedule.time(), self.schedule.plan().start);
         instants::accumulated_tolerance(now + size, now + size - start, size)
     }
 
-    /// The sample, breakpoint, record or end that is at `time` [s] up to the round-off of a clock that adds steps to steps;
-    /// otherwise `time`. A step to the one from the other would be so short that its accelerations are round-off.
+    /// The sample, breakpoint, record or end at `time` [s] up to the round-off of a clock that adds steps; otherwise
+    /// `time`. A step between the two would be so short that its accelerations are round-off.
     fn distinguished(&self, time: f64) -> f64 {
         let now = self.schedule.time();
         let allowed = self.clock_tolerance(time - now);
@@ -365,7 +368,7 @@ impl Session {
         nearest.filter(|instant| (instant - time).abs() <= allowed && *instant > now).unwrap_or(time)
     }
 
-    /// The next step where another follows at once, and whether it is to be recorded.
+    /// Takes the next step of a sequence; whether its end is a record.
     fn step(&mut self) -> Result<(StepReport, bool), StepError> {
         let report = self.take(self.schedule.next())?;
         let time = self.simulation.state().kinematics.time;
@@ -401,9 +404,9 @@ impl Session {
         self.simulation.condition_estimate().map(|condition| condition.value)
     }
 
-    /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and
-    /// at the last step taken, whatever the reason that it is the last. `watch` is asked after every step
-    /// whether to go on.
+    /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and at the
+    /// end of the last step, for whatever reason it is the last. `watch` decides after every step whether to
+    /// continue.
     pub fn run(
         &mut self,
         writers: &mut [&mut dyn Writer],
@@ -412,8 +415,8 @@ impl Session {
         self.run_with_checkpoints(writers, watch, &mut NoCheckpoints, false)
     }
 
-    /// Runs to the end as [`run`](Self::run) does, and offers `checkpoints` every step that is done. With `goes_on` the
-    /// writers hold the rows up to now already.
+    /// Runs to the end as [`run`](Self::run) does, and calls `checkpoints` after every step. With `goes_on` the writers
+    /// already contain the rows up to the present state.
     pub fn run_with_checkpoints(
         &mut self,
         writers: &mut [&mut dyn Writer],
@@ -450,7 +453,7 @@ impl Session {
         }
     }
 
-    /// Runs to the end and keeps the results in memory.
+    /// Runs to the end and stores the results in memory.
     pub fn record(&mut self) -> (Record, RunReport) {
         let mut record = Record::default();
         let report = self.run(&mut [&mut record], &mut |_| ControlFlow::Continue(()));
@@ -478,7 +481,7 @@ impl Session {
             let before = self.schedule.time();
             recorded = match self.step() {
                 Ok((report, is_recorded)) => {
-                    // Only the last part of a step can be interpolated, and load steps are no motion in time.
+                    // Only the last part of a step can be interpolated, and load steps are not a motion in time.
                     let is_known = report.parts <= 1 && !self.schedule.plan().is_static;
                     self.write_states(is_known.then_some(before))?;
                     is_recorded
@@ -512,7 +515,7 @@ impl Session {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Hands a snapshot over, once all rows before it are written.
+    /// Passes on a snapshot, after all earlier rows have been written.
     fn keep(&mut self, writers: &mut [&mut dyn Writer], checkpoints: &mut dyn Checkpoints) -> io::Result<()> {
         if !checkpoints.are_wanted() {
             return Ok(());
@@ -523,7 +526,7 @@ impl Session {
         checkpoints.keep(&self.snapshot())
     }
 
-    /// Hands the step that has just ended to those who want it; states may be interpolated from `known_from` [s] on.
+    /// Passes the last step to the state writer; states may be interpolated from `known_from` [s] on.
     fn write_states(&mut self, known_from: Option<f64>) -> io::Result<()> {
         let now = self.simulation.state().kinematics.time;
         if !self.state_writers.iter().any(|writer| writer.is_due(now)) {
@@ -560,7 +563,7 @@ impl Session {
         written
     }
 
-    /// Violations and energy at a recorded instant.
+    /// Updates violations and energy at a recorded instant.
     fn take_stock(&mut self) {
         let at = &self.simulation.state().kinematics;
         let tally = &mut self.tally;

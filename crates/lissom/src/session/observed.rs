@@ -1,4 +1,4 @@
-//! What a model records, evaluated in its states.
+//! Outputs of a model, evaluated in its states.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -6,11 +6,11 @@ use lissom_core::analysis::{ConsistentRates, Simulation};
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 
-/// What a model records, and of what.
+/// The outputs of a model, and their source.
 pub(crate) struct Observed {
     system: Arc<System>,
     channels: Vec<Channel>,
-    /// Of motions that drives prescribe, where anything recorded reports rates.
+    /// For motions prescribed by drives, if any output contains rates.
     consistent_rates: Option<Mutex<ConsistentRates>>,
 }
 
@@ -21,18 +21,18 @@ impl Observed {
         Self { system: simulation.shared_system(), channels, consistent_rates }
     }
 
-    /// What is recorded, as it is evaluated.
+    /// The outputs, as they are evaluated.
     pub(crate) fn channels(&self) -> &[Channel] {
         &self.channels
     }
 
-    /// Appends the values of all channels in a state that a step of `step` [s] led to.
+    /// Appends the values of all channels in a state at the end of a step of `step` [s].
     pub(crate) fn values(&self, state: &State, step: f64, out: &mut Vec<f64>) {
         let consistent = self.consistent(state, step);
         self.channels.iter().for_each(|channel| self.evaluate(channel, (state, consistent.as_ref()), out));
     }
 
-    /// The values of one of the channels.
+    /// The values of one channel.
     pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64) -> Vec<f64> {
         let mut values = Vec::new();
         let consistent = channel.reports_rates().then(|| self.consistent(state, step)).flatten();
@@ -58,7 +58,7 @@ impl Observed {
         channel.evaluate(&self.system, state_of_rates.unwrap_or(state), out);
     }
 
-    /// The state with rates, accelerations and forces of constraints that agree with its positions.
+    /// The state with rates, accelerations and constraint forces that are consistent with its positions.
     fn consistent(&self, state: &State, step: f64) -> Option<State> {
         let rates = self.consistent_rates.as_ref()?;
         rates.lock().unwrap_or_else(PoisonError::into_inner).state(&self.system, state, step)

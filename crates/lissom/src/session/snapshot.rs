@@ -1,4 +1,4 @@
-//! A session between two steps, kept and given back.
+//! Storage and restoration of a session between two steps.
 
 use std::io;
 
@@ -12,22 +12,22 @@ use crate::schedule::Schedule;
 use crate::sealed;
 use crate::telemetry::Telemetry;
 
-/// Where a run leaves snapshots.
+/// Receives snapshots of a run.
 pub trait Checkpoints {
-    /// Whether any are wanted.
+    /// Whether snapshots are required.
     fn are_wanted(&self) -> bool;
 
-    /// Whether one is due after so many steps.
+    /// Whether one is due after this number of steps.
     fn is_due(&mut self, steps: usize) -> bool;
 
-    /// Keeps one. All rows that were recorded before it have been written.
+    /// Stores one. All earlier records have been written.
     ///
     /// # Errors
-    /// If it cannot be kept.
+    /// If it cannot be stored.
     fn keep(&mut self, snapshot: &SessionSnapshot) -> io::Result<()>;
 }
 
-/// None.
+/// Stores no snapshots.
 pub(super) struct NoCheckpoints;
 
 impl Checkpoints for NoCheckpoints {
@@ -55,25 +55,25 @@ pub struct SessionSnapshot {
 }
 
 impl SessionSnapshot {
-    /// As bytes, to be kept or sent.
+    /// As bytes, for storage or transfer.
     ///
     /// # Panics
-    /// Never: plain numbers can always be written to memory.
+    /// Never: plain numbers can be serialised to memory.
     pub fn to_bytes(&self) -> Vec<u8> {
         sealed::to_bytes(self).expect("plain numbers can always be written to memory")
     }
 
-    /// From what [`to_bytes`](Self::to_bytes) gave.
+    /// From the result of [`to_bytes`](Self::to_bytes).
     ///
     /// # Errors
-    /// If the bytes are no snapshot of this version.
+    /// If the bytes are not a snapshot of this version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
         sealed::from_bytes(bytes).ok_or(SnapshotError::Damaged)
     }
 }
 
 impl Session {
-    /// Where the session is, with all that is needed to go on from there to the last bit.
+    /// The state of the session, with all data needed to continue from there to the last bit.
     pub fn snapshot(&self) -> SessionSnapshot {
         SessionSnapshot {
             simulation: self.simulation.snapshot(),
@@ -86,10 +86,10 @@ impl Session {
         }
     }
 
-    /// Goes back, or on, to where a snapshot of this model was taken.
+    /// Returns, or advances, to the state of a snapshot of this model.
     ///
     /// # Errors
-    /// If it was taken of another model, or by another version of the program. The session is then as it was.
+    /// If it was taken of another model, or by another version of the program. The session is then unchanged.
     pub fn restore(&mut self, from: &SessionSnapshot) -> Result<(), SnapshotError> {
         self.simulation.restore(&from.simulation)?;
         self.schedule.clone_from(&from.schedule);

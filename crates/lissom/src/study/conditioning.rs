@@ -1,5 +1,5 @@
-//! How the condition number of the tangent depends on the step size, and on another value of the model, without
-//! scaling and with it: tables 2.1 and 2.2 of [Epple 2008], for any model.
+//! Dependence of the tangent's condition number on the step size, and on another value of the model, without scaling
+//! and with it: tables 2.1 and 2.2 of [Epple 2008], for any model.
 
 use lissom_core::analysis::{ConditionMethod, Simulation};
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
@@ -10,7 +10,7 @@ use super::members::{Effort, in_parallel};
 use super::{StudyError, Watch, csv_line};
 use crate::model::{Model, Override};
 
-/// More steps than this are not taken: the run ends earlier.
+/// Maximum number of steps: longer runs end earlier.
 pub const MAX_STEPS: usize = 2_000_000;
 
 /// One of the scalings compared.
@@ -18,7 +18,7 @@ pub const MAX_STEPS: usize = 2_000_000;
 pub struct Compared {
     /// Name of its column.
     pub name: &'static str,
-    /// What the drawing calls it.
+    /// Its label in the drawing.
     label: &'static str,
     by: ScaleBy,
     equilibrated: bool,
@@ -32,14 +32,14 @@ pub const SCALINGS: [Compared; 4] = [
     Compared { name: "equilibrated", label: "equilibrated", by: ScaleBy::Physical, equilibrated: true },
 ];
 
-/// The request. Numbers are as written, so that they reach the model unchanged.
+/// The request. Numbers are strings, so that they are passed to the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Step sizes [s].
     pub steps: Vec<String>,
-    /// A path into the model and the values it takes.
+    /// A path into the model and its values.
     pub vary: Option<(String, Vec<String>)>,
-    /// What else is put into the model.
+    /// Further overrides.
     pub overrides: Vec<Override>,
 }
 
@@ -61,13 +61,13 @@ pub struct Row {
 pub struct Measured {
     /// Condition numbers of the last step's tangent, by [`SCALINGS`].
     pub conditions: [f64; SCALINGS.len()],
-    /// How they were found.
+    /// Method of their computation.
     pub method: ConditionMethod,
     /// Unknowns of the tangent.
     pub unknowns: usize,
     /// Time at which the run ended [s].
     pub end: f64,
-    /// Whether that is earlier than the model asks, for too many steps.
+    /// Whether that is earlier than the end of the model, because of too many steps.
     pub is_shortened: bool,
 }
 
@@ -76,12 +76,12 @@ pub struct Measured {
 pub struct Table {
     /// Path of the varied value.
     pub path: Option<String>,
-    /// The runs, step by step, for each the varied values.
+    /// The runs, ordered by step, then by varied value.
     pub rows: Vec<Row>,
 }
 
 impl Request {
-    /// What the first run puts into the model.
+    /// Overrides of the first run.
     pub fn first(&self) -> Vec<Override> {
         let first = |values: &Vec<String>| values.first().cloned().unwrap_or_default();
         self.of(&first(&self.steps), self.vary.as_ref().map(|(_, values)| first(values)).as_ref())
@@ -103,12 +103,10 @@ impl Request {
     }
 }
 
-/// Runs the model with every step size and varied value, in parallel. Runs that fail leave their reason in their
-/// row.
+/// Runs the model with every step size and varied value, in parallel. The rows of failed runs contain the reason.
 ///
 /// # Errors
-/// If the model is wrong, with one of the values or without, has load steps, or if the study is
-/// interrupted.
+/// If the model is invalid, with one of the values or without, has load steps, or if the study is interrupted.
 pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table, StudyError> {
     let members = request.members();
     let mut rows = Vec::with_capacity(members.len());
@@ -134,7 +132,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     Ok(Table { path: request.vary.as_ref().map(|(path, _)| path.clone()), rows })
 }
 
-/// Whole steps to the end, and whether they are fewer than planned.
+/// Number of whole steps to the end, and whether it is smaller than planned.
 fn steps_of(lowered: &Lowered) -> (usize, bool) {
     let plan = &lowered.plan;
     let whole = ((plan.end - plan.start) / lowered.settings.step_size).round().max(1.0);
@@ -173,7 +171,7 @@ fn measure(model: &Model, overrides: &[Override], effort: &Effort<'_>) -> Result
 
 impl Table {
     /// As comma-separated values: `step_size`, the path of the varied value, a column for each scaling, `method`,
-    /// `end`. Runs that failed have `NaN`.
+    /// `end`. Failed runs have `NaN`.
     pub fn csv(&self) -> String {
         let mut heading = vec!["step_size"];
         heading.extend(self.path.as_deref());
@@ -195,7 +193,7 @@ impl Table {
         text
     }
 
-    /// The drawing: over the step size, or over the varied value where there is one step size only.
+    /// The drawing: over the step size, or over the varied value if there is only one step size.
     pub fn figure(&self, title: &str) -> LogFigure {
         let one_step = self.rows.iter().all(|row| row.step == self.rows[0].step);
         let over_value = self.path.is_some() && one_step;

@@ -1,5 +1,5 @@
-//! How fast schemes converge: the error of one output against a reference run, over the step size, as in
-//! figure 2.4 of [Epple 2008], for any model.
+//! Convergence of schemes: the error of one output against a reference run, over the step size, as in figure 2.4 of
+//! [Epple 2008], for any model.
 
 use lissom_core::schemes::Scheme;
 use lissom_model::lower::Lowered;
@@ -13,26 +13,26 @@ use crate::model::{Model, Override};
 
 /// Tolerance of Newton's iteration, unless the user sets one or the model has a smaller one [-].
 pub const TOLERANCE: f64 = 1e-10;
-/// A quotient of steps this close to a whole number, relative to it, is one.
+/// A ratio of steps this close to an integer, relative to it, is an integer.
 const WHOLE: f64 = 1e-9;
-/// A last step shorter by this share of it is a whole one.
+/// A last step shorter by this fraction of it is a whole step.
 const ROUNDED: f64 = 1e-6;
 
-/// A run with such an error has nothing in common with the reference [-].
+/// A run with this error is unrelated to the reference [-].
 const FAR: f64 = 0.5;
 
-/// The request. Numbers are as written, so that they reach the model unchanged.
+/// The request. Numbers are strings, so that they are passed to the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Schemes, such as `radau-iia` or `hht(-0.3)`.
     pub schemes: Vec<String>,
     /// Step sizes [s].
     pub steps: Vec<String>,
-    /// Scheme and step size [s] of the run that counts as exact.
+    /// Scheme and step size [s] of the reference run.
     pub reference: (String, String),
-    /// Name of the output that is compared.
+    /// Name of the compared output.
     pub output: String,
-    /// What is put into the model.
+    /// Overrides.
     pub overrides: Vec<Override>,
 }
 
@@ -47,32 +47,32 @@ pub struct Row {
     pub step_size: f64,
     /// Relative error [-].
     pub outcome: Result<f64, StudyError>,
-    /// Order observed from the same scheme's step before this one to this one.
+    /// Observed order between the previous step size of the scheme and this one.
     pub order: Option<f64>,
 }
 
 /// All runs.
 #[derive(Debug)]
 pub struct Table {
-    /// The runs, scheme by scheme, for each the step sizes.
+    /// The runs, ordered by scheme, then by step size.
     pub rows: Vec<Row>,
-    /// Instants compared, the start not counted.
+    /// Number of compared instants, without the start.
     pub instants: usize,
     /// The last of them [s].
     pub end: f64,
 }
 
-/// A run that is planned.
+/// A planned run.
 struct Member {
     scheme: Scheme,
     step: String,
     step_size: f64,
-    /// Steps, and how many of them lead from one compared instant to the next.
+    /// Number of steps, and number of steps between compared instants.
     counts: (usize, usize),
 }
 
 impl Request {
-    /// What the run of the first step puts into the model.
+    /// Overrides of the run with the first step size.
     pub fn first(&self) -> Vec<Override> {
         let mut overrides = self.overrides.clone();
         overrides.extend(self.steps.first().map(|step| ("analysis.step".to_owned(), step.clone())));
@@ -80,17 +80,17 @@ impl Request {
     }
 }
 
-/// Runs the model with every scheme and step size, in parallel, and compares `output` with the reference run at
-/// the instants of the largest step. The error is the root of the mean square of the difference of all
-/// components over all instants, over that of the reference. Runs that fail leave their reason in their row.
+/// Runs the model with every scheme and step size, in parallel, and compares `output` with the reference run at the
+/// instants of the largest step. The error is the root of the mean square of the difference of all components over
+/// all instants, over that of the reference. The rows of failed runs contain the reason.
 ///
 /// # Errors
-/// If the model or the request is wrong, if a step does not divide the largest, if the reference run fails, is
-/// coarser than a run or stays at zero, or if the study is interrupted.
+/// If the model or the request is invalid, if a step does not divide the largest, if the reference run fails, is
+/// coarser than a run or remains zero, or if the study is interrupted.
 pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table, StudyError> {
     let (members, instants, end) = plan(model, request)?;
     let effort = Effort::new(watch, members.iter().map(|member| member.counts.0).sum());
-    // The longest first, so that no thread is left with it at the end.
+    // The longest first, so that no thread has to finish it alone at the end.
     let mut order: Vec<usize> = (0..members.len()).collect();
     order.sort_by_key(|&index| std::cmp::Reverse(members[index].counts.0));
     let outcomes = in_parallel(order.len(), |place| {
@@ -106,7 +106,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     if histories.iter().any(|history| matches!(history, Err(StudyError::Interrupted))) {
         return Err(StudyError::Interrupted);
     }
-    // The reference was planned last.
+    // The reference is the last member.
     let reference = histories.pop().unwrap_or(Err(StudyError::Interrupted))?;
     let size: f64 = reference[1..].iter().map(|values| square(values)).sum();
     if !(size > 0.0 && size.is_finite()) {
@@ -180,7 +180,7 @@ fn plan(model: &Model, request: &Request) -> Result<(Vec<Member>, usize, f64), S
 
 impl Table {
     /// As comma-separated values: `scheme,step_size,error,order`. Order is empty for the first step of a scheme,
-    /// error and order for runs that failed.
+    /// error and order for failed runs.
     pub fn csv(&self) -> String {
         let mut text = csv_line(["scheme", "step_size", "error", "order"]);
         for row in &self.rows {
@@ -191,7 +191,7 @@ impl Table {
         text
     }
 
-    /// Whether no run is near the reference: then it may be the reference that has gone astray.
+    /// Whether no run is near the reference: then the reference may be wrong.
     pub fn is_far_from_reference(&self) -> bool {
         let near = |row: &Row| row.outcome.as_ref().is_ok_and(|&error| error < FAR);
         !self.rows.iter().any(near)

@@ -1,4 +1,4 @@
-//! What scaling, augmented term and pivoting do to the first step of a model.
+//! Effects of scaling, augmented term and pivoting on the first step of a model.
 
 use lissom_core::analysis::Simulation;
 use lissom_core::analysis::factorization_study::{Case, factorization_study};
@@ -23,7 +23,7 @@ pub struct Table {
 /// Tries every combination of scaling, augmented term and solver on the first step.
 ///
 /// # Errors
-/// If the model is wrong or has no consistent initial values.
+/// If the model is invalid or has no consistent initial values.
 pub fn study(model: &Model, overrides: &[Override]) -> Result<Table, StudyError> {
     let Lowered { system, state, settings, .. } = lower(&model.document(overrides)?)?;
     let scheme = settings.scheme.name.clone();
@@ -34,8 +34,7 @@ pub fn study(model: &Model, overrides: &[Override]) -> Result<Table, StudyError>
 }
 
 impl Table {
-    /// As comma-separated values. Where there are no factors, `stops_at` names the unknown and numbers are left
-    /// out.
+    /// As comma-separated values. Without factors, `stops_at` names the unknown and numbers are omitted.
     pub fn csv(&self) -> String {
         let mut text = csv_line([
             "scaling",
@@ -81,7 +80,7 @@ impl Table {
     }
 }
 
-/// What tables call a case's scaling.
+/// Name of a case's scaling in tables.
 pub fn scaling_name(case: &Case) -> &'static str {
     if case.equilibrated { "equilibrated" } else { case.scaling.name() }
 }

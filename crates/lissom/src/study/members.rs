@@ -1,4 +1,4 @@
-//! The members of a family, each by one thread of a few, and how far all of them are.
+//! The members of a family, solved in parallel by a few threads with one thread each, and their progress.
 
 use std::num::NonZero;
 use std::ops::ControlFlow;
@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Steps between two looks at the watch.
+/// Number of steps between two calls of the watch.
 const OFTEN: usize = 64;
 
-/// Is informed of the steps done and planned over all members, from any thread, and says whether to go on.
+/// Receives the numbers of steps done and planned over all members, from any thread, and decides whether to continue.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync);
 
-/// Where a family is.
+/// Progress of a family.
 pub(super) struct Effort<'a> {
     watch: Watch<'a>,
     planned: usize,
@@ -25,7 +25,7 @@ impl<'a> Effort<'a> {
         Self { watch, planned, done: AtomicUsize::new(0), stopped: AtomicBool::new(false) }
     }
 
-    /// Notes that a member has done its step number `step`, from one. Whether to go on.
+    /// Records that a member has completed its step number `step`, from one. Whether to continue.
     pub(super) fn note(&self, step: usize) -> ControlFlow<()> {
         if !step.is_multiple_of(OFTEN) {
             return ControlFlow::Continue(());
@@ -39,7 +39,7 @@ impl<'a> Effort<'a> {
     }
 }
 
-/// `work` of every index below `count`, in parallel, in order.
+/// Calls `work` with every index below `count`, in parallel; results are in order.
 pub(super) fn in_parallel<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let results: Mutex<Vec<Option<T>>> = Mutex::new((0..count).map(|_| None).collect());
     let next = AtomicUsize::new(0);

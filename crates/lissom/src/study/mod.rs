@@ -1,5 +1,5 @@
-//! Studies: what a family of runs of one model shows. They return tables; the command line prints, writes and
-//! draws them. No mechanics is done here.
+//! Studies: comparisons of a family of runs of one model. They return tables; the command line prints, writes and
+//! draws them.
 
 pub mod conditioning;
 pub mod convergence;
@@ -16,11 +16,11 @@ use crate::report::RunError;
 
 pub use members::Watch;
 
-/// A study that has no result.
+/// Why a study has no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// The model is wrong, or wrong with what the study puts into it.
+    /// The model is invalid, or becomes invalid by the overrides of the study.
     #[error(transparent)]
     Model(#[from] Report),
     /// There are no consistent initial values.
@@ -29,26 +29,26 @@ pub enum StudyError {
     /// A step has no solution.
     #[error(transparent)]
     Step(#[from] StepError),
-    /// It needs time steps, and the analysis has load steps.
+    /// The study requires time steps, and the analysis has load steps.
     #[error("this study needs time steps: the analysis of the model must be of kind `dynamics`")]
     NotDynamic,
     /// A run ended early.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A word that names no scheme.
+    /// An unknown scheme.
     #[error("`{word}` is no scheme for a study: {reason}")]
     SchemeWord {
         /// The word.
         word: String,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// The model has no such output.
     #[error("the model has no output `{name}`: its outputs are {known}")]
     Output {
-        /// The name asked for.
+        /// The given name.
         name: String,
-        /// Those there are.
+        /// The existing outputs.
         known: String,
     },
     /// Runs have no common instants.
@@ -65,7 +65,7 @@ pub enum StudyError {
     /// The reference is too coarse for the error of finer runs.
     #[error("the reference's step size {0} s is larger than a step of the study: choose a smaller one")]
     CoarseReference(String),
-    /// The output is zero, and nothing is relative to it.
+    /// The output is zero, so that relative errors are undefined.
     #[error("the output `{0}` stays at zero: choose one that moves")]
     NothingToCompare(String),
     /// It was interrupted.
@@ -73,7 +73,7 @@ pub enum StudyError {
     Interrupted,
 }
 
-/// One line of comma-separated texts; those that need it in quotes.
+/// One line of comma-separated texts; quoted if necessary.
 fn csv_line<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
     let quoted = |text: &str| {
         if text.contains([',', '"', '\n', '\r']) {

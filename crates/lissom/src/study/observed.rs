@@ -1,4 +1,4 @@
-//! One output of one run, at evenly spaced instants, and how far two such histories are apart. Knows no study.
+//! One output of one run, at equidistant instants, and the difference of two such histories.
 
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ use crate::session::Session;
 pub(super) type History = Vec<Vec<f64>>;
 
 /// The model with time steps of `step`, as written. Newton's iteration has `tolerance`, unless the user sets one or
-/// the model has a smaller one: what a study measures must not be what the iteration has left.
+/// the model has a smaller one: the iteration error must be below the measured error.
 pub(super) fn prepared(
     model: &Model,
     overrides: &[Override],
@@ -36,7 +36,7 @@ pub(super) fn prepared(
     Ok(lowered)
 }
 
-/// An output's name, and one of its components where that is asked for, such as `tip` or `tip.u2`.
+/// An output's name, and one of its components if it is given, such as `tip` or `tip.u2`.
 fn parts<'a>(lowered: &Lowered, output: &'a str) -> Option<(&'a str, Option<usize>)> {
     let find = |name: &str| lowered.channels.iter().find(|channel| channel.name == name);
     if find(output).is_some() {
@@ -48,7 +48,7 @@ fn parts<'a>(lowered: &Lowered, output: &'a str) -> Option<(&'a str, Option<usiz
     Some((name, Some(index)))
 }
 
-/// Complains unless the model has `output`.
+/// Returns an error unless the model has `output`.
 pub(super) fn check_output(lowered: &Lowered, output: &str) -> Result<(), StudyError> {
     if parts(lowered, output).is_some() {
         return Ok(());
@@ -57,7 +57,7 @@ pub(super) fn check_output(lowered: &Lowered, output: &str) -> Result<(), StudyE
     Err(StudyError::Output { name: output.to_owned(), known: known.join(", ") })
 }
 
-/// Values of `output` at the start and after every `every` of `steps` steps, whatever end the model has.
+/// Values of `output` at the start and after every `every` of `steps` steps, independent of the end of the model.
 pub(super) fn observe(
     mut lowered: Lowered,
     output: &str,
@@ -94,7 +94,7 @@ pub(super) fn square(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum()
 }
 
-/// Components of `a` less those of `b`.
+/// Components of `a` minus those of `b`.
 pub(super) fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

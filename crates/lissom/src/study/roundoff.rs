@@ -1,4 +1,4 @@
-//! What is left of an output when steps are tiny: its error after a few steps, and its noise from step to step.
+//! Round-off of an output at tiny steps: its error after a few steps, and its noise from step to step.
 
 use lissom_model::lower::Lowered;
 use lissom_model::output::LogFigure;
@@ -8,24 +8,23 @@ use super::observed::{History, check_output, difference, observe, prepared, squa
 use super::{StudyError, Watch, csv_line};
 use crate::model::{Model, Override};
 
-/// Tolerance of Newton's iteration, unless the user sets one or the model has a smaller one: below what round-off
-/// leaves [-].
+/// Tolerance of Newton's iteration, unless the user sets one or the model has a smaller one: below round-off [-].
 pub const TOLERANCE: f64 = 1e-12;
-/// Steps taken with every step size.
+/// Number of steps for every step size.
 pub const STEPS: usize = 50;
-/// Last steps in which noise is looked for.
+/// Number of last steps whose noise is measured.
 pub const NOISY_STEPS: usize = 20;
-/// How much finer the steps of the reference are, and of the run that shows how good the reference is.
+/// Ratios of the step size to that of the reference, and to that of the run that shows the accuracy of the reference.
 pub const FINER: [usize; 2] = [8, 4];
 
-/// The request. Numbers are as written, so that they reach the model unchanged.
+/// The request. Numbers are strings, so that they are passed to the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Request {
     /// Step sizes [s].
     pub steps: Vec<String>,
-    /// Name of the output that is observed.
+    /// Name of the observed output.
     pub output: String,
-    /// What is put into the model.
+    /// Overrides.
     pub overrides: Vec<Override>,
 }
 
@@ -43,13 +42,13 @@ pub struct Row {
 /// Result of a step size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// Distance after [`STEPS`] steps from the same time reached in eight times as many, relative to the size of
-    /// the output there [-].
+    /// Difference after [`STEPS`] steps from the same time reached in eight times as many, relative to the magnitude
+    /// of the output there [-].
     pub error: f64,
-    /// The same of the time reached in four times as many: how good the reference is [-].
+    /// The same for the time reached in four times as many: the accuracy of the reference [-].
     pub doubt: f64,
-    /// Largest second difference over the last [`NOISY_STEPS`] steps, relative to the largest size of the output
-    /// there [-]. It shrinks as h² where the output is smooth; what is left is round-off.
+    /// Largest second difference over the last [`NOISY_STEPS`] steps, relative to the largest magnitude of the output
+    /// there [-]. It decreases as h² if the output is smooth; the remainder is round-off.
     pub noise: f64,
 }
 
@@ -63,14 +62,14 @@ pub struct Table {
 }
 
 impl Measured {
-    /// Whether the reference is no better than what is compared with it.
+    /// Whether the reference is no more accurate than the compared runs.
     pub fn is_doubtful(&self) -> bool {
         self.doubt > 0.5 * self.error
     }
 }
 
 impl Request {
-    /// What the run of the first step puts into the model.
+    /// Overrides of the run with the first step size.
     pub fn first(&self) -> Vec<Override> {
         let mut overrides = self.overrides.clone();
         overrides.extend(self.steps.first().map(|step| ("analysis.step".to_owned(), step.clone())));
@@ -78,11 +77,11 @@ impl Request {
     }
 }
 
-/// Takes [`STEPS`] steps of every size from the start, and reaches the same time in four and eight times as many,
-/// in parallel. Step sizes that fail leave their reason in their row.
+/// Takes [`STEPS`] steps of every size from the start, and reaches the same time in four and eight times as many, in
+/// parallel. The rows of failed step sizes contain the reason.
 ///
 /// # Errors
-/// If the model or the request is wrong, or if the study is interrupted.
+/// If the model or the request is invalid, or if the study is interrupted.
 pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table, StudyError> {
     let mut sizes = Vec::with_capacity(request.steps.len());
     let mut scheme = String::new();
@@ -112,7 +111,7 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
     Ok(Table { scheme, rows })
 }
 
-/// Error, doubt and noise; none where the output is zero.
+/// Error, doubt and noise; none if the output is zero.
 fn measure(own: &History, reference: &History, other: &History) -> Option<Measured> {
     let (own_end, exact, near) = (own.last()?, reference.last()?, other.last()?);
     let size = square(exact).sqrt();
@@ -133,7 +132,7 @@ fn measure(own: &History, reference: &History, other: &History) -> Option<Measur
 }
 
 impl Table {
-    /// As comma-separated values: `step_size,error,noise`. Step sizes that failed have empty fields.
+    /// As comma-separated values: `step_size,error,noise`. Failed step sizes have empty fields.
     pub fn csv(&self) -> String {
         let mut text = csv_line(["step_size", "error", "noise"]);
         for row in &self.rows {
@@ -173,7 +172,7 @@ mod tests {
         let measured = measure(&line(0.0), &line(0.0), &line(0.0)).unwrap();
         assert_eq!((measured.error, measured.noise), (0.0, 0.0));
         let measured = measure(&line(1e-6), &line(0.0), &line(0.0)).unwrap();
-        // The value in the middle counts twice; the size is 5.
+        // The value in the middle counts twice; the magnitude is 5.
         assert!((measured.noise - 2e-6 / 5.0).abs() < 1e-12, "{}", measured.noise);
         let slope: History = (0..=50).map(|i| vec![f64::from(i)]).collect();
         assert_eq!(measure(&slope, &slope, &slope).unwrap().noise, 0.0);

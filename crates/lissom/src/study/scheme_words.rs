@@ -1,12 +1,11 @@
-//! Schemes as a list on the command line names them: the word of the model file, with its parameter in
-//! parentheses. Knows no model.
+//! Schemes in lists on the command line: the name in the model file, with the parameter in parentheses.
 
 use lissom_core::schemes::{self, Scheme, SchemeParameters};
 use lissom_model::lower::registry::registry;
 
 use super::StudyError;
 
-/// The scheme that a text like `radau-iia` or `hht(-0.3)` names. Without a parameter it has its default.
+/// The scheme of a text such as `radau-iia` or `hht(-0.3)`. The parameter is optional.
 ///
 /// # Errors
 /// If there is no such scheme, or it has no such parameter.

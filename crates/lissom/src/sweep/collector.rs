@@ -1,4 +1,4 @@
-//! Takes the rows of a run and keeps what the collected statistics need, and whole histories where they are asked for.
+//! Receives the rows of a run and stores the data of the collected statistics, and requested histories.
 
 use std::io;
 
@@ -8,10 +8,10 @@ use lissom_model::sweep::{Accumulator, Collected, OF_FATIGUE, SweepFile};
 use super::SweepError;
 use crate::parquet::{Values, parquet};
 
-/// The columns there may be so many of that naming them all helps nobody.
+/// Maximum number of columns that are listed in a message.
 const FEW: usize = 40;
 
-/// Complains about the first thing to collect that is not among `columns`.
+/// Reports the first collected item that is not among `columns`.
 pub(super) fn check(file: &SweepFile, columns: &[Column], events: &[&str]) -> Result<(), SweepError> {
     let names: Vec<String> = columns.iter().map(Column::name).collect();
     let of_events = file.collect.iter().filter(|collected| collected.is_of_event());
@@ -57,10 +57,10 @@ pub struct History {
 }
 
 impl History {
-    /// The histories of `member` as a Parquet file with the columns `member`, `time` and those that were asked for.
+    /// The histories of `member` as a Parquet file with the columns `member`, `time` and the requested ones.
     ///
     /// # Errors
-    /// If they are larger than the format takes.
+    /// If they exceed the limits of the format.
     pub fn parquet(&self, member: usize) -> io::Result<Vec<u8>> {
         let number = i64::try_from(member).unwrap_or(i64::MAX);
         let mut columns = vec![
@@ -77,10 +77,10 @@ impl History {
 /// A writer of statistics.
 pub(super) struct Collector<'a> {
     file: &'a SweepFile,
-    /// Of each thing to collect, the index of its column; none of an event.
+    /// For each collected item, the index of its column; none for an event.
     indices: Vec<Option<usize>>,
     histories: Vec<Accumulator>,
-    /// Indices of the columns that are kept.
+    /// Indices of the stored columns.
     kept_indices: Vec<usize>,
     kept: History,
 }
@@ -99,7 +99,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Takes the events that have happened, with their times [s].
+    /// Receives the events that have happened, with their times [s].
     pub(super) fn take_events<'e>(&mut self, events: impl Iterator<Item = (&'e str, f64)>) {
         for (event, time) in events {
             for (collected, history) in self.file.collect.iter().zip(&mut self.histories) {
@@ -110,12 +110,12 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// The histories that are kept, if any.
+    /// The stored histories, if any.
     pub(super) fn history(self) -> Option<History> {
         (!self.kept.columns.is_empty()).then_some(self.kept)
     }
 
-    /// What was collected, or what is wrong with it.
+    /// The collected values, or the error.
     pub(super) fn values(&self) -> Result<Vec<f64>, String> {
         let value = |(collected, history): (&Collected, &Accumulator)| {
             collected.kind().of(history).ok_or_else(|| match history.fault() {

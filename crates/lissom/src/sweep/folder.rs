@@ -1,6 +1,6 @@
-//! The folder of a sweep: `members.jsonl`, to which every member that ends adds a line, and once all have ended
-//! `sweep.csv`, the same as `sweep.parquet`, and `sweep.json`; histories that are asked for in `histories/`, a file per member. What
-//! was computed before a crash is found there again. The only place where sweeps open files for output.
+//! The folder of a sweep: `members.jsonl`, to which every completed member adds a line, and after all of them `sweep.csv`, the
+//! same as `sweep.parquet`, and `sweep.json`; requested histories in `histories/`, a file per member. Results from before a crash
+//! are read from it again. The only module of sweeps that opens files for output.
 
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
@@ -24,14 +24,14 @@ const HISTORIES: &str = "histories";
 /// Name of the summary.
 const SUMMARY: &str = "sweep.json";
 
-/// A folder that cannot take a sweep.
+/// Why a folder cannot be used for a sweep.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepFolderError {
     /// A file or folder cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It holds members of another sweep.
+    /// It contains members of another sweep.
     #[error(
         "`{0}` holds another sweep: its model, its sweep file or the version of the program is not this one; choose \
          another folder by `--out`, or discard what is there by `--restart`"
@@ -40,7 +40,7 @@ pub enum SweepFolderError {
     /// Another process writes to it.
     #[error("another process is writing to `{0}`: wait for it, or choose another folder by `--out`")]
     Busy(String),
-    /// A line of the record is none.
+    /// A line of the record is invalid.
     #[error("line {line} of `{path}` is no member of this sweep: discard what is there by `--restart`")]
     Damaged {
         /// The file.
@@ -50,15 +50,15 @@ pub enum SweepFolderError {
     },
 }
 
-/// A folder open for the members of one sweep, and closed to other processes.
+/// A folder opened for the members of one sweep, and locked for other processes.
 pub struct SweepFolder {
     path: PathBuf,
     members: File,
 }
 
 impl SweepFolder {
-    /// Opens the folder, created where it is missing, and gives the outcomes that are there already, in the order of
-    /// members. With `restarts` they are discarded. Table and summary are removed: old ones beside new members would lie.
+    /// Opens the folder, creates it if necessary, and returns the existing outcomes, in the order of members. With
+    /// `restarts` they are discarded. Table and summary are removed, because they would not match new members.
     ///
     /// # Errors
     /// If it cannot be written, belongs to another sweep, or is in use.
@@ -89,7 +89,7 @@ impl SweepFolder {
         if !restarts {
             members.read_to_string(&mut text).map_err(|error| failure(Action::Read, &file, error))?;
         }
-        // A line without end was being written when the process ended.
+        // A line without end was being written when the process was killed.
         let whole = text.rfind('\n').map_or(0, |end| end + 1);
         let definition = sweep.definition();
         let outcomes = match text[..whole].split_once('\n') {
@@ -116,17 +116,18 @@ impl SweepFolder {
         Ok((Self { path: path.to_owned(), members }, outcomes))
     }
 
-    /// Where it is.
+    /// Its path.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Adds a member, as one line by one call: a process that is killed leaves it whole or cut, never mixed.
+    /// Adds a member, as one line by one call: if the process is killed the line is complete or truncated, never
+    /// mixed.
     ///
     /// # Errors
     /// If it cannot be written.
     pub fn append(&mut self, outcome: &MemberOutcome) -> Result<(), FileError> {
-        // Before its line: a member that has one has its histories.
+        // Before its line: a member with a line has its histories.
         if let Some(history) = &outcome.history {
             let file = self.path.join(HISTORIES).join(history_name(outcome.member));
             let bytes =
@@ -139,7 +140,7 @@ impl SweepFolder {
         written.map_err(|error| failure(Action::Write, &self.path.join(MEMBERS), error))
     }
 
-    /// Writes table and summary, once all members have ended. The table appears as a whole.
+    /// Writes table and summary, after all members have ended. The table appears as a whole.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -159,7 +160,7 @@ impl SweepFolder {
     }
 }
 
-/// Names of the pictures, without their endings.
+/// Names of the pictures, without their extensions.
 const PICTURES: [&str; 2] = ["responses", "parallel-coordinates"];
 
 /// Name of the file with the histories of a member.
@@ -167,7 +168,7 @@ pub fn history_name(member: usize) -> String {
     format!("member-{member:08}.parquet")
 }
 
-/// Removes histories of another sweep, and nothing else.
+/// Removes only histories of another sweep.
 fn discard_histories(folder: &Path) -> Result<(), FileError> {
     for path in files::entries(folder) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -179,7 +180,7 @@ fn discard_histories(folder: &Path) -> Result<(), FileError> {
 }
 
 impl SweepFolder {
-    /// Draws the table, as SVG and as PNG: what is collected over what is varied, and parallel coordinates.
+    /// Draws the table, as SVG and as PNG: collected over varied values, and parallel coordinates.
     ///
     /// # Errors
     /// If a picture cannot be drawn or written.

@@ -10,15 +10,15 @@ use super::collector::{Collector, History};
 use crate::report::Stopped;
 use crate::session::{Progress, Session, SessionError};
 
-/// How a member ended.
+/// State of a completed member.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MemberState {
-    /// At its planned end, with all that was to be collected.
+    /// At its planned end, with all collected values.
     Solved,
-    /// Its values make no good model.
+    /// Its values result in an invalid model.
     WrongModel,
-    /// It has no solution, or what was to be collected is not finite.
+    /// It has no solution, or a collected value is not finite.
     Failed,
 }
 
@@ -38,22 +38,22 @@ impl MemberState {
 pub struct MemberOutcome {
     /// Number of the member.
     pub member: usize,
-    /// How it ended.
+    /// Its state.
     pub state: MemberState,
-    /// What was collected, in the order of the sweep file; nothing of a member that is not solved.
+    /// The collected values, in the order of the sweep file; none for a member that is not solved.
     pub values: Vec<f64>,
-    /// Time reached [s]; none where it could not start.
+    /// Time reached [s]; none if it could not start.
     pub time: Option<f64>,
     /// Steps taken.
     pub steps: usize,
-    /// Largest violation of a constraint over all records [m, rad]; none where it could not start.
+    /// Largest violation of a constraint over all records [m, rad]; none if it could not start.
     pub max_constraint_violation: Option<f64>,
     /// Why it is not solved.
     pub diagnosis: Option<String>,
-    /// Time its simulation took, from before the initial values to the last record [s]; not kept in a folder.
+    /// Time of its simulation, from before the initial values to the last record [s]; not stored in a folder.
     #[serde(skip)]
     pub seconds: f64,
-    /// Whole histories, where they are asked for, up to where a member failed; kept in files of their own.
+    /// Requested histories, up to the failure of a failed member; stored in files of their own.
     #[serde(skip)]
     pub history: Option<History>,
 }
@@ -73,7 +73,7 @@ impl MemberOutcome {
         }
     }
 
-    /// Of a member whose values make no good model.
+    /// For a member whose values result in an invalid model.
     pub(super) fn wrong_model(member: usize, report: &Report) -> Self {
         let errors = report.problems().filter(|problem| problem.severity == Severity::Error);
         let words: Vec<String> = errors
@@ -85,7 +85,7 @@ impl MemberOutcome {
         Self::not_started(member, MemberState::WrongModel, words.join("; "))
     }
 
-    /// Of a member that met a defect of the program.
+    /// For a member that revealed a defect of the program.
     pub(super) fn defect(member: usize, words: &str) -> Self {
         let diagnosis = format!("a defect of the program, please report it: {words}");
         Self::not_started(member, MemberState::Failed, diagnosis)

@@ -1,5 +1,5 @@
-//! Sweeps: one model solved many times with other values, by all processors; a scalar or several of every history, in
-//! one table. Members are independent, so that results do not depend on the number of workers.
+//! Sweeps: one model solved many times with different values, by all processors; scalars of every history are
+//! collected in one table. Members are independent, so that results do not depend on the number of workers.
 //!
 //! ```
 //! use std::num::NonZero;
@@ -58,21 +58,21 @@ pub use lissom_model::sweep::{Collected, STATISTICS, SweepFile, SweepValue, Vari
 pub use member::{MemberOutcome, MemberState};
 pub use table::{headings, plot, rows, write_parquet, write_table};
 
-/// How often the watch is asked while no member ends.
+/// Interval of calls of the watch while no member ends.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Members that end within this time are handed over together: waking the other thread for each takes as long as a tenth of a
+/// Members that end within this time are passed on together: waking the other thread for each takes as long as a tenth of a
 /// small member.
 const TOGETHER: Duration = Duration::from_millis(10);
 
-/// A sweep that cannot start.
+/// Why a sweep cannot start.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// The model is wrong, or wrong with what the sweep puts into it.
+    /// The model is invalid, or becomes invalid by the values of the sweep.
     #[error(transparent)]
     Model(#[from] Report),
-    /// What is computed has no course in time.
+    /// The analysis has no time history.
     #[error(
         "an analysis of kind `{0}` has no history to collect from: a sweep needs `dynamics` or `statics`"
     )]
@@ -80,11 +80,11 @@ pub enum SweepError {
     /// The model has no such column.
     #[error("`{name}` collects `{column}`, which the model does not record; {known}")]
     Column {
-        /// Name of what is collected.
+        /// Name of the collected item.
         name: String,
-        /// The column asked for.
+        /// The given column.
         column: String,
-        /// The columns there are, in words.
+        /// The existing columns, in words.
         known: String,
     },
     /// The cycles of a column are not counted.
@@ -92,7 +92,7 @@ pub enum SweepError {
         "`{name}` collects the damage equivalent range of `{column}`, whose output has no `woehler_exponent`: add it there"
     )]
     NoExponent {
-        /// Name of what is collected.
+        /// Name of the collected item.
         name: String,
         /// The column.
         column: String,
@@ -100,16 +100,16 @@ pub enum SweepError {
     /// The model has no such event.
     #[error("`{name}` collects the time of the event `{event}`, which the model does not have; {known}")]
     Event {
-        /// Name of what is collected.
+        /// Name of the collected item.
         name: String,
-        /// The event asked for.
+        /// The given event.
         event: String,
-        /// The events there are, in words.
+        /// The existing events, in words.
         known: String,
     },
 }
 
-/// A model and what is varied in it, ready to be solved member by member, in any order and from any thread.
+/// A model and its varied values, ready to be solved member by member, in any order and from any thread.
 pub struct Sweep {
     name: String,
     text: ModelText,
@@ -120,11 +120,11 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// A sweep over `model` as `file` says, with `overrides` in every member. The model's text is read once.
+    /// A sweep over `model` as defined by `file`, with `overrides` in every member. The model's text is read once.
     ///
     /// # Errors
-    /// If no member has a good model (the complaint is about the first one), or if the model does not record what is
-    /// to be collected. Single members that are wrong are reported in their outcomes.
+    /// If no member has a valid model (the error is that of the first one), or if the model does not record a
+    /// collected column. Single invalid members are reported in their outcomes.
     pub fn new(model: &Model, file: SweepFile, overrides: &[Override]) -> Result<Self, SweepError> {
         let mut all = file.set.clone();
         all.extend_from_slice(overrides);
@@ -166,7 +166,7 @@ impl Sweep {
         self.file.is_empty()
     }
 
-    /// What is varied and collected.
+    /// The varied and collected values.
     pub fn file(&self) -> &SweepFile {
         &self.file
     }
@@ -176,20 +176,20 @@ impl Sweep {
         &self.name
     }
 
-    /// What was changed in every member besides what the sweep file sets.
+    /// Overrides of every member, in addition to those of the sweep file.
     pub fn overrides(&self) -> &[Override] {
         &self.overrides
     }
 
-    /// What may not be meant as it is written, in the first member with a good model.
+    /// Warnings about the model of the first valid member.
     pub fn warnings(&self) -> &Report {
         &self.warnings
     }
 
-    /// All that results depend on, as one line of JSON: version of the program, model, what is varied and collected.
+    /// All inputs of the results, as one line of JSON: version of the program, model, varied and collected values.
     /// Sweeps with the same line have the same members and the same table.
     pub fn definition(&self) -> String {
-        // Members may include other files than the first does.
+        // Members may include different files than the first one.
         for member in 0..self.len() {
             let overrides = self.file.overrides(member);
             if overrides.iter().any(|(path, _)| path.starts_with("parts.")) {
@@ -208,7 +208,7 @@ impl Sweep {
         definition.to_string()
     }
 
-    /// Solves one member. `watch` is asked after every step whether to go on; a member has no result if `watch`
+    /// Solves one member. `watch` decides after every step whether to continue; a member has no result if `watch`
     /// stops it.
     ///
     /// # Panics
@@ -226,7 +226,8 @@ impl Sweep {
     }
 
     /// Solves `members` on `workers` threads. `keep` receives each outcome on the calling thread, in the order in which
-    /// members end; `watch` receives there how many have ended, after each and every 50 ms, and says whether to go on.
+    /// members end; `watch` receives there the number of completed ones, after each and every 50 ms, and decides
+    /// whether to continue.
     ///
     /// # Errors
     /// The first error of `keep`: then no further member is started.
@@ -249,7 +250,7 @@ impl Sweep {
             };
             while !stopped.load(Ordering::Relaxed) {
                 let Some(&member) = members.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
-                // A defect of the program in one member must not lose the others.
+                // A defect of the program in one member must not affect the others.
                 let caught = catch_unwind(AssertUnwindSafe(|| self.run_member(member, &mut go_on)));
                 let outcome = caught
                     .unwrap_or_else(|panic| Some(MemberOutcome::defect(member, &words_of(panic.as_ref()))));
@@ -294,7 +295,7 @@ impl Sweep {
     }
 }
 
-/// Members that a worker has solved, on their way to the thread that keeps them.
+/// Outcomes of a worker that have not yet been passed on.
 struct Ended {
     sender: mpsc::Sender<Vec<MemberOutcome>>,
     outcomes: Vec<MemberOutcome>,
@@ -307,7 +308,7 @@ impl Ended {
         self.hand_over_if_due();
     }
 
-    /// Hands over what has waited long enough; asked also while a long member follows short ones.
+    /// Passes on outcomes that have waited long enough; also called while a long member follows short ones.
     fn hand_over_if_due(&mut self) {
         if !self.outcomes.is_empty() && self.since.elapsed() >= TOGETHER {
             self.hand_over();
@@ -315,7 +316,7 @@ impl Ended {
     }
 
     fn hand_over(&mut self) {
-        // Nobody is there to take them any more where the sweep has ended.
+        // If the sweep has ended, nobody receives them.
         let _ = self.sender.send(std::mem::take(&mut self.outcomes));
         self.since = Instant::now();
     }
@@ -327,7 +328,7 @@ impl Drop for Ended {
     }
 }
 
-/// What a panic said.
+/// The message of a panic.
 fn words_of(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())

@@ -1,4 +1,4 @@
-//! The table of a sweep: one row per member, the same bytes however it was computed.
+//! The table of a sweep: one row per member, with identical bytes for every order of computation.
 
 use std::fmt::Write;
 use std::io;
@@ -20,7 +20,7 @@ pub fn headings(sweep: &Sweep) -> Vec<String> {
     all
 }
 
-/// The cells of each outcome, under [`headings`]; empty where there is nothing.
+/// The cells of each outcome, under [`headings`]; empty if a value is missing.
 pub fn rows<'a>(sweep: &'a Sweep, outcomes: &'a [MemberOutcome]) -> impl Iterator<Item = Vec<String>> + 'a {
     outcomes.iter().map(move |outcome| {
         let file = sweep.file();
@@ -39,11 +39,11 @@ pub fn rows<'a>(sweep: &'a Sweep, outcomes: &'a [MemberOutcome]) -> impl Iterato
     })
 }
 
-/// The table as a Parquet file: columns as in [`headings`], NaN where there is no number. A varied path whose values are not all
+/// The table as a Parquet file: columns as in [`headings`], NaN for missing numbers. A varied path whose values are not all
 /// numbers has texts.
 ///
 /// # Errors
-/// If it is larger than the format takes.
+/// If it exceeds the limits of the format.
 pub fn write_parquet(sweep: &Sweep, outcomes: &[MemberOutcome]) -> io::Result<Vec<u8>> {
     let file = sweep.file();
     let numbers = |of: &dyn Fn(&MemberOutcome) -> Option<f64>| {
@@ -76,7 +76,7 @@ pub fn write_parquet(sweep: &Sweep, outcomes: &[MemberOutcome]) -> io::Result<Ve
     parquet(&columns, &[])
 }
 
-/// What can be drawn of the solved members.
+/// The plot of the solved members.
 pub fn plot(sweep: &Sweep, outcomes: &[MemberOutcome], title: &str) -> SweepPlot {
     let file = sweep.file();
     let solved: Vec<&MemberOutcome> =
@@ -104,7 +104,7 @@ pub fn plot(sweep: &Sweep, outcomes: &[MemberOutcome], title: &str) -> SweepPlot
     SweepPlot { title: title.to_owned(), varied: varied.collect(), collected: collected.collect() }
 }
 
-/// The table as comma-separated values. Numbers have the fewest digits that give them back exactly.
+/// The table as comma-separated values. Numbers have the fewest digits that reproduce them exactly.
 pub fn write_table(sweep: &Sweep, outcomes: &[MemberOutcome]) -> String {
     let mut text = String::new();
     for cells in std::iter::once(headings(sweep)).chain(rows(sweep, outcomes)) {

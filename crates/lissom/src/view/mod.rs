@@ -1,6 +1,6 @@
-//! The page that shows results: one HTML file with everything in it, which asks nothing of any network.
+//! The page of results: one self-contained HTML file, without network requests.
 //!
-//! The page itself is bundled from `viewer/`; here the results are put into it.
+//! The page itself is bundled from `viewer/`; here the results are inserted.
 
 pub(crate) mod modes;
 mod packed;
@@ -14,29 +14,29 @@ use crate::motion::{Motion, MotionError};
 
 pub(crate) use packed::base64;
 
-/// The page without results, such as `viewer/build.js` has made it.
+/// The page without results, as built by `viewer/build.js`.
 const PAGE: &str = include_str!("viewer.html");
-/// Most numbers of the table that go into a page; of longer ones rows are omitted.
+/// Maximum number of values of the table in a page; rows of longer ones are omitted.
 const MAX_NUMBERS: usize = 1_500_000;
 
-/// Something the reader of a page must know about the results.
+/// A note for the reader of a page about the results.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Notice {
     /// `warning` or `error`.
     kind: &'static str,
-    /// What it is.
+    /// Its text.
     text: String,
-    /// Whether it is an excerpt of a file, to be shown letter by letter.
+    /// Whether it is an excerpt of a file, shown verbatim.
     is_code: bool,
 }
 
 impl Notice {
-    /// Something to be aware of.
+    /// A warning.
     pub fn warning(text: impl Into<String>) -> Self {
         Self { kind: "warning", text: text.into(), is_code: false }
     }
 
-    /// Something that went wrong.
+    /// An error.
     pub fn error(text: impl Into<String>) -> Self {
         Self { kind: "error", text: text.into(), is_code: false }
     }
@@ -48,14 +48,14 @@ impl Notice {
     }
 }
 
-/// Results on their way into a page.
+/// Results for a page.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Results {
     /// Name of the model or of the folder.
     name: String,
     /// One line about the model.
     title: String,
-    /// A few words about the run.
+    /// A short text about the run.
     facts: String,
     notices: Vec<Notice>,
     scene: Value,
@@ -68,12 +68,12 @@ pub struct Results {
 }
 
 impl Results {
-    /// Nothing yet, of the model called `name`.
+    /// Empty, for the model called `name`.
     pub fn new(name: &str) -> Self {
         Self { name: name.to_owned(), ..Self::default() }
     }
 
-    /// For a page on this machine that waits: what is added from now on is packed sooner and less.
+    /// For a waiting local page: data added from now on are compressed faster and less.
     #[must_use]
     pub fn packed_soon(self) -> Self {
         Self { effort: packed::Effort::Soon, ..self }
@@ -85,7 +85,7 @@ impl Results {
         Self { title: title.to_owned(), ..self }
     }
 
-    /// With facts of `summary.json`: title, counts, and why a run has ended early.
+    /// With contents of `summary.json`: title, counts, and the reason if a run has ended early.
     #[must_use]
     pub fn with_summary(mut self, summary: &Value) -> Self {
         let word = |name: &str| summary[name].as_str().unwrap_or_default();
@@ -107,10 +107,10 @@ impl Results {
         self
     }
 
-    /// With a scene and its motion, as they are in the files of a run.
+    /// With a scene and its motion, as in the files of a run.
     ///
     /// # Errors
-    /// If the bytes are no motion file.
+    /// If the bytes are not a motion file.
     pub fn with_motion(mut self, scene: Value, motion: &[u8]) -> Result<Self, MotionError> {
         let motion = Motion::from_bytes(motion)?;
         self.scene = scene;
@@ -118,20 +118,20 @@ impl Results {
         Ok(self)
     }
 
-    /// With a model as it is at the start.
+    /// With a model at its start.
     ///
     /// # Errors
-    /// If the bytes are no motion file.
+    /// If the bytes are not a motion file.
     ///
     /// # Panics
-    /// Never: plain numbers and texts can always be said in JSON.
+    /// Never: plain numbers and texts are valid JSON.
     pub fn with_scene(self, scene: &Scene, motion: &[u8]) -> Result<Self, MotionError> {
         let scene = serde_json::to_value(scene).expect("plain numbers and texts can always be said in JSON");
         self.with_motion(scene, motion)
     }
 
-    /// With natural modes, from the tables `modes.csv` and `shapes.csv`; nothing if they do not belong to the motion that
-    /// was given before, which is the state about which the modes are.
+    /// With natural modes, from the tables `modes.csv` and `shapes.csv`; none if they do not belong to the motion given
+    /// before, which is the state about which the model is linearised.
     #[must_use]
     pub fn with_modes(mut self, modes: &str, shapes: &str) -> Option<Self> {
         self.modes = modes::read(modes, shapes, self.motion.as_ref()?.node_count())?;
@@ -156,17 +156,17 @@ impl Results {
         self
     }
 
-    /// With something the reader must know.
+    /// With a note for the reader.
     #[must_use]
     pub fn with_notice(mut self, notice: Notice) -> Self {
         self.notices.push(notice);
         self
     }
 
-    /// As the text of a JSON object, as the page takes it.
+    /// As the text of a JSON object, in the page's format.
     ///
     /// # Panics
-    /// Never: plain numbers and texts can always be said in JSON.
+    /// Never: plain numbers and texts are valid JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("plain numbers and texts can always be said in JSON")
     }
@@ -174,12 +174,12 @@ impl Results {
     /// The page with these results in it.
     pub fn page(&self) -> String {
         let title = if self.title.is_empty() { &self.name } else { &self.title };
-        // An end tag within a text would end the script that holds it.
+        // An end tag within a text would end the script that contains it.
         fill(title, "'none'", &self.to_json().replace('<', "\\u003c"))
     }
 }
 
-/// A page without results that asks the server it came from for them.
+/// A page without results, which requests them from its server.
 pub fn empty_page(title: &str) -> String {
     fill(title, "'self'", "")
 }

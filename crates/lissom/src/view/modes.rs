@@ -1,8 +1,8 @@
-//! Natural modes on their way into a page: the tables that `lissom modes` leaves, read back.
+//! Natural modes for a page: the tables of `lissom modes`, read back.
 
 use serde::Serialize;
 
-/// A mode as pictures show it.
+/// A mode for pictures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Mode {
     /// Frequency [Hz].
@@ -11,14 +11,14 @@ pub(crate) struct Mode {
     damping: f64,
     /// Kind, such as `oscillation`.
     kind: String,
-    /// Displacement [m] and rotation [rad] of every node but the ground, one after the other.
+    /// Displacement [m] and rotation [rad] of every node except the ground, concatenated.
     pub(crate) real: Vec<f32>,
     /// Imaginary parts; empty where there are none.
     pub(crate) imaginary: Vec<f32>,
 }
 
-/// Reads `modes.csv` and `shapes.csv` of a model with so many nodes, the ground included; nothing if they are something
-/// else.
+/// Reads `modes.csv` and `shapes.csv` of a model with this number of nodes, the ground included; none if they are
+/// invalid.
 pub(crate) fn read(modes: &str, shapes: &str, nodes: usize) -> Option<Vec<Mode>> {
     let mut rows = shapes.lines();
     let is_complex = rows.next()?.ends_with("_im");
@@ -31,7 +31,7 @@ pub(crate) fn read(modes: &str, shapes: &str, nodes: usize) -> Option<Vec<Mode>>
         let kind = fields.next()?.to_owned();
         let (mut real, mut imaginary) = (Vec::new(), Vec::new());
         for _ in 1..nodes {
-            // Names of nodes come first and may hold commas: numbers are counted from the end.
+            // Names of nodes are first and may contain commas: numbers are counted from the end.
             let numbers: Option<Vec<f32>> =
                 rows.next()?.rsplitn(columns + 1, ',').take(columns).map(|text| text.parse().ok()).collect();
             let mut numbers = numbers.filter(|numbers| numbers.len() == columns)?;

@@ -1,9 +1,9 @@
-//! Results made small for a page: numbers rounded to what a screen shows, differences, deflate, base64.
+//! Compressed results for a page: numbers rounded to the resolution of a screen, differences, deflate, base64.
 //!
-//! A number of a motion is a whole multiple of a quantum of its own, kept as a second difference in as few bytes as it
-//! needs. Quanta are a part of what the number ranges over during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations,
-//! 2⁻¹² for section forces; and never less than a part of what the largest number of its kind ranges over. Motions of more
-//! than ten million numbers have quanta eight times as large.
+//! A number of a motion is a multiple of its own quantum, stored as a second difference in as few bytes as necessary.
+//! Quanta are a fraction of the number's range during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations, 2⁻¹² for
+//! section forces; and never less than a fraction of the largest range of their kind. Motions of more than ten million
+//! numbers have quanta eight times as large.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -19,11 +19,11 @@ use crate::motion::{ForcePoints, Motion as Recorded};
 const DISPLACEMENT: [f64; 2] = [1.0 / 131_072.0, 1.5e-8];
 const ROTATION: [f64; 2] = [1.0 / 32_768.0, 1.5e-8];
 const FORCE: [f64; 2] = [1.0 / 4096.0, 1e-6];
-/// A motion of more numbers is a large one, with quanta so many times as large.
+/// A motion with more numbers is a large one, and this is the factor of its quanta.
 const LARGE: usize = 10_000_000;
 const COARSER: f64 = 8.0;
 
-/// A motion as the page reads it.
+/// A motion in the page's format.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Motion {
     nodes: Vec<String>,
@@ -103,7 +103,7 @@ fn channels(
     }
 }
 
-/// Seven bits per byte, least first, the sign in the last bit of all.
+/// Seven bits per byte, least significant first, with the sign in the last bit of all.
 fn put_integer(value: i64, out: &mut Vec<u8>) {
     let mut rest = ((value << 1) ^ (value >> 63)) as u64;
     while rest > 127 {
@@ -134,17 +134,17 @@ pub(super) fn table(record: &Record, stride: usize, effort: Effort) -> String {
     deflated(&text, effort)
 }
 
-/// What is taken upon to make results small.
+/// Effort of the compression.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Effort {
-    /// For pages that are kept or sent.
+    /// For pages that are stored or sent.
     #[default]
     Small,
-    /// For pages on this machine that wait: some tenths longer, in a third of the time.
+    /// For waiting local pages: larger by some tenths, in a third of the time.
     Soon,
 }
 
-/// In the format of zlib, in letters.
+/// Compressed in the format of zlib, in base64.
 fn deflated(bytes: &[u8], effort: Effort) -> String {
     let level = match effort {
         Effort::Small => 6,
