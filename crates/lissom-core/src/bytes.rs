@@ -1,4 +1,4 @@
-//! What is learned from step to step, as bytes of a snapshot that are read to the last bit.
+//! Data that persist from step to step, as bytes of a snapshot that are restored to the last bit.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -8,7 +8,7 @@ pub(crate) fn to_bytes<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_stdvec(value).unwrap_or_default()
 }
 
-/// Writes what was saved to `value`, which stays as it is where that cannot be read. Whether it was read.
+/// Writes the saved value to `value`, which is unchanged if it cannot be read. Whether it was read.
 pub(crate) fn from_bytes<T: DeserializeOwned>(saved: &[u8], value: &mut T) -> bool {
     postcard::from_bytes(saved).map(|read| *value = read).is_ok()
 }

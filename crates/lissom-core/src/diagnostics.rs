@@ -1,4 +1,4 @@
-//! Diagnostics: what warnings and failures consist of, and the table of their codes.
+//! Diagnostics: the contents of warnings and failures, and the table of their codes.
 //!
 //! An enumeration in `diagnostics!` is a part of the catalogue: each variant states, in one place, its values, code, time,
 //! subject, cause, remedy and explanation. A new warning is a new variant.
@@ -7,7 +7,7 @@ use std::fmt::{self, Display};
 
 use crate::kinematics::Subject;
 
-/// How severe a diagnostic is.
+/// Severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// A result may be inaccurate.
@@ -25,11 +25,11 @@ pub struct Entry {
     pub variant: &'static str,
     /// Whether it is a warning.
     pub severity: Severity,
-    /// Its message, with names of values in braces.
+    /// Its message, with placeholders of values in braces.
     pub message: &'static str,
-    /// What it means.
+    /// Its meaning.
     pub meaning: &'static str,
-    /// What to do, in general.
+    /// General remedy.
     pub advice: &'static str,
 }
 
@@ -38,9 +38,9 @@ pub struct Entry {
 pub enum Value {
     /// A number.
     Number(f64),
-    /// A number of things.
+    /// An integer.
     Count(usize),
-    /// Yes or no.
+    /// A truth value.
     Flag(bool),
     /// Words or a name.
     Text(String),
@@ -53,19 +53,19 @@ pub struct Diagnostic {
     pub code: Option<&'static str>,
     /// Whether it is a warning.
     pub severity: Severity,
-    /// Time [s], where there is one.
+    /// Time [s], if there is one.
     pub time: Option<f64>,
-    /// What it is about.
+    /// Its subject.
     pub subject: Option<Subject>,
     /// Values by name, without the time.
     pub values: Vec<(&'static str, Value)>,
-    /// What happened, and why.
+    /// The event and its cause.
     pub cause: String,
-    /// What to try; may be empty.
+    /// The remedy; may be empty.
     pub remedy: String,
 }
 
-/// What is a warning or failure.
+/// A type of warning or failure.
 pub trait Diagnose {
     /// Its code, time, subject, values, cause and remedy.
     fn diagnostic(&self) -> Diagnostic;
@@ -91,18 +91,18 @@ impl Diagnostic {
         Self { cause: format!("{context}: {}", self.cause), ..self }
     }
 
-    /// The same at the time [s] of what it is a part of.
+    /// The same at a time [s].
     #[must_use]
     pub fn at(self, time: f64) -> Self {
         Self { time: Some(time), ..self }
     }
 
-    /// Name of the entry that it is about.
+    /// Name of the entry that is its subject.
     pub fn part(&self) -> Option<&str> {
         self.subject.as_ref().and_then(Subject::entry)
     }
 
-    /// What to try, if anything is known.
+    /// The remedy, if there is one.
     pub fn remedy(&self) -> Option<&str> {
         Some(self.remedy.as_str()).filter(|remedy| !remedy.is_empty())
     }
@@ -137,9 +137,9 @@ value_from! {
 
 /// Defines an enumeration of warnings or failures with its entries of the catalogue.
 ///
-/// After the values of a variant, by reference: its code, its time and subject where it has them, the message with its
-/// arguments, the remedy, and for the catalogue what it means and what to do. A section `wraps` has variants that contain another
-/// diagnostic, of which they are made.
+/// After the values of a variant, by reference: its code, its time and subject if it has them, the message with its arguments,
+/// the remedy, and for the catalogue its meaning and general remedy. A section `wraps` has variants that contain another
+/// diagnostic.
 macro_rules! diagnostics {
     (
         $(#[$meta:meta])*
@@ -192,7 +192,7 @@ macro_rules! diagnostics {
                 }
             }
 
-            /// One of each variant that wraps nothing.
+            /// One of each variant that wraps no other diagnostic.
             #[cfg(test)]
             pub(crate) fn samples() -> Vec<Self> {
                 vec![$(Self::$variant { $($field: $crate::diagnostics::tests::Sample::sample(),)* },)*]
@@ -244,7 +244,7 @@ pub(crate) mod tests {
         BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
     };
 
-    /// A name with everything that sentences are divided by.
+    /// A name with all characters that separate parts of sentences.
     const NAME: &str = "a`; b` = c: d";
 
     /// A value for any field.
@@ -331,7 +331,7 @@ pub(crate) mod tests {
 
     #[test]
     fn every_diagnostic_has_time_subject_and_remedy() {
-        // What concerns the whole model has no subject, what precedes a motion no time.
+        // Diagnostics of the whole model have no subject, those before a motion no time.
         let without_subject = [
             "energy-surplus",
             "unstable-equilibrium",

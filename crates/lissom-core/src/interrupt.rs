@@ -1,7 +1,8 @@
-//! Asks a thread to give up what it computes. Newton's loop, searches for modes and solves at a frequency look whether they are
-//! asked, so that every analysis ends soon, however many of them it is made of.
+//! Cancels the computation of a thread. Newton's loop, searches for modes and solves at a frequency check whether it is
+//! requested, so that every analysis ends soon, regardless of the number of its parts.
 //!
-//! This is kept per thread and not handed from function to function: no analysis does anything with it but to pass it on.
+//! The request is stored per thread instead of being passed from function to function, because analyses would only pass
+//! it on.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -16,7 +17,7 @@ thread_local! {
 #[error("interrupted")]
 pub struct Interrupted;
 
-/// Puts back what was there before, also when the work panics.
+/// Restores the earlier request, also when the work panics.
 struct Former(Option<Arc<AtomicBool>>);
 
 impl Drop for Former {
@@ -26,18 +27,18 @@ impl Drop for Former {
     }
 }
 
-/// Does `work` on this thread, and has it end soon, with an error that says so, once `asked` is set.
+/// Calls `work` on this thread, and ends it soon with an error once `asked` is set.
 pub fn within<T>(asked: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     let _former = Former(ASKED.replace(Some(asked)));
     work()
 }
 
-/// Whether this thread is asked to give up.
+/// Whether cancellation of this thread is requested.
 pub fn is_asked() -> bool {
     ASKED.with_borrow(|asked| asked.as_ref().is_some_and(|asked| asked.load(Ordering::Relaxed)))
 }
 
-/// An error where this thread is asked to give up.
+/// An error if cancellation of this thread is requested.
 ///
 /// # Errors
 /// [`Interrupted`], if it is.

@@ -1,5 +1,5 @@
-//! Flexible multibody dynamics in index-3 form: elements and joints in SI that know no time step,
-//! schemes for unit steps, and one place, `scaling`, where they meet.
+//! Flexible multibody dynamics in index-3 form: elements and joints in SI that are independent of the time step,
+//! schemes for unit steps, and the module `scaling`, which combines them.
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 

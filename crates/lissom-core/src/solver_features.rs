@@ -1,27 +1,27 @@
 //! Optional features of the nonlinear solver beyond Newton's method. Each can be switched off (`analysis.without`), so that a
-//! command can show what it is worth.
+//! command can show its effect.
 
-/// Something that saves iterations or tangents, or finds a solution that Newton's method alone would miss.
+/// A feature that saves iterations or tangents, or finds solutions that Newton's method alone would miss.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum SolverFeature {
-    /// First guesses by linear prediction.
+    /// Initial guesses by linear prediction.
     Prediction,
-    /// Secants of earlier corrections (Anderson's mixing).
+    /// Secants of earlier corrections (Anderson acceleration).
     Secants,
-    /// A first correction is the last where the contraction of earlier solutions says so.
+    /// The first correction is the last if the contraction of earlier solutions allows it.
     SingleCorrection,
-    /// A tangent is given up when solutions with it have become expensive.
+    /// A tangent is discarded when solutions with it have become expensive.
     JacobianCost,
-    /// Corrections that went too far are halved.
+    /// Corrections that overshoot are halved.
     BackOff,
-    /// Tangents far from equilibrium are made with the stresses at the start of the step.
+    /// Tangents far from equilibrium use the stresses at the start of the step.
     StartStresses,
-    /// Steps of planned size without solution are taken in parts.
+    /// Steps of planned size without solution are bisected.
     StepBisection,
 }
 
-/// Every feature with its word and what it does.
+/// Every feature with its name and its effect.
 pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 7] = [
     (SolverFeature::Prediction, "prediction", "first guesses by linear prediction from earlier steps"),
     (SolverFeature::Secants, "secants", "corrections improved by secants of earlier ones"),
@@ -40,7 +40,7 @@ pub const SOLVER_FEATURES: [(SolverFeature, &str, &str); 7] = [
     (SolverFeature::StepBisection, "parts", "steps without solution taken in parts"),
 ];
 
-/// Their words.
+/// Their names.
 pub const WORDS: [&str; SOLVER_FEATURES.len()] = {
     let mut words = [""; SOLVER_FEATURES.len()];
     let mut index = 0;
@@ -66,7 +66,7 @@ impl DisabledFeatures {
         self.0 & (1 << feature as u8) == 0
     }
 
-    /// Those of these words; none where a word means nothing.
+    /// Features by name; none if a name is unknown.
     pub fn of_words<'a>(words: impl IntoIterator<Item = &'a str>) -> Option<Self> {
         words.into_iter().try_fold(Self::default(), |disabled, word| {
             let (feature, ..) = SOLVER_FEATURES.iter().find(|(_, name, _)| *name == word)?;

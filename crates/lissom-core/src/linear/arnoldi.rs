@@ -4,11 +4,11 @@
 //! (s² M + s D + K) x + Bᵀ μ = 0,   B x = 0,   v = s x
 //! ```
 //!
-//! One application of the operator is one solve with the saddle-point matrix at the shift σ:
-//! (σ²M + σD + K) x + Bᵀμ = -M w₂ - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ), and what belongs to infinite
-//! eigenvalues is gone after two applications, because positions and then velocities satisfy the constraints
-//! [Cliffe, Garratt and Spence 1994; Meerbergen and Spence 1997]. At a real shift the operator, its basis and its matrix are
-//! real; eigenvectors alone are complex [Parlett and Saad 1987].
+//! One application of the operator is one solve with the saddle-point matrix at the shift σ: (σ²M + σD + K) x + Bᵀμ = -M w₂
+//! - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ). Components of infinite eigenvalues vanish after two
+//! applications, because positions and then velocities satisfy the constraints [Cliffe, Garratt and Spence 1994; Meerbergen
+//! and Spence 1997]. At a real shift the operator, its basis and its matrix are real; only eigenvectors are complex [Parlett
+//! and Saad 1987].
 
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
@@ -26,27 +26,27 @@ use crate::round_off;
 
 const BLOCK: usize = 6;
 const TOLERANCE: f64 = 1e-8;
-/// The same where the basis has become large against the number of modes: round-off is then what is left.
+/// The same if the basis has become large compared with the number of modes: the rest is then round-off.
 const LOOSE: f64 = 1e-6;
 const BETWEEN: usize = 12;
 const BEYOND: usize = 4;
-/// A basis with so many vectors, and three times as many as eigenvalues are wanted, is large.
+/// A basis with this number of vectors, and three times the number of requested eigenvalues, is large.
 const LARGE_BASIS: usize = 100;
 /// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
 const DEFECTIVE: f64 = 16.0;
-/// The same of a solve, relative to the shift: the root of the round-off.
+/// The same for a solve, relative to the shift: the square root of the round-off.
 const SOLVED: f64 = 1e-5;
-/// What the operator makes of an eigenvector may differ from its multiple by this fraction: more is no eigenvector, but round-off of
-/// an infinite eigenvalue, which two applications have taken away.
+/// Allowed difference between the operator's image of an eigenvector and its multiple, relative to it. A larger one belongs to
+/// round-off of an infinite eigenvalue, which two applications have removed.
 const EIGENVECTOR: f64 = 1e-2;
-/// Rigid modes whose shapes differ by less are one.
+/// Rigid modes whose shapes differ by less than this are the same.
 const SAME: f64 = 1e-4;
-/// An eigenvalue nearer to the shift than this fraction of it leaves nothing of all others but round-off.
+/// If an eigenvalue is nearer to the shift than this fraction of it, all others are lost in round-off.
 const TOO_NEAR: f64 = 1e-4;
-/// How far the shift is moved then.
+/// Relative displacement of the shift in this case.
 const ASIDE: f64 = 0.03;
 const MAX_SHIFTS: usize = 3;
-/// Shifts over the least eigenvalue, of which the one is taken that is farthest from all eigenvalues.
+/// Candidates of the shift over the smallest eigenvalue; the one farthest from all eigenvalues is chosen.
 const CANDIDATES: [f64; 6] = [1.0, 0.85, 1.2, 0.7, 1.45, 0.55];
 
 /// Positions and velocities, in units of the model's length and of a rate.
@@ -61,13 +61,13 @@ pub(super) struct Inverse<'m, 's, 'a, S> {
     product: Vec<S>,
 }
 
-/// The field of a shift, in which the basis is.
+/// The number field of a shift, and so of the basis.
 pub(super) trait Field: Shift {
     /// Another shift nearby.
     fn beside(self, change: f64) -> Self;
     /// The operator's image of a complex vector.
     fn image(operator: &mut Inverse<'_, '_, '_, Self>, vector: &[Complex64], image: &mut [Complex64]);
-    /// Unitary vectors and a triangular matrix, which is theirs with the given one.
+    /// Schur form: unitary vectors and the triangular matrix.
     fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)>;
 }
 
@@ -102,7 +102,7 @@ impl Field for f64 {
     }
 
     fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
-        // It needs two or three for each eigenvalue where it succeeds at all.
+        // A successful iteration needs two or three for each eigenvalue.
         let rounds = 10 * matrix.nrows().max(10);
         let Some(schur) = Schur::try_new(matrix.clone(), f64::EPSILON, rounds) else {
             return schur(matrix.map(Complex64::from));
@@ -114,7 +114,8 @@ impl Field for f64 {
     }
 }
 
-/// Turns the blocks of two on the diagonal of a real Schur form, the pairs of complex eigenvalues, into triangles.
+/// Transforms the 2 x 2 blocks on the diagonal of a real Schur form, the pairs of complex eigenvalues, to triangular
+/// form.
 fn make_triangular(vectors: &mut DMatrix<Complex64>, triangle: &mut DMatrix<Complex64>) {
     let order = triangle.nrows();
     for k in 1..order {
@@ -182,7 +183,7 @@ impl<S: Field> Operator<S> for Inverse<'_, '_, '_, S> {
             }
         }
         self.solver.solve(&mut self.right);
-        // Forces, as multipliers, have no part in what comes next.
+        // Forces do not enter the next application, like multipliers.
         for (row, _) in self.model.system.layout().impulses() {
             self.right[row] = S::zero();
         }
@@ -223,7 +224,7 @@ struct Estimate {
     residual: f64,
 }
 
-/// Finds the modes nearest to the shift.
+/// Computes the modes nearest to the shift.
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
     match options.shift {
         Some(frequency) if frequency > 0.0 => {
@@ -233,8 +234,8 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
         }
         _ => {
             let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
-            // Steadily rolling wheels have many zero eigenvalues, which hide the others from a small shift; their own rate is that
-            // of what they do.
+            // Steadily rolling wheels have many zero eigenvalues, which hide the others from a small shift; their motions have
+            // the rate of rotation.
             let shift = if model.rolls_on() { model.spin().norm() } else { first_shift(model, &mut solver)? };
             // Conjugates and the second zero of each rigid mode are found as well.
             find_near(model, options, (&mut solver, shift), 2 * (options.count + BEYOND))
@@ -242,7 +243,7 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
     }
 }
 
-/// Finds the modes nearest to `shift`, among the `wanted` nearest eigenvalues or more.
+/// Computes the modes nearest to `shift`, among the `wanted` nearest eigenvalues or more.
 fn find_near<'a, S: Field>(
     model: &LinearModel<'a>,
     options: &ModeOptions,
@@ -275,8 +276,8 @@ fn find_near<'a, S: Field>(
             wanted += 2 * BLOCK;
         }
     }
-    // No pivots count modes here. Small models have all their eigenvalues computed; in others there are at most two for each
-    // freedom that the constraints leave, unless constraints repeat each other.
+    // Pivots do not count modes here. For small models all eigenvalues are computed; in others there are at most two for
+    // each degree of freedom under the constraints, unless constraints are redundant.
     let spectrum = Spectrum::of(model, shift.size());
     if let Some(spectrum) = &spectrum {
         spectrum.complete(model, &mut modes, complex(shift), options.count);
@@ -288,7 +289,7 @@ fn find_near<'a, S: Field>(
     let most = match &spectrum {
         Some(spectrum) => spectrum.values.len(),
         None if freedoms == 0 || solver.has_redundant_constraints() => usize::MAX,
-        // What rolls has more positions than velocities.
+        // Rolling bodies have more positions than velocities.
         None => 2 * freedoms + layout.impulses.len(),
     };
     if (is_empty && modes.is_empty()) || eigenvalues > most {
@@ -299,7 +300,7 @@ fn find_near<'a, S: Field>(
     Ok(Modes { modes, completeness: Completeness::NotCounted })
 }
 
-/// A real shift about as large as the smallest eigenvalues that are not zero.
+/// A real shift of about the magnitude of the smallest nonzero eigenvalues.
 fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut GeneralShift<'a, f64>) -> Result<f64, ModeError> {
     let rate = small_square(&model.representative).sqrt();
     let mut operator = inverse(model, solver, rate)?;
@@ -321,8 +322,8 @@ fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut GeneralShift<'a, f64>) 
     if !least.is_finite() {
         return Ok(rate);
     }
-    // At a growing real eigenvalue the matrix is singular. Nearer to zero the pivots of rigid modes vanish, and what they leave of
-    // the other eigenvalues is round-off.
+    // At a growing real eigenvalue the matrix is singular. Nearer to zero the pivots of rigid modes vanish, and the other
+    // eigenvalues are lost in round-off.
     let distance = |shift: f64| found.iter().map(|value| (value - shift).norm() / shift).fold(1.0, f64::min);
     let best =
         CANDIDATES.iter().map(|part| part * least).max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
@@ -336,7 +337,7 @@ pub(super) fn inverse<'m, 's, 'a, S: Field>(
 ) -> Result<Inverse<'m, 's, 'a, S>, ModeError> {
     let mut tried = shift;
     let mut result = solver.factor(&model.parts, tried);
-    // An eigenvalue happens to be at the shift.
+    // An eigenvalue is at the shift.
     for change in [1e-6, 1e-4, 1e-2] {
         if result.is_ok() {
             break;
@@ -448,12 +449,12 @@ fn mode<S: Field>(
     })
 }
 
-/// Whether an eigenvalue is so small against the shift that it may be one of a defective pair at zero.
+/// Whether an eigenvalue is so small compared with the shift that it may be one of a defective pair at zero.
 fn is_defective(eigenvalue: Complex64, shift: f64) -> bool {
     eigenvalue.norm_sqr() <= DEFECTIVE * shift.powi(2) * SOLVED
 }
 
-/// The mode of an eigenvector of the operator, positions and velocities, and its eigenvalue 1/(s - σ); none where it is no mode.
+/// The mode of an eigenvector of the operator, positions and velocities, and its eigenvalue 1/(s - σ); none if it is not a mode.
 pub(super) fn mode_of<S: Field>(
     model: &LinearModel<'_>,
     operator: &mut Inverse<'_, '_, '_, S>,
@@ -500,7 +501,7 @@ pub(super) fn mode_of<S: Field>(
     (eigenvalue.im >= 0.0).then(|| Mode::new(eigenvalue, shape, residual))
 }
 
-/// Unit modal mass, the largest entry real; the largest entry 1 where the mode has no mass.
+/// Normalises to unit modal mass with the largest entry real, or the largest entry to 1 if the mode has no mass.
 fn normalise(model: &LinearModel<'_>, shape: &mut [Complex64]) {
     let size = model.system.layout().size();
     let (mut room, mut product) = (vec![Complex64::default(); size], vec![Complex64::default(); size]);
@@ -519,7 +520,7 @@ fn normalise(model: &LinearModel<'_>, shape: &mut [Complex64]) {
     }
 }
 
-/// Of the shapes with eigenvalue zero only independent ones are kept.
+/// Of the shapes with eigenvalue zero only independent ones are retained.
 fn keep_independent_rigid_modes(modes: &mut Vec<Mode>) {
     let mut basis: Vec<Vec<Complex64>> = Vec::new();
     modes.retain(|mode| {

@@ -1,4 +1,5 @@
-//! Linear buckling: load factors at which the stiffness, taken to change in proportion to the loads, becomes singular.
+//! Linear buckling: load factors at which the stiffness, assumed to change in proportion to the loads, becomes
+//! singular.
 //!
 //! ```text
 //! (K₀ + Λ (K₁ - K₀)) x + Bᵀ μ = 0,    B x = 0
@@ -17,17 +18,17 @@ use crate::diagnostics::diagnostics;
 use crate::interrupt;
 use crate::round_off;
 
-/// Vectors to start with.
+/// Number of starting vectors.
 const BLOCK: usize = 6;
-/// Steps between two looks at the eigenvalues.
+/// Steps between two computations of the eigenvalues.
 const BETWEEN: usize = 8;
-/// Modes sought beyond those asked for, so that a factor of several modes at the last one is seen whole.
+/// Additional modes beyond the requested ones, so that a multiple factor at the end is found completely.
 const BEYOND: usize = 4;
-/// Load factor below which no mode is believed to be where none is found, over the magnitude of the lowest negative one.
+/// Load factor below which no mode is expected if none is found, over the magnitude of the lowest negative one.
 const FAR_AWAY: f64 = 1e3;
-/// A search that has so many vectors, and eight times as many as modes are sought, is ended: there are no more modes.
+/// A search with this number of vectors, and eight times the number of modes, is ended: there are no more modes.
 const MAX_VECTORS: usize = 300;
-/// Times the search is started again with new vectors.
+/// Maximum number of restarts with new vectors.
 const MAX_RESTARTS: usize = 4;
 
 /// A buckling mode.
@@ -42,7 +43,7 @@ pub struct BucklingMode {
 /// Buckling modes, by ascending load factor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Buckling {
-    /// Those found: fewer than asked for where there are no more.
+    /// The modes found: fewer than requested if there are no more.
     pub modes: Vec<BucklingMode>,
     /// Whether a lower one may have been missed.
     pub completeness: Completeness,
@@ -126,7 +127,7 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
 
 impl LinearModel<'_> {
     /// The lowest positive load factors at which a model buckles. `self` is the linear model without loads, `loaded` that
-    /// under the loads of factor one, of a system with the same unknowns.
+    /// under the loads at factor one, of a system with the same unknowns.
     ///
     /// # Errors
     /// If the model is not stable without loads, or the loads have no potential.
@@ -157,10 +158,10 @@ impl LinearModel<'_> {
             let Search { mut modes, is_whole, largest } =
                 search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
             let rates: Vec<f64> = modes.iter().map(|mode| mode.load_factor.recip()).collect();
-            // All modes of a factor are counted together: between two of them the matrix is singular.
+            // All modes of a multiple factor are counted together: between two of them the matrix is singular.
             let keep = whole_clusters(&rates, count.min(rates.len()));
             if keep == wanted {
-                // The factor may have more modes than were sought.
+                // The factor may have more modes than were searched for.
                 wanted += BLOCK;
                 continue;
             }
@@ -179,8 +180,8 @@ impl LinearModel<'_> {
         }
     }
 
-    /// Compares the number of modes with the number of negative pivots above the last one; where there is none, far above the
-    /// magnitude of the lowest negative load factor, the reciprocal of `largest`.
+    /// Compares the number of modes with the number of negative pivots above the last one. If there are none, the pivots are
+    /// counted far above the magnitude of the lowest negative load factor, the reciprocal of `largest`.
     fn counted(
         &self,
         change: &[f64],
@@ -211,12 +212,12 @@ impl LinearModel<'_> {
     }
 }
 
-/// What a search found.
+/// Result of a search.
 struct Search {
     modes: Vec<BucklingMode>,
-    /// Whether there are no other modes than those found and those beyond the ones sought.
+    /// Whether there are no modes except those found, also beyond the requested ones.
     is_whole: bool,
-    /// The largest magnitude of an eigenvalue of the operator, whatever its sign.
+    /// The largest magnitude of an eigenvalue of the operator.
     largest: f64,
 }
 
@@ -249,7 +250,7 @@ fn search(
         let are_enough = positive.len() >= wanted && positive[..wanted].iter().all(is_converged);
         if are_enough || *is_exhausted {
             let before = positive.len();
-            // What has not converged when a search is ended is no mode yet.
+            // Estimates that have not converged at the end of a search are not modes yet.
             positive.retain(is_converged);
             let is_whole = positive.len() == before;
             positive.truncate(wanted);

@@ -1,7 +1,7 @@
-//! How the inertia of an assembly depends on displacements along straight lines, with sections that do not turn.
+//! Dependence of an assembly's inertia on displacements along straight lines, with sections that do not rotate.
 //!
-//! Legend: M mass matrix of the assembly, Ψ_k shapes, w_i = (e_i × X, e_i) rotation about the first interface and W_i Ψ_k = (e_i × Ψ_k, 0) what
-//! it adds to the velocities of displaced nodes, translations and rotations of all nodes.
+//! Legend: M mass matrix of the assembly, Ψ_k shapes, w_i = (e_i × X, e_i) rotation about the first interface and W_i Ψ_k = (e_i
+//! × Ψ_k, 0) its change for displaced nodes, translations and rotations of all nodes.
 //!
 //! ```text
 //! J_ij = (w_i + W_i Ψ y)·M (w_j + W_j Ψ y)          c_i ẏ = (w_i + W_i Ψ y)·M Ψ ẏ
@@ -56,7 +56,7 @@ impl CarriedPoints<'_> {
         image
     }
 
-    /// α, A and B over shapes, of which those before `first` are not displaced against the floating frame.
+    /// α, A and B over shapes, of which those before `first` are not displaced relative to the floating frame.
     pub(super) fn turning(&self, shapes: &[Vec<f64>], first: usize) -> TurningMatrices {
         let size = shapes.len();
         let axes = [0, 1, 2].map(|k| Vector3::ith(k, 1.0));

@@ -1,7 +1,7 @@
-//! Modes that a search in a Krylov basis has missed, from the eigenvalues of the first-order equations of small models.
+//! Modes missed by a search in a Krylov basis, from the eigenvalues of the first-order equations of small models.
 //!
-//! Far from the shift the digits of an eigenvector are lost against those of nearer ones. There the eigenvalue of the full matrix is
-//! the shift of an inverse iteration, which has its eigenvector to round-off.
+//! Far from the shift the digits of an eigenvector are lost in comparison with those of nearer ones. In this case the eigenvalue
+//! of the full matrix is the shift of an inverse iteration, which computes its eigenvector to round-off.
 
 use nalgebra::linalg::balancing;
 use num_complex::Complex64;
@@ -14,19 +14,20 @@ use super::shifted::GeneralShift;
 
 use crate::round_off;
 
-/// States of a model whose eigenvalues are all computed, at most.
+/// Maximum number of states of a model whose eigenvalues are all computed.
 const MAX_STATES: usize = 200;
-/// Eigenvalues of the search and of the full matrix that differ by less than this part, and by round-off of the largest, are the same.
+/// Eigenvalues of the search and of the full matrix that differ by less than this fraction, and by round-off of the largest, are
+/// equal.
 const EQUAL: f64 = 1e-4;
-/// Eigenvalues of the search and of an inverse iteration that differ by less than this part are the same.
+/// Eigenvalues of the search and of an inverse iteration that differ by less than this fraction are equal.
 const SAME: f64 = 1e-6;
-/// What an inverse iteration may leave of an eigenvector.
+/// Allowed residual of an inverse iteration.
 const SETTLED: f64 = 1e-6;
-/// Solves of an inverse iteration.
+/// Maximum number of solves of an inverse iteration.
 const SOLVES: usize = 4;
-/// Its shift, beside the eigenvalue by this fraction of it.
+/// Distance of its shift from the eigenvalue, relative to it.
 const BESIDE: f64 = 1e-5;
-/// What is left of a vector that is one of those known, relative to its size.
+/// Allowed remainder of a vector that is a combination of known ones, relative to its norm.
 const KNOWN: f64 = 1e-3;
 
 /// Eigenvalues of a small model.
@@ -37,7 +38,7 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// That of `model`; none where it is large, or where velocities are no states.
+    /// The spectrum of `model`; none if it is large, or if velocities are not states.
     pub(super) fn of(model: &LinearModel<'_>, rate: f64) -> Option<Self> {
         let mut a = model.first_order(MAX_STATES, rate)?;
         if a.nrows() == 0 {
@@ -50,7 +51,7 @@ impl Spectrum {
         Some(Self { values, largest })
     }
 
-    /// Distance at which eigenvalues are the same.
+    /// Distance below which eigenvalues are equal.
     fn tolerance(&self, value: Complex64) -> f64 {
         EQUAL * value.norm() + round_off::MATRIX_ENTRY * self.largest
     }
@@ -72,7 +73,7 @@ impl Spectrum {
             .collect();
         let distance = |value: Complex64| (value - shift).norm();
         wanted.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
-        // Rigid modes are left to the search, and take their part of the count.
+        // Rigid modes are computed by the search, and included in the count.
         let rigid = modes.iter().filter(|mode| mode.eigenvalue == Complex64::default()).count();
         wanted.truncate(count.saturating_sub(rigid));
         let mut is_matched = vec![false; modes.len()];
@@ -96,8 +97,8 @@ impl Spectrum {
         modes.sort_by(|a, b| distance(a.eigenvalue).total_cmp(&distance(b.eigenvalue)));
     }
 
-    /// The mode whose eigenvalue is nearest to `value`, if it is none of `known`: the eigenvalues of the full matrix have an error of
-    /// their own.
+    /// The mode whose eigenvalue is nearest to `value`, if it is not among `known`: the eigenvalues of the full matrix have
+    /// errors.
     fn mode_at(&self, model: &LinearModel<'_>, known: &[Mode], value: Complex64) -> Option<Mode> {
         let mut solver =
             GeneralShift::<Complex64>::on(model.system, model.structure(), &model.representative);
@@ -147,7 +148,7 @@ impl Spectrum {
     }
 }
 
-/// Takes the parts along an orthonormal basis away.
+/// Removes the components along an orthonormal basis.
 fn remove(vector: &mut [Complex64], basis: &[Vec<Complex64>]) {
     for known in basis {
         let part = product(known, vector);
@@ -157,7 +158,7 @@ fn remove(vector: &mut [Complex64], basis: &[Vec<Complex64>]) {
     }
 }
 
-/// Brings a vector to unit size; gives the size it had, none where it has none.
+/// Scales a vector to unit norm; returns its norm, none if it is zero.
 fn normalise(vector: &mut [Complex64]) -> Option<f64> {
     let size = product(vector, vector).re.sqrt();
     if !(size.is_finite() && size > 0.0) {

@@ -1,10 +1,10 @@
-//! Modes of a reduction that are omitted, and what shapes make up for most of them: what the floating frame carries along is bent by its
-//! own inertia, and where rotation, accelerations and axial forces change the stiffness, shapes that follow are others than those without
-//! loads.
+//! Omitted modes of a reduction, and shapes that compensate for most of them. Inertia bends the part under motions of the
+//! floating frame; and if rotation, accelerations and axial forces change the stiffness, the static shapes differ from those
+//! without loads.
 //!
-//! Legend: y_k kept unknowns (interfaces and modes), q_d modes that are omitted, of unit mass and the frequencies Ω_d; F_k flexibility of
-//! the kept unknowns, floating frame held; f inertial forces of an acceleration of the frame or of a rotation; G a matrix of second order
-//! times the load at which it gives or takes as much stiffness as there is.
+//! Legend: y_k retained unknowns (interfaces and modes), q_d omitted modes, of unit mass and with the frequencies Ω_d; F_k
+//! flexibility of the retained unknowns with the floating frame fixed; f inertial forces of an acceleration of the frame or of a
+//! rotation; G a matrix of second order times the load at which it changes the stiffness by its full amount.
 //!
 //! ```text
 //! Ω_d² q_d = f_d - G_dk y_k      z = Ω_d q_d,  y_k = F_k^½ η      (|z|², |η|² elastic energies, twice)
@@ -12,9 +12,10 @@
 //! X = U Σ Vᵀ,  columns of U with σ² > LEAST:                        q_d = Ω_d⁻¹ U c
 //! ```
 //!
-//! σ² is the part of the elastic energy that is missed at such a load; loads of a kind are of one size, that at which the largest of them
-//! counts so. Shapes of f are attachment modes by inertia [Craig and Kurdila 2006, ch. 17], those of G static modal derivatives [Idelsohn and
-//! Cardona 1985] by the loads of the floating frame; c are turned so that mass and stiffness are diagonal.
+//! σ² is the fraction of the elastic energy that is missing at such a load. Loads of a kind have one magnitude, that at which the
+//! largest of them has this effect. Shapes of f are inertial attachment modes [Craig and Kurdila 2006, ch. 17], those of G static
+//! modal derivatives [Idelsohn and Cardona 1985] for the loads of the floating frame; c are rotated so that mass and stiffness
+//! are diagonal.
 
 use lissom_motion::Vector3;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -22,12 +23,12 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use super::reduction::Reduction;
 use crate::elements::superelement::{Damping, flexibility, rigid_column};
 
-/// Part of the elastic energy that may be missed under loads that give or take all stiffness: what shapes to first order in the loads leave
-/// there is as much.
+/// Fraction of the elastic energy that may be missing under loads that change the stiffness by its full amount: shapes of first
+/// order in the loads neglect as much.
 const MIN_ENERGY_FRACTION: f64 = 1e-3;
 
 impl Reduction {
-    /// With the first `modes` modes, and, if `is_corrected`, with shapes that make up for those omitted.
+    /// With the first `modes` modes, and, if `is_corrected`, with shapes that compensate for the omitted ones.
     #[must_use]
     pub fn with_modes(mut self, modes: usize, is_corrected: bool) -> Self {
         let interfaces = 6 * self.places.len();
@@ -72,7 +73,7 @@ impl Reduction {
                 row /= *rate;
             }
         };
-        // X Xᵀ of all loads side by side, whose eigenvectors and eigenvalues are U and Σ².
+        // X Xᵀ for all loads, whose eigenvectors and eigenvalues are U and Σ².
         let mut gram = DMatrix::zeros(left, left);
         for alike in self.inertial_forces() {
             let energy = |force: &DVector<f64>| {
@@ -126,8 +127,8 @@ impl Reduction {
         [(0..3).map(carried).collect(), (3..6).map(carried).collect(), turning.collect()]
     }
 
-    /// Matrices of rotation, of acceleration and of forces on the interfaces along the directions from the first one; none where
-    /// they are not known.
+    /// Matrices of rotation, of acceleration and of forces on the interfaces along the directions from the first one; none if
+    /// they are unknown.
     fn second_order_matrices(&self) -> [Vec<DMatrix<f64>>; 3] {
         let Some(own) = &self.second_order else { return Default::default() };
         let [turning, pushed] = own.of_loads();

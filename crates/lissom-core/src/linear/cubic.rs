@@ -1,39 +1,40 @@
-//! The cubic elastic energy of shapes, as what shortens: an energy that is a square, and what loads do by shapes that are omitted.
+//! The cubic elastic energy of shapes, in terms of shortenings: the energy is a square, and includes the effect of loads through
+//! omitted shapes.
 //!
-//! Legend: y unknowns with the first interface held, K and M their stiffness and mass; T_ijk third derivatives of the elastic energy; z
-//! natural modes of K and M, y = V z, with the squares λ of their frequencies.
+//! Legend: y unknowns with the first interface fixed, K and M their stiffness and mass; T_ijk third derivatives of the elastic
+//! energy; z natural modes of K and M, y = V z, with the squares λ of their frequencies.
 //!
 //! ```text
 //! V = ½ (y + h)·K (y + h),      h = Σ V_i h_i,      h_i = ½ z·D_i z,      D_i,jk = T_ijk / λ_i · p_i / (p_i + p_j + p_k)
 //! p_i = λ_i² (ε + r_i)²,      r_i ~ Σ_j T_ijj² / (λ_i λ_j²),  at most 1
 //! ```
 //!
-//! The energy has the third derivatives T, for the three weights of a term have the sum 1, and is not negative. A term should fall to
-//! the mode that is stretched by the other two, which bend: with a weight on a mode that bends, terms of
-//! fourth order would be as large as the bending itself. What is stretched changes the stiffness of all others, so that r gives
-//! it: a mode that bends a straight part has r = 0, since both sides are equal. Among equal modes the stiffest one counts.
+//! The energy has the third derivatives T, because the three weights of a term have the sum 1, and is not negative. A term should
+//! be assigned to the mode that is stretched by the other two, which bend: with a weight on a bending mode, terms of fourth order
+//! would be as large as the bending itself. A stretched mode changes the stiffness of all others, which r measures: a mode that
+//! bends a straight part has r = 0, because both sides are equal. Among equal modes the stiffest one is used.
 //!
-//! A steady rotation loads the part between the interfaces, and moves the modes that are omitted, too. In statics they are displaced by w_d,
-//! and K_g = Σ w_d T_d with the same weights acts on those that are kept, as part of the inertia about the frame. Modes that are kept move by
-//! themselves, and their T is in h: it must not count twice.
+//! A steady rotation loads the part between the interfaces, and also displaces the omitted modes. Their static displacement is
+//! w_d, and K_g = Σ w_d T_d with the same weights acts on the retained modes, as part of the inertia about the frame. The
+//! retained modes are unknowns themselves, and their T is in h: it must not be counted twice.
 //!
-//! The same for accelerations would be momenta of the first order in the deformation: without the energy of the second order that belongs to
-//! them the kinetic energy would not stay positive. They are omitted; forces under accelerations are those of the modes that are kept.
+//! The same for accelerations would be momenta of first order in the deformation: without the corresponding second-order energy
+//! the kinetic energy would not remain positive. They are omitted; forces under accelerations are those of the retained modes.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::elements::superelement::{GeometricMatrices, Shortening};
 use crate::round_off;
 
-/// ε: modes that bend count by this part.
+/// ε: minimum weight of bending modes.
 const BENDING: f64 = 1e-3;
 /// Terms below this fraction of the largest one, in modes of equal energy, are omitted.
 const MIN_TERM: f64 = 1e-6;
 
-/// The static state under a load of the floating frame, interfaces held.
+/// The static state under a load of the floating frame, with fixed interfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LoadState {
-    /// K_g of what no mode resolves.
+    /// K_g of the part that no mode resolves.
     pub(super) remainder: DMatrix<f64>,
     /// Displacements of the modes.
     pub(super) response: DVector<f64>,
@@ -51,20 +52,20 @@ impl LoadState {
     }
 }
 
-/// What is of second order over all shapes, before some are chosen.
+/// Second-order terms over all shapes, before some are chosen.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SecondOrder {
     /// Inertial terms.
     pub(super) direct: GeometricMatrices,
     /// T_k of each shape.
     pub(super) cubic: Vec<DMatrix<f64>>,
-    /// States under steady rotation, angular acceleration and acceleration; those of a rotation as they count in A.
+    /// States under steady rotation, angular acceleration and acceleration; those of a rotation are scaled as in A.
     pub(super) turning: Vec<LoadState>,
     pub(super) spun: Vec<LoadState>,
     pub(super) pushed: Vec<LoadState>,
 }
 
-/// Natural modes of the unknowns that are kept, the first interface held.
+/// Natural modes of the retained unknowns, with the first interface fixed.
 struct Modes {
     /// V over all rows, and its inverse over all columns.
     shapes: DMatrix<f64>,
@@ -99,7 +100,7 @@ impl Modes {
         self.squares.len()
     }
 
-    /// How much a mode changes the stiffness of others, r before it is compared with the largest one.
+    /// Change of the stiffness of other modes by a mode: r before division by the largest one.
     fn stretch(&self, cubic: &DMatrix<f64>, square: f64) -> f64 {
         if square <= 0.0 {
             return 0.0;
@@ -108,21 +109,21 @@ impl Modes {
         (0..self.count()).map(|j| of(j) * of(j)).sum::<f64>() / square
     }
 
-    /// A matrix over natural modes with the weights of a mode that counts with this p.
+    /// A matrix over natural modes with the weights of a mode with this p.
     fn weighted(&self, matrix: &DMatrix<f64>, own: f64) -> DMatrix<f64> {
         DMatrix::from_fn(self.count(), self.count(), |j, k| {
             if own > 0.0 { matrix[(j, k)] * own / (own + self.stretches[j] + self.stretches[k]) } else { 0.0 }
         })
     }
 
-    /// From natural modes back to the unknowns.
+    /// Transforms from natural modes back to the unknowns.
     fn back(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         self.inverse.tr_mul(&(matrix * &self.inverse))
     }
 }
 
 impl SecondOrder {
-    /// What steady loads do as a whole, and what shortens along the directions to the interfaces: for the choice of shapes.
+    /// Total effect of steady loads, and the shortening along the directions to the interfaces: for the choice of shapes.
     pub(super) fn of_loads(&self) -> [Vec<DMatrix<f64>>; 2] {
         let whole = |(direct, state): (&DMatrix<f64>, &LoadState)| {
             let mut sum = direct + &state.remainder;
@@ -149,7 +150,8 @@ impl SecondOrder {
         sum
     }
 
-    /// Over the unknowns that `map` keeps, with their mass and stiffness; `all` has the stiffness of all shapes, modes from row `first` on.
+    /// Over the unknowns that `map` retains, with their mass and stiffness; `all` has the stiffness of all shapes, modes from row
+    /// `first` on.
     pub(super) fn kept(
         &self,
         map: &DMatrix<f64>,
@@ -205,7 +207,7 @@ impl SecondOrder {
     }
 }
 
-/// T of a natural mode over natural modes; `cubic` has them in its last two positions alone, and `among` maps the first one.
+/// T of a natural mode over natural modes; `cubic` has them only in its last two indices, and `among` maps the first one.
 fn over_mode(cubic: &[DMatrix<f64>], among: &DMatrix<f64>, i: usize) -> DMatrix<f64> {
     let count = among.ncols();
     let mut sum = DMatrix::zeros(count, count);
@@ -215,7 +217,7 @@ fn over_mode(cubic: &[DMatrix<f64>], among: &DMatrix<f64>, i: usize) -> DMatrix<
     sum
 }
 
-/// h, a term for each natural mode that has any.
+/// h, one term for each natural mode with a nonzero one.
 fn shortening(modes: &Modes, natural: &[DMatrix<f64>]) -> Vec<Shortening> {
     let count = modes.count();
     let terms: Vec<(usize, DMatrix<f64>)> = (0..count)
@@ -243,7 +245,8 @@ mod tests {
     use super::*;
     use crate::elements::superelement::TurningMatrices;
 
-    /// Four unknowns besides the first interface: two that bend, one that is stretched by both, and one that is twisted by both together.
+    /// Four unknowns besides the first interface: two bending, one that is stretched by both, and one that is twisted by both
+    /// together.
     fn order() -> (SecondOrder, DMatrix<f64>, DMatrix<f64>) {
         let size = 10;
         let mut cubic = vec![DMatrix::zeros(size, size); size];
@@ -275,7 +278,8 @@ mod tests {
         (order, DMatrix::identity(size, size), stiffness)
     }
 
-    /// The third derivatives of ½ (y + h)·K (y + h) are T, whatever falls to which mode; what bends is shortened by the stretch.
+    /// The third derivatives of ½ (y + h)·K (y + h) are T, for any assignment to modes; bending is shortened by the stretched
+    /// mode.
     #[test]
     fn the_square_has_the_third_derivatives() {
         let (order, mass, stiffness) = order();
@@ -302,7 +306,7 @@ mod tests {
                 exact(&y)
             );
         }
-        // Bending by 1 is shortened by T / λ, and nothing else comes of it.
+        // Bending by 1 is shortened by T / λ, without any other effect.
         let mut bent = DVector::zeros(size);
         bent[6] = 1.0;
         let mut moved = DVector::zeros(size);

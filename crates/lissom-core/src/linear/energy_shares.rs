@@ -1,4 +1,4 @@
-//! Where the energy of a mode is, and how much of the mass it moves along and about each axis.
+//! Distribution of a mode's energy over parts, and its effective masses along and about each axis.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,18 @@ use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity};
 
 use crate::system::{Mass, Owner};
 
-/// Largest displacement over the model's length, and rotation, at which energies are taken: errors are of its square.
+/// Largest displacement over the model's length, and rotation, at which energies are evaluated: errors are of its
+/// square.
 const SMALL: f64 = 1e-4;
 
 /// Effective masses: translations along x, y and z [kg], rotations about them through the centre of mass [kg m²].
 pub type EffectiveMasses = [f64; 6];
 
 impl LinearModel<'_> {
-    /// Share of each part in the strain energy of a mode, by name: second differences of the energy of its elements along
-    /// the shape, so that forces at the state count. An element belongs to the part of its first node that is not the
-    /// ground, or to the joint on whose coordinate it acts. Sums up to 1; parts under pressure may have shares below 0. Empty
-    /// for a mode without strain.
+    /// Share of each part in the strain energy of a mode, by name: second differences of the energy of its elements along the
+    /// shape, so that forces at the state are included. An element belongs to the part of its first node that is not the
+    /// ground, or to the joint on whose coordinate it acts. The sum is 1; parts under compression may have shares below 0.
+    /// Empty for a mode without strain.
     pub fn strain_shares(&self, mode: &Mode) -> BTreeMap<String, f64> {
         let (mut shares, mut energies) = (BTreeMap::new(), Vec::new());
         for take in [(|value: &Complex64| value.re) as fn(&Complex64) -> f64, |value| value.im] {
@@ -43,7 +44,7 @@ impl LinearModel<'_> {
         }
         let total: f64 = shares.values().sum();
         let all: f64 = shares.values().map(|value| value.abs()).sum();
-        // What is left of differences of a rigid motion is round-off.
+        // Differences for a rigid motion are round-off.
         let rate = mode.eigenvalue.norm_sqr();
         if rate == 0.0 || total <= SMALL * all {
             return BTreeMap::new();
@@ -55,8 +56,8 @@ impl LinearModel<'_> {
     }
 
     /// Effective mass of a mode of unit modal mass: the square of its participation in a rigid motion of the model along and
-    /// about each axis of space. Over all modes of a model their sum is what [`masses`](Self::masses) gives, less what hangs
-    /// on the ground.
+    /// about each axis of space. The sum over all modes of a model is that of [`masses`](Self::masses), minus the mass fixed
+    /// to the ground.
     pub fn effective_masses(&self, mode: &Mode) -> EffectiveMasses {
         let centre = self.centre();
         let mut participation = [Complex64::default(); 6];
@@ -108,8 +109,8 @@ impl LinearModel<'_> {
         rates
     }
 
-    /// The state moved along a mode's shape, its real part, so far that the largest displacement over the model's length, or
-    /// the largest rotation, is `largest`.
+    /// The state displaced along the real part of a mode's shape, scaled so that the largest displacement over the model's
+    /// length, or the largest rotation, is `largest`.
     pub fn moved_along(&self, mode: &Mode, largest: f64) -> Kinematics {
         let rows: Vec<f64> = mode.shape.iter().map(|value| value.re).collect();
         let own = self.largest(&rows);
@@ -134,7 +135,7 @@ impl LinearModel<'_> {
             if own <= 0.0 {
                 continue;
             }
-            // Momentum of a turn is -m c\u{303}, c the centre in the node's axes.
+            // Momentum of a rotation is -m c\u{303}, c the centre in the node's axes.
             let offset = Vector3::new(matrix[(2, 4)], matrix[(0, 5)], matrix[(1, 3)]) / -own;
             mass += own;
             moment += own * self.at.nodes[inertia.node()].frame.transform_point(&offset);

@@ -1,5 +1,5 @@
-//! What nothing holds: motions that the constraints leave, against which there is no stiffness and along which no force
-//! acts. An equilibrium does not say where such parts rest.
+//! Unconstrained motions without stiffness, along which no force acts. An equilibrium does not determine the positions
+//! of such parts.
 //!
 //! ```text
 //! x ← (K + s² M + constraints)⁻¹ M x,      s² a small part of k/m:      what remains of any x is the space in which K x = 0
@@ -15,39 +15,39 @@ use crate::round_off;
 
 /// s² over the small square of the model at first …
 const SHIFT: f64 = 1e-4;
-/// … and how much larger it is next time, where constraints under load could not be held with it.
+/// … and its growth for the next attempt, if constraints under load could not be satisfied with it.
 const LARGER: f64 = 100.0;
 const ATTEMPTS: usize = 4;
-/// Solutions: a motion whose square of a rate is ten times s² is omitted to 1e-12.
+/// Number of solutions: a motion whose squared rate is ten times s² is reduced to 1e-12.
 const SOLUTIONS: usize = 12;
-/// Corrections of each, which are to leave at most this violation of constraints [-].
+/// Corrections of each solution, after which the violation of constraints must be below this [-].
 const REFINEMENTS: usize = 4;
 const VIOLATED: f64 = 1e-13;
-/// A stiffness is none where the square of its rate is this part of the small square, as where it is round-off of its terms.
+/// A stiffness is zero if its squared rate is below this fraction of the small square, or is round-off of its terms.
 const NO_RATE: f64 = 1e-10;
-/// Levers below this fraction of the model's length are what an equilibrium is found to: neither the work of forces along it nor
-/// the stiffness that forces make of it means anything.
+/// Levers below this fraction of the model's length are within the accuracy of an equilibrium: neither the work of forces along
+/// them nor their geometric stiffness is significant.
 const NO_LEVER: f64 = 1e-9;
-/// Coordinates that move by less than this fraction of the largest motion do not take part.
+/// Coordinates that move by less than this fraction of the largest motion are ignored.
 const TAKES_PART: f64 = 1e-6;
-/// Parts that are named.
+/// Maximum number of parts that are named.
 const MAX_LISTED: usize = 4;
 
-/// What forces do along a motion.
+/// Work of forces along a motion.
 struct ForcesAlong {
     /// Their work [J].
     work: f64,
-    /// Sum of the sizes of what each of them does [J].
+    /// Sum of the magnitudes of their contributions [J].
     of_terms: f64,
-    /// What they would do if all went along the largest way [J].
+    /// Their work if all acted along the largest displacement [J].
     possible: f64,
-    /// The largest way [m].
+    /// The largest displacement [m].
     way: f64,
 }
 
 impl LinearModel<'_> {
-    /// Names of what moves where nothing holds: coordinates of joints, and nodes of parts whose joints have none that
-    /// moves. None if everything is held, or if the state is not at rest.
+    /// Names of parts that can move freely: coordinates of joints, and nodes of parts whose joints have no moving
+    /// coordinate. None if everything is constrained, or if the state is not at rest.
     pub(crate) fn free_motion(&self) -> Option<Subject> {
         if !self.is_at_rest() || self.system.layout().state_count() > 0 {
             return None;
@@ -64,7 +64,7 @@ impl LinearModel<'_> {
         (is_unresisted && is_unforced).then(|| self.names_of(&motion))
     }
 
-    /// The motion with the smallest square of a rate, on the rows of the coordinates; none if it cannot be found.
+    /// The motion with the smallest squared rate, on the rows of the coordinates; none if it cannot be computed.
     fn softest_motion(&self) -> Option<Vec<f64>> {
         let mut square = SHIFT * small_square(&self.representative);
         (0..ATTEMPTS).find_map(|_| {
@@ -74,7 +74,7 @@ impl LinearModel<'_> {
         })
     }
 
-    /// The same with s² = `square`; none if it is too small for constraints to be held.
+    /// The same with s² = `square`; none if it is too small for constraints to be satisfied.
     fn softest_motion_at(&self, square: f64) -> Option<Vec<f64>> {
         let (pattern, count) = (self.pattern(), self.coordinate_count());
         let mut parts = self.parts.clone();
@@ -92,7 +92,7 @@ impl LinearModel<'_> {
             pattern.multiply(&parts.mass, &motion, &mut forces);
             forces[count..].fill(0.0);
             motion.fill(0.0);
-            // Refined: constraints that yield in the factors are held all the same.
+            // Refined: constraints are satisfied although they are regularised in the factors.
             for _ in 0..REFINEMENTS {
                 pattern.multiply(&whole, &motion, &mut product);
                 let mut rest: Vec<f64> =
@@ -113,7 +113,7 @@ impl LinearModel<'_> {
         (self.violation(&motion) <= VIOLATED).then_some(motion)
     }
 
-    /// What the forces at the state do along a motion that the constraints leave.
+    /// Work of the forces at the state along a motion that satisfies the constraints.
     fn forces_along(&self, motion: &[f64]) -> ForcesAlong {
         let count = self.coordinate_count();
         let mut forces = vec![0.0; motion.len()];
@@ -132,7 +132,7 @@ impl LinearModel<'_> {
         along
     }
 
-    /// What makes the coordinate of a row a length.
+    /// Factor that converts the coordinate of a row to a length.
     fn unit(&self, row: usize) -> f64 {
         match self.system.layout().quantities()[row] {
             Quantity::Angle => self.length(),
@@ -140,12 +140,12 @@ impl LinearModel<'_> {
         }
     }
 
-    /// How far the coordinate of a row moves, as a length.
+    /// Displacement of the coordinate of a row, as a length.
     fn way(&self, motion: &[f64], row: usize) -> f64 {
         motion[row].abs() * self.unit(row)
     }
 
-    /// xᵀ A x of a matrix with these values, and the sum of the sizes of its terms.
+    /// xᵀ A x of a matrix with these values, and the sum of the magnitudes of its terms.
     fn form(&self, values: &[f64], motion: &[f64]) -> (f64, f64) {
         let pattern = self.pattern();
         let (mut sum, mut sizes) = (0.0, 0.0);
@@ -160,7 +160,8 @@ impl LinearModel<'_> {
         (sum, sizes)
     }
 
-    /// Coordinates of joints that move; where none does, the freedom of each part that moves most.
+    /// Coordinates of joints that move; if there are none, the degree of freedom with the largest motion of each
+    /// part.
     fn names_of(&self, motion: &[f64]) -> Subject {
         let layout = self.system.layout();
         let size = |row: usize| self.way(motion, row);

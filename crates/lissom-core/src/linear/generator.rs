@@ -1,4 +1,4 @@
-//! The generator G of the change of a rotor's displacements to axes at rest: see `multiblade`.
+//! The generator G of the transformation of a rotor's displacements to axes at rest: see `multiblade`.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::mode::Mode;
 /// Terms of the series of exp(-ψ G).
 const TERMS: u32 = 40;
 
-/// The generator of the change to axes at rest, by column: rows with values.
+/// The generator of the transformation to axes at rest, by column: rows with values.
 #[derive(Clone, Debug)]
 pub(super) struct Generator {
     pub(super) columns: Vec<Vec<(usize, f64)>>,
@@ -43,8 +43,8 @@ impl Generator {
         sum
     }
 
-    /// Displacements, velocities and accelerations in the axes of the nodes where the model has turned by `angle`, of a mode in
-    /// axes at rest.
+    /// Displacements, velocities and accelerations in the axes of the nodes after a rotation of the model by `angle`, for a
+    /// mode in axes at rest.
     pub(super) fn in_nodes(&self, mode: &Mode, angle: f64) -> [Vec<Complex64>; 3] {
         let forward = |vector: &[Complex64]| {
             let turned = self.apply(vector);
@@ -59,7 +59,7 @@ impl Generator {
         [mode.shape.clone(), rates, accelerations].map(|vector| self.turned(angle, &vector))
     }
 
-    /// A times G for a matrix on `pattern`, added to `sum` with a factor.
+    /// Adds `factor` times A G to `sum`, for a matrix A on `pattern`.
     pub(super) fn multiply(
         &self,
         (pattern, values): (&Pattern, &[f64]),

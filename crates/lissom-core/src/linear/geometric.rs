@@ -1,7 +1,8 @@
-//! Second-order matrices of an assembly that is reduced: what its inertial and elastic forces do to second order in the shapes.
+//! Second-order matrices of a reduced assembly: its inertial and elastic forces to second order in the shapes.
 //!
-//! Legend: Ψ_k shapes, with the first interface held except for its own; nodes at X + t Ψ_k are displaced along straight lines and turned by
-//! rotation vectors, B_j variations of y_j there, g_j = B_j·r generalised force of a residual r; w displacements of a load state.
+//! Legend: Ψ_k shapes, with the first interface fixed except for its own; nodes at X + t Ψ_k are displaced along straight lines
+//! and rotated by rotation vectors, B_j variations of y_j there, g_j = B_j·r generalised force of a residual r; w displacements
+//! of a load state.
 //!
 //! ```text
 //! steady rotation ω       g = -½ Σ ω_i ω_j (α_ij + A_ij y)
@@ -10,8 +11,9 @@
 //! shape k                 T_k = K_g[Ψ_k]
 //! ```
 //!
-//! Shapes of first order stretch what they bend. What shortens instead does work against a load -r by -½ y·K_g[w] y, with K w = -r and
-//! the interfaces held: A - K_g for rotation, B + K_g for ω̇, S + K_g for a. `cubic` computes what of it belongs to the shapes themselves.
+//! First-order shapes stretch a part that they bend. The actual shortening does the work -½ y·K_g[w] y against a load -r, with K
+//! w = -r and fixed interfaces: A - K_g for rotation, B + K_g for ω̇, S + K_g for a. `cubic` computes the part of it due to the
+//! shapes.
 
 use lissom_motion::{Matrix3, Rotation, Vector3, Vector6, rotation_tangent, screw};
 use nalgebra::{DMatrix, DVector};
@@ -25,7 +27,7 @@ use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, T
 use crate::kinematics::{Kinematics, LOCKED};
 use crate::system::System;
 
-/// Displacements of differences, as part of the model's length.
+/// Displacements of differences, as a fraction of the model's length.
 const DISPLACED: f64 = 1e-4;
 /// A rigid motion about the first interface.
 #[derive(Clone, Copy)]
@@ -55,7 +57,7 @@ impl Forces<'_> {
         Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { shape[rows[k] as usize] })
     }
 
-    /// The assembly displaced by `shape` and carried along.
+    /// The assembly displaced by `shape` and moved rigidly.
     fn displaced(&self, shape: &[f64], carried: Carried) -> Kinematics {
         let mut at = self.at.clone();
         for node in 1..at.nodes.len() {
@@ -103,7 +105,7 @@ impl Forces<'_> {
             }
             let force = self.of_node(&self.room, node);
             let turned = self.of_node(shape, node).fixed_rows::<3>(3).into_owned();
-            // Forces in the axes of the node before it was turned, moments dual to the rotation vector.
+            // Forces in the axes of the node before its rotation, moments dual to the rotation vector.
             let linear = Rotation::exponential(&turned).apply(&force.fixed_rows::<3>(0).into_owned());
             let map: Matrix3 = rotation_tangent(&turned);
             let angular = map.tr_mul(&force.fixed_rows::<3>(3).into_owned());
@@ -132,7 +134,7 @@ impl Forces<'_> {
         of_nodes.chain(of_coordinates).fold(0.0, f64::max)
     }
 
-    /// ∂g/∂y with what carries it along, less what it is at rest: a column per shape from `first` on.
+    /// ∂g/∂y in this rigid motion minus that at rest: a column per shape from `first` on.
     fn carried_slope(&mut self, carried: Carried, steps: &[f64], first: usize) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(steps.len(), steps.len());
         for (k, step) in steps.iter().enumerate().skip(first) {
@@ -196,11 +198,11 @@ impl OfMotion {
     }
 }
 
-/// Static response of the inside of an assembly, its interfaces held, to motions of the frame.
+/// Static response of the interior of an assembly, with fixed interfaces, to motions of the frame.
 struct Response<'a> {
     solver: RealShift<'a>,
     locked: &'a System,
-    /// Rows of the inside: in the free system, and in the one that is held.
+    /// Rows of the interior: in the free system, and in the one with fixed interfaces.
     rows: Vec<(usize, usize)>,
     /// Forces at rest.
     rest: Vec<f64>,
@@ -247,11 +249,11 @@ impl Response<'_> {
 }
 
 impl Assembly<'_> {
-    /// What of second order there is over `shapes`, six of each interface and then modes of unit mass, with the values `mass` of the
+    /// Second-order terms over `shapes`, six of each interface and then modes of unit mass, with the values `mass` of the
     /// assembly's matrix; none with joints within the assembly.
     ///
     /// # Errors
-    /// If the assembly with its interfaces held cannot be solved for.
+    /// If the assembly with fixed interfaces cannot be solved.
     pub(super) fn second_order(
         &self,
         shapes: &[Vec<f64>],
@@ -286,7 +288,8 @@ impl Assembly<'_> {
         let none = vec![0.0; layout.size()];
         let rest = forces.along(&none, Carried::Still);
         let rest_rows = forces.room.clone();
-        // Inertia goes with the square of the rate: it is taken at one at which it is of the size of the elastic forces.
+        // Inertia is proportional to the square of the rate: it is evaluated at a rate for which it has the magnitude of
+        // the elastic forces.
         let rate = (first..size)
             .map(|k| matrices.stiffness[(k, k)] / matrices.mass[(k, k)])
             .fold(0.0, f64::max)

@@ -1,12 +1,12 @@
-//! Kinks and jumps of forces at the state of a linear model: there derivatives hold on one side only, and what follows from them
-//! is not what small motions do.
+//! Kinks and jumps of forces at the state of a linear model: derivatives there are one-sided, and the linear model does not
+//! describe small motions.
 //!
 //! ```text
 //! (r(hx) + r(-hx) - 2 r(0))/h    and    (r(hx) - r(-hx))/2h,      h → 0
 //! ```
 //!
-//! The first vanishes with h and the second has a limit where forces are smooth, whatever law they follow. The directions x are
-//! random ones that the constraints admit, once as displacements and once as velocities.
+//! The first vanishes with h and the second has a limit if forces are smooth, for every law. The directions x are random ones
+//! that satisfy the constraints, once as displacements and once as velocities.
 
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::Pattern;
@@ -17,15 +17,15 @@ use super::shifted::{GeneralShift, SMALL, small_square};
 use crate::kinematics::{Kinematics, LOCKED, Quantity};
 use crate::round_off;
 
-/// Directions that are tried.
+/// Number of directions.
 const DIRECTIONS: usize = 3;
 /// Steps along them, over the model's length. A state that is nearer to a kink than the last one is at the kink.
 const STEPS: [f64; 3] = [1e-5, 6.25e-7, 4e-8];
-/// What smooth forces leave falls by far more than this from step to step.
+/// Differences of smooth forces decrease by a far smaller factor than this from step to step.
 const FALLS: f64 = 0.5;
-/// Differences below this fraction of the terms of a row do not matter.
+/// Differences below this fraction of the terms of a row are ignored.
 const MATTERS: f64 = 1e-6;
-/// How much the stiffness counts beside the damping for forces that depend on velocities.
+/// Weight of the stiffness relative to the damping for forces that depend on velocities.
 const BESIDE_DAMPING: f64 = 1e-3;
 
 /// A kink or a jump of a force at the state of a linear model.
@@ -33,12 +33,12 @@ const BESIDE_DAMPING: f64 = 1e-3;
 pub struct Kink {
     /// The law or the unknown whose equation has it.
     pub name: String,
-    /// Whether the force has it over velocities, not over displacements.
+    /// Whether the force has it as a function of velocities, not of displacements.
     pub is_of_rate: bool,
 }
 
 impl LinearModel<'_> {
-    /// The kink or the jump of a force at the state; none where all forces are smooth there.
+    /// The kink or the jump of a force at the state; none if all forces are smooth there.
     pub fn kink(&self) -> Option<Kink> {
         let mut noise = Noise(11);
         (0..DIRECTIONS).find_map(|_| {
@@ -47,7 +47,8 @@ impl LinearModel<'_> {
         })
     }
 
-    /// A random direction that the constraints admit, whose largest displacement is the model's length or an angle of 1 rad.
+    /// A random direction that satisfies the constraints, whose largest displacement is the model's length or an angle of 1
+    /// rad.
     fn admitted_direction(&self, noise: &mut Noise) -> Option<Vec<f64>> {
         let (pattern, count) = (self.system.pattern(), self.coordinate_count());
         let square = small_square(&self.representative) / SMALL;
@@ -74,7 +75,7 @@ impl LinearModel<'_> {
         (size.is_finite() && size > 0.0).then(|| forces.iter().map(|value| value / size).collect())
     }
 
-    /// What makes the coordinate of a row a part of the model's length or an angle.
+    /// Factor that converts the coordinate of a row to a fraction of the model's length or an angle.
     fn unit_of(&self, row: usize) -> f64 {
         match self.system.layout().quantities()[row] {
             Quantity::Length => self.length().recip(),
@@ -85,7 +86,7 @@ impl LinearModel<'_> {
     fn kink_along(&self, direction: &[f64], is_of_rate: bool) -> Option<Kink> {
         let rate = if is_of_rate { small_square(&self.representative).sqrt() } else { 1.0 };
         let mut still = self.at.clone();
-        // Switches decide by themselves on which side they are.
+        // The sides of switches are not frozen.
         let first = self.system.signals().first_side();
         still.held.iter_mut().skip(first).for_each(|side| *side = 0.0);
         let at = |step: f64| moved(self, &still, direction, (step, is_of_rate), rate);
@@ -132,7 +133,7 @@ impl LinearModel<'_> {
         residual
     }
 
-    /// By row what a difference over a step must exceed.
+    /// By row, the smallest significant difference over a step.
     fn least_difference(&self, direction: &[f64], zero: &[f64], (is_of_rate, rate): (bool, f64)) -> Vec<f64> {
         let (pattern, count) = (self.system.pattern(), self.coordinate_count());
         let size = pattern.size();
@@ -179,7 +180,7 @@ fn add_terms(pattern: &Pattern, values: &[f64], vector: &[f64], sum: &mut [f64])
     }
 }
 
-/// The configuration a step along a direction, or with velocities along it.
+/// The configuration at a step along a direction, or with velocities along it.
 fn moved(
     model: &LinearModel<'_>,
     from: &Kinematics,

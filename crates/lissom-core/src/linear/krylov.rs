@@ -1,16 +1,17 @@
-//! A band Krylov basis (Ruhe 1979): vectors wait in a queue, each image under the operator is made orthogonal to all of the
-//! basis and joins its end. Several starting vectors find eigenvalues of that multiplicity; new ones may join at any time.
-//! Knows no mechanics.
+//! A band Krylov basis (Ruhe 1979): vectors wait in a queue, each image under the operator is orthogonalised against the
+//! basis and appended to it. Several starting vectors find eigenvalues of that multiplicity; new ones may be added at any
+//! time. Independent of mechanics.
 
 use std::collections::VecDeque;
 
 use lissom_solver::Scalar;
 use num_complex::Complex64;
 
-/// What is left of an image after orthogonalisation, relative to the image, if it is a combination of the basis.
+/// Remainder of an image after orthogonalisation, relative to the image, below which it is a combination of the
+/// basis.
 const DEPENDENT: f64 = 1e-11;
 
-/// What orthogonalisation must leave of a vector so that it need not be done again.
+/// Fraction of a vector's norm that must remain after orthogonalisation, otherwise it is repeated.
 const KEPT: f64 = 0.7;
 
 /// An operator with the inner product in which its basis is orthonormal.
@@ -19,7 +20,7 @@ pub(super) trait Operator<S> {
     fn size(&self) -> usize;
     /// The image of a vector.
     fn apply(&mut self, vector: &[S], image: &mut [S]);
-    /// Whether the inner product is another one than Σ conj(x_i) y_i.
+    /// Whether the inner product differs from Σ conj(x_i) y_i.
     fn is_weighted(&self) -> bool {
         true
     }
@@ -27,7 +28,7 @@ pub(super) trait Operator<S> {
     fn weigh(&mut self, vector: &[S], weighted: &mut [S]);
 }
 
-/// Conjugate; the number itself where it is real.
+/// The complex conjugate; the number itself if it is real.
 pub(super) fn conjugate<S: Scalar>(value: S) -> S {
     let [real, imaginary] = value.parts();
     S::from_parts(real, -imaginary)
@@ -41,7 +42,7 @@ pub(super) fn complex<S: Scalar>(value: S) -> Complex64 {
 
 /// Σ conj(a_i) b_i.
 pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
-    // Several sums side by side, so that none waits for another.
+    // Several partial sums, so that they are independent.
     const LANES: usize = 8;
     let mut sums = [S::zero(); LANES];
     let (blocks_of_a, blocks_of_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
@@ -78,11 +79,11 @@ impl Noise {
 /// The basis, and the operator in it.
 pub(super) struct Krylov<S> {
     pub(super) basis: Vec<Vec<S>>,
-    /// The same, weighted; empty where the inner product is not weighted.
+    /// The same, weighted; empty if the inner product is not weighted.
     weighted: Vec<Vec<S>>,
-    /// Columns of the operator's matrix in the basis, as long as the basis was when they were made.
+    /// Columns of the operator's matrix in the basis, as long as the basis was when they were computed.
     pub(super) columns: Vec<Vec<S>>,
-    /// Numbers of basis vectors whose images are not yet known.
+    /// Indices of basis vectors whose images are not yet known.
     waiting: VecDeque<usize>,
     image: Vec<S>,
     weights: Vec<S>,
@@ -107,8 +108,8 @@ impl<S: Scalar> Krylov<S> {
         self.columns.len()
     }
 
-    /// Adds so many random vectors, after `purifications` applications of the operator each; gives how many are independent of
-    /// the basis.
+    /// Adds `count` random vectors after `purifications` applications of the operator to each; returns how many are
+    /// independent of the basis.
     pub(super) fn start(
         &mut self,
         operator: &mut dyn Operator<S>,
@@ -122,7 +123,8 @@ impl<S: Scalar> Krylov<S> {
             for _ in 0..purifications {
                 operator.apply(&vector, &mut self.image);
                 std::mem::swap(&mut vector, &mut self.image);
-                // Each time without what the basis has: the largest eigenvalues would leave round-off of all others.
+                // After each application the components along the basis are removed: otherwise the largest
+                // eigenvalues would reduce all others to round-off.
                 let whole = self.norm(operator, &vector);
                 for _ in 0..2 {
                     for (known, weighted) in self.basis.iter().zip(weighted(&self.basis, &self.weighted)) {
@@ -149,7 +151,7 @@ impl<S: Scalar> Krylov<S> {
         product(&self.weights, vector).parts()[0].max(0.0).sqrt()
     }
 
-    /// Finds the image of the next vector that waits; false if none does.
+    /// Computes the image of the next waiting vector; false if there is none.
     pub(super) fn step(&mut self, operator: &mut dyn Operator<S>) -> bool {
         let Some(next) = self.waiting.pop_front() else { return false };
         debug_assert_eq!(next, self.columns.len());
@@ -190,7 +192,7 @@ impl<S: Scalar> Krylov<S> {
         sum
     }
 
-    /// Norm of what the operator takes out of the known vectors, for their combination `weights`.
+    /// Norm of the component of the operator's image outside the known vectors, for their combination `weights`.
     pub(super) fn residual(&self, weights: &[S]) -> f64 {
         self.residual_of(weights, |entry| entry)
     }
@@ -219,14 +221,14 @@ impl<S: Scalar> Krylov<S> {
         (self.basis.len() > before).then_some(before)
     }
 
-    /// Makes the image orthogonal to the basis and appends what is left, if anything; gives the coefficients and the norm of
-    /// what is left.
+    /// Orthogonalises the image against the basis and appends the remainder, if any; returns the coefficients and the norm
+    /// of the remainder.
     fn append_image(&mut self, operator: &mut dyn Operator<S>) -> (Vec<S>, f64) {
         operator.weigh(&self.image, &mut self.weights);
         let whole = product(&self.weights, &self.image).parts()[0].max(0.0).sqrt();
         let mut column = vec![S::zero(); self.basis.len()];
         let mut norm = whole;
-        // Again only where much was taken away: then twice is enough (Parlett 1980), a third time where nearly nothing is left.
+        // Repeated only if much was removed: twice is enough then (Parlett 1980), or a third time if nearly nothing remains.
         for _ in 0..3 {
             let before = norm;
             for (coefficient, (vector, weighted)) in
@@ -255,7 +257,7 @@ impl<S: Scalar> Krylov<S> {
     }
 }
 
-/// The weighted vectors of a basis: itself where none are kept.
+/// The weighted vectors of a basis: the basis itself if it is not weighted.
 fn weighted<'b, S>(basis: &'b [Vec<S>], weighted: &'b [Vec<S>]) -> &'b [Vec<S>] {
     if weighted.is_empty() { basis } else { weighted }
 }

@@ -1,9 +1,9 @@
 //! Modes without damping and gyroscopic terms: K x + Bᵀ μ = λ M x, B x = 0, by shift and invert.
 //!
-//! The operator x ↦ (K - σM)⁻¹ M x on the constraints is symmetric in the inner product of M; its eigenvalues are
-//! 1/(λ - σ). One multiplication by it removes what belongs to infinite eigenvalues [Ericsson and Ruhe 1980; Nour-Omid et al.
-//! 1987]. With the shift below all eigenvalues its pivots show that none lies lower; a second factorisation above the last
-//! mode counts how many there are (Sylvester), so that none is missed.
+//! The operator x ↦ (K - σM)⁻¹ M x on the constraints is symmetric in the inner product of M; its eigenvalues are 1/(λ - σ).
+//! One multiplication by it removes the components of infinite eigenvalues [Ericsson and Ruhe 1980; Nour-Omid et al. 1987].
+//! With the shift below all eigenvalues its pivots show that none is lower; a second factorisation above the last mode counts
+//! the modes (Sylvester), so that none is missed.
 
 use lissom_solver::FactorError;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -15,32 +15,33 @@ use super::shifted::{RealShift, SMALL};
 use crate::interrupt;
 use crate::round_off;
 
-/// Vectors to start with: eigenvalues of this multiplicity are found at once.
+/// Number of starting vectors: eigenvalues of this multiplicity are found at once.
 const BLOCK: usize = 6;
 /// Residual of an accepted mode, relative to its eigenvalue of the operator.
 const TOLERANCE: f64 = 1e-9;
-/// Steps between two looks at the eigenvalues.
+/// Steps between two computations of the eigenvalues.
 const BETWEEN: usize = 8;
-/// Eigenvalues closer than this, relative to their distance from the shift, are taken for one cluster.
+/// Eigenvalues closer than this, relative to their distance from the shift, are considered one cluster.
 const CLUSTER: f64 = 1e-5;
-/// Modes sought beyond those asked for, so that the last one is not cut out of a cluster.
+/// Additional modes beyond the requested ones, so that a cluster at the end is not divided.
 const BEYOND: usize = 4;
-/// Squares of rates below this fraction of the small one that represents zero are not distinguished from rigid modes where the shift is chosen.
+/// Squared rates below this fraction of the small one that represents zero are not distinguished from rigid modes in the choice
+/// of the shift.
 const NEAREST: f64 = 1e-4;
-/// Times the search is started again with new vectors.
+/// Maximum number of restarts with new vectors.
 const MAX_RESTARTS: usize = 6;
-/// Where modes are counted if none is found, in units of the shift.
+/// Shifts at which modes are counted if none is found, in units of the shift.
 const FAR_AWAY: [f64; 3] = [1e2, 1e5, 1e8];
 /// Round-off of a solve, relative to the eigenvalue's distance from the shift.
 const SOLVED: f64 = 1e-10;
-/// A shape that violates a constraint by this fraction of the terms of the constraints is no mode.
+/// A shape that violates a constraint by more than this fraction of the terms of the constraints is not a mode.
 pub(super) const VIOLATED: f64 = 1e-5;
 
 /// An eigenvalue λ [1/s²] and its shape, normalised to unit modal mass.
 pub(super) struct Pair {
     pub(super) square: f64,
     pub(super) shape: Vec<f64>,
-    /// Round-off of the eigenvalue: below it a mode counts as rigid [1/s²].
+    /// Round-off of the eigenvalue: below it a mode is considered rigid [1/s²].
     pub(super) round_off: f64,
     pub(super) residual: f64,
 }
@@ -116,7 +117,7 @@ pub(super) fn is_converged((value, _, residual): &(f64, Vec<f64>, f64)) -> bool 
     *residual <= TOLERANCE * value.abs()
 }
 
-/// Finds the lowest modes, or those nearest to a given frequency.
+/// Computes the lowest modes, or those nearest to a given frequency.
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Found, LinearError> {
     let mut solver = RealShift::new(model.system, &model.representative);
     let (shift, below_shift) = match options.shift {
@@ -129,7 +130,7 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Fou
     search(model, solver, options, shift, below_shift)
 }
 
-/// Factors at `shift` or, where an eigenvalue happens to be there, beside it.
+/// Factorises at `shift` or, if an eigenvalue is there, beside it.
 fn factor_near(
     model: &LinearModel<'_>,
     solver: &mut RealShift<'_>,
@@ -146,11 +147,11 @@ fn factor_near(
     Err(model.stopped(&last.unwrap_or(FactorError::NotFinite { unknown: 0 })))
 }
 
-/// A shift below all eigenvalues, not far from the lowest ones that are not zero.
+/// A shift below all eigenvalues, near the lowest nonzero ones.
 fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Result<(f64, usize), LinearError> {
     let mut square = solver.small_square();
     let mut below = 1;
-    // Unstable modes lie below zero.
+    // Unstable modes are below zero.
     for _ in 0..60 {
         below = factor_near(model, solver, -square)?.1;
         if below == 0 {
@@ -161,7 +162,7 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
     if below > 0 {
         return Ok((-square, below));
     }
-    // A short search shows where the lowest modes lie that are not rigid.
+    // A short search finds the lowest modes that are not rigid.
     let mut krylov = Krylov::new(model.coordinate_count());
     let lowest = {
         let mut operator = inverse(model, solver);
@@ -175,7 +176,7 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
         let elastic = estimates.iter().filter_map(|(value, weights, _)| {
             let lambda = value.recip() - square;
             let shape = krylov.combine(weights);
-            // A rigid mode that strains nothing has the round-off of the solve alone.
+            // A rigid mode without strain has only the round-off of the solve.
             let noise = round_off(model, &shape, 1.0) + SOLVED * value.recip().abs();
             (lambda > noise.max(NEAREST * square)).then_some(lambda)
         });
@@ -185,10 +186,10 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
         return Ok((-square, 0));
     }
     if lowest >= square {
-        // So near to zero a mode would be as stiff as a constraint.
+        // A mode so near to zero would be as stiff as a constraint.
         return factor_near(model, solver, -lowest);
     }
-    // Unstable modes stay above the shift.
+    // Unstable modes remain above the shift.
     let mut nearer = lowest;
     while nearer < square {
         // Too near to zero the pivots of rigid modes vanish.
@@ -239,7 +240,7 @@ fn search<'a>(
                 }
             }
         };
-        // The nearest ones, as far as no cluster is cut in two; shapes that violate the constraints belong to infinite
+        // The nearest ones, without dividing a cluster; shapes that violate the constraints belong to infinite
         // eigenvalues.
         let mut pairs: Vec<Pair> = estimates
             .iter()
@@ -258,7 +259,7 @@ fn search<'a>(
         let distances: Vec<f64> = pairs.iter().map(|pair| (pair.square - shift).abs().recip()).collect();
         let keep = whole_clusters(&distances, options.count.min(distances.len()));
         if keep == wanted {
-            // The cluster may have more modes than were sought.
+            // The cluster may have more modes than were searched for.
             wanted += BLOCK;
             continue;
         }
@@ -290,22 +291,22 @@ fn search<'a>(
     }
 }
 
-/// The first so many of values in descending order, at least `count`, that end where a gap is.
+/// The number of leading values in descending order, at least `count`, that end at a gap.
 pub(super) fn whole_clusters(values: &[f64], count: usize) -> usize {
     (count.max(1)..values.len())
         .find(|&keep| values[keep] < (1.0 - CLUSTER) * values[keep - 1])
         .unwrap_or(values.len())
 }
 
-/// How many modes the search has not seen.
+/// The number of modes that the search has missed.
 enum Count {
     None,
     Some(usize),
     Unknown,
 }
 
-/// Compares the number of modes found with the number of all eigenvalues above `shift`, where no more than those found are
-/// believed to be.
+/// Compares the number of modes found with the number of all eigenvalues above `shift`, if no more than those found are
+/// expected.
 fn missing_anywhere(model: &LinearModel<'_>, pairs: &[Pair], shift: f64) -> Count {
     let mut solver = RealShift::new(model.system, &model.representative);
     let farthest = pairs.iter().map(|pair| (pair.square - shift).abs()).fold(0.0, f64::max);
@@ -329,7 +330,7 @@ fn missing(
 ) -> Count {
     let mut solver = RealShift::new(model.system, &model.representative);
     let Some(farthest) = pairs.iter().map(|pair| (pair.square - shift).abs()).reduce(f64::max) else {
-        // No mode at all: then none lies below any frequency.
+        // No mode at all: then there is none below any frequency.
         let counts = FAR_AWAY.map(|far| solver.factor(&model.parts, shift + far * shift.abs()).ok());
         return match counts.iter().flatten().max() {
             Some(0) => Count::None,
@@ -338,7 +339,7 @@ fn missing(
         };
     };
     let mut count = |side: f64| {
-        // Half way to the next eigenvalue, or well beyond the last one there is; elsewhere if a pivot vanishes there.
+        // Half way to the next eigenvalue, or well beyond the last one; elsewhere if a pivot vanishes there.
         [0.5, 0.4, 0.6, 0.3, 0.7].iter().find_map(|part| {
             let distance =
                 next.map_or((1.5 + part) * farthest, |next| farthest + part * (next.recip() - farthest));
@@ -374,8 +375,8 @@ fn pair<'a>(
     for entry in &mut shape {
         *entry *= factor;
     }
-    // Of two ways to the eigenvalue the one that loses less: far from the shift its digits are lost, with a stiffness that
-    // nearly cancels those of Rayleigh's quotient.
+    // Of two formulas for the eigenvalue the one with the smaller error: one loses digits far from the shift, the other,
+    // Rayleigh's quotient, if its terms of the stiffness nearly cancel.
     let of_quotient = round_off(model, &shape, 1.0);
     let of_shift = SOLVED * value.recip().abs();
     let square = if of_quotient < of_shift {

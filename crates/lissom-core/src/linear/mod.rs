@@ -1,13 +1,13 @@
-//! The linearised model at a state, and what follows from it without stepping in time: natural modes, linear buckling,
-//! the response to harmonic inputs.
+//! The linearised model at a state, and analyses without time integration: natural modes, linear buckling, the
+//! response to harmonic inputs.
 //!
 //! ```text
 //! M η̈ + (D + M ad_V) η̇ + (K + D ad_V + M ad_V̇) η + Bᵀ μ = 0,    B η = 0
 //! ```
 //!
 //! η body-frame variation of each node (displacement and rotation in the node's axes) and change of each algebraic
-//! coordinate, V twist; K holds the geometric stiffness of stresses and of constraints at the multipliers of the state.
-//! No constraint is eliminated: every solve is with the sparse saddle-point matrix, without pivoting.
+//! coordinate, V twist; K contains the geometric stiffness of stresses and of constraints at the multipliers of the
+//! state. No constraint is eliminated: every solve uses the sparse saddle-point matrix, without pivoting.
 
 mod arnoldi;
 mod buckling;

@@ -5,22 +5,22 @@ use num_complex::Complex64;
 use super::model::LinearError;
 use crate::diagnostics::diagnostics;
 
-/// Growth is distinguished from round-off by a damping ratio below this.
+/// Damping ratio below which growth is distinguished from round-off.
 const GROWING: f64 = -1e-7;
 
 /// The request.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeOptions {
-    /// How many modes, at most.
+    /// Maximum number of modes.
     pub count: usize,
-    /// Frequency near which they are sought [Hz]; none for the lowest ones.
+    /// Frequency near which they are searched for [Hz]; none for the lowest ones.
     pub shift: Option<f64>,
 }
 
-/// What a mode does.
+/// Kind of motion of a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModeKind {
-    /// Eigenvalue zero to round-off: a motion that nothing resists.
+    /// Eigenvalue zero to round-off: a motion without stiffness.
     Rigid,
     /// A pair of complex eigenvalues that do not grow.
     Oscillation,
@@ -59,10 +59,10 @@ pub struct Mode {
     pub frequency: f64,
     /// Damping ratio -Re s/|s|: 1 for a decay, -1 for a divergence. 0 for a rigid mode.
     pub damping: f64,
-    /// What it does.
+    /// Its kind.
     pub kind: ModeKind,
     /// Body-frame displacements and rotations of the nodes and changes of the coordinates by row, normalised to unit modal
-    /// mass ηᴴMη = 1 kg where the mode has mass.
+    /// mass ηᴴMη = 1 kg if the mode has mass.
     pub shape: Vec<Complex64>,
     /// Residual of the shifted and inverted problem, relative to its eigenvalue.
     pub residual: f64,
@@ -73,11 +73,11 @@ pub struct Mode {
 pub enum Completeness {
     /// A count of negative pivots shows that none has been missed.
     Counted,
-    /// The count shows that so many were missed.
+    /// The count shows that this number was missed.
     Missing(usize),
     /// The matrices of the count could not be factored, or contradict each other.
     Unknown,
-    /// With damping, gyroscopic terms or an unsymmetric stiffness pivots count nothing.
+    /// With damping, gyroscopic terms or an unsymmetric stiffness pivots do not count modes.
     NotCounted,
 }
 
@@ -96,7 +96,7 @@ impl Completeness {
 /// Modes by ascending square of frequency, unstable ones first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
-    /// The modes: fewer than asked for where there are no more.
+    /// The modes: fewer than requested if there are no more.
     pub modes: Vec<Mode>,
     /// Whether some may have been missed.
     pub completeness: Completeness,

@@ -21,12 +21,13 @@ use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
-/// An entry and its mirror image differ if by more than this fraction of the larger one, and by more than round-off of their rows.
+/// An entry and its mirror image are different if they differ by more than this fraction of the larger one, and by more than
+/// round-off of their rows.
 const UNEQUAL: f64 = 1e-9;
 
-/// The rate at which that displacement is found, over the rate of rotation: free motions count as large ones.
+/// The rate for the computation of that displacement, over the rate of rotation: free motions are amplified.
 const SLOW: f64 = 1e-3;
-/// Squares of rates below this fraction of the small one that represents zero are zero.
+/// Squared rates below this fraction of the small one that represents zero are zero.
 const NEUTRAL: f64 = 1e-6;
 
 diagnostics! {
@@ -116,18 +117,18 @@ pub struct LinearModel<'a> {
     released: f64,
     unsteadiness: f64,
     multipliers: Vec<f64>,
-    /// What finds accelerations.
+    /// Solver for accelerations.
     pub(super) solver: &'a SolverKind,
-    /// The change to axes at rest, and the structure of the matrices there; none in the axes of the nodes.
+    /// The transformation to axes at rest, and the structure of the matrices there; none in the axes of the nodes.
     at_rest: Option<(Generator, Structure)>,
 }
 
 impl<'a> LinearModel<'a> {
-    /// Linearises `system` at `state`. Accelerations and multipliers are found anew: those that balance the state, at
+    /// Linearises `system` at `state`. Accelerations and multipliers are recomputed: those that balance the state, at
     /// rest if all its velocities are zero.
     ///
     /// # Errors
-    /// If they do not exist.
+    /// If they cannot be computed.
     pub fn of(system: &'a System, state: &State, solver: &'a SolverKind) -> Result<Self, LinearError> {
         interrupt::check()?;
         if system.signals().has_samples() {
@@ -189,10 +190,10 @@ impl<'a> LinearModel<'a> {
         })
     }
 
-    /// The same for analyses that know no constraints between velocities.
+    /// The same for analyses without velocity constraints.
     ///
     /// # Errors
-    /// Likewise, and where the system has such constraints.
+    /// Likewise, and if the system has such constraints.
     pub(crate) fn of_positions(
         system: &'a System,
         state: &State,
@@ -202,7 +203,7 @@ impl<'a> LinearModel<'a> {
         Self::of(system, state, solver)
     }
 
-    /// Rejects a system with constraints between velocities, for what knows positions alone.
+    /// Rejects a system with velocity constraints, for analyses that consider positions only.
     ///
     /// # Errors
     /// If there are such constraints.
@@ -210,7 +211,7 @@ impl<'a> LinearModel<'a> {
         refuse(self.system)
     }
 
-    /// The same with other matrices, those of axes at rest.
+    /// The same with other matrices, those in axes at rest.
     pub(super) fn with_generator(
         &self,
         parts: Linearization,
@@ -233,7 +234,7 @@ impl<'a> LinearModel<'a> {
         }
     }
 
-    /// The change to axes at rest, if its matrices are those.
+    /// The transformation to axes at rest, if the matrices refer to these.
     pub(super) fn generator(&self) -> Option<&Generator> {
         self.at_rest.as_ref().map(|(generator, _)| generator)
     }
@@ -248,12 +249,12 @@ impl<'a> LinearModel<'a> {
         self.system
     }
 
-    /// The state it belongs to.
+    /// The state of the linearisation.
     pub fn kinematics(&self) -> &Kinematics {
         &self.at
     }
 
-    /// Multipliers of the state, by which constraints have a geometric stiffness [N, N m].
+    /// Multipliers of the state, which cause geometric stiffness of constraints [N, N m].
     pub fn multipliers(&self) -> &[f64] {
         &self.multipliers
     }
@@ -268,14 +269,14 @@ impl<'a> LinearModel<'a> {
         self.is_conservative
     }
 
-    /// Directions in which the energy falls and which the constraints leave, at rest; none where the stiffness belongs to
-    /// no energy or cannot be factored.
+    /// Number of directions at rest in which the energy decreases under the constraints; none if the stiffness derives
+    /// from no energy or cannot be factorised.
     pub(crate) fn unstable_directions(&self) -> Option<usize> {
         if !self.is_at_rest || !is_symmetric(self.system, &self.representative, &self.parts) {
             return None;
         }
         let mut shifted = RealShift::new(self.system, &self.representative);
-        // Just below zero, so that directions in which nothing holds are no unstable ones.
+        // Just below zero, so that unconstrained directions without stiffness are not counted as unstable.
         let shift = -NEUTRAL * shifted.small_square();
         shifted.factor(&self.parts, shift).ok()
     }
@@ -290,19 +291,19 @@ impl<'a> LinearModel<'a> {
         self.is_at_rest
     }
 
-    /// How far a state at rest is from equilibrium: the largest displacement, in units of the model's length, that the
-    /// unbalanced forces cause [-]. Zero for a moving state.
+    /// Deviation of a state at rest from equilibrium: the largest displacement, in units of the model's length, that
+    /// the unbalanced forces cause [-]. Zero for a moving state.
     pub fn imbalance(&self) -> f64 {
         self.imbalance
     }
 
-    /// Energy that the unbalanced forces of a state at rest release on their way to equilibrium [J].
+    /// Energy that the unbalanced forces of a state at rest release until equilibrium [J].
     pub(crate) fn released_energy(&self) -> f64 {
         self.released
     }
 
-    /// How fast the twists of a moving state change in the axes of their nodes, relative to how fast they turn [-]: zero in a
-    /// steady motion, whose linear model has constant coefficients.
+    /// Rate of change of the twists of a moving state in the axes of their nodes, relative to the rate of rotation [-]: zero
+    /// in a steady motion, whose linear model has constant coefficients.
     pub fn unsteadiness(&self) -> f64 {
         self.unsteadiness
     }
@@ -315,7 +316,8 @@ impl<'a> LinearModel<'a> {
         self.system.layout().coordinate_count()
     }
 
-    /// Largest violation of a constraint by a displacement, relative to what displacements of its largest size could do.
+    /// Largest violation of a constraint by a displacement, relative to the possible violation by displacements of its
+    /// magnitude.
     pub(super) fn violation<S: Scalar>(&self, shape: &[S]) -> f64 {
         let pattern = self.pattern();
         let count = self.coordinate_count();
@@ -354,7 +356,7 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
     LinearError::Factor { time, unknown: system.layout().subject_of(unknown), pivot }
 }
 
-/// Whether nothing moves; rates of impulses are forces.
+/// Whether all velocities are zero; rates of impulses are forces.
 fn is_at_rest(system: &System, at: &Kinematics) -> bool {
     let is_force = |coordinate: usize| system.layout().impulses.contains(&coordinate);
     at.nodes.iter().all(|node| node.twist == Vector6::zeros())
@@ -381,7 +383,7 @@ pub(super) fn point<'b>(
     }
 }
 
-/// Solves with stiffness and mass at a small shift. With signals neither is symmetric, and states have damping alone.
+/// Solves with stiffness and mass at a small shift. With signals both are unsymmetric, and states have only damping.
 enum Holding<'a> {
     Symmetric(RealShift<'a>),
     General { solver: ComplexShift<'a>, room: Vec<Complex64> },
@@ -426,7 +428,8 @@ impl<'a> Holding<'a> {
     }
 }
 
-/// Multipliers that hold a state at rest, from a solve with stiffness and mass; gives what is left as a displacement, and its energy.
+/// Multipliers that balance a state at rest, from a solve with stiffness and mass; returns the remainder as a displacement, and
+/// its energy.
 fn hold(
     system: &System,
     state: &mut State,
@@ -458,12 +461,12 @@ fn hold(
     let mut forces = vec![0.0; count];
     state.multipliers.fill(0.0);
     let (mut imbalance, mut released) = (0.0, 0.0);
-    // Refined: multipliers are as exact as forces.
+    // Refined: multipliers are as accurate as forces.
     for _ in 0..3 {
         state.kinematics.show_multipliers(&state.multipliers);
         let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, zeros);
         system.residual(&at, &mut residual);
-        // Positions stay: violations are none of the state's concern here.
+        // Positions are unchanged: violations are not considered here.
         residual[count..].fill(0.0);
         forces.copy_from_slice(&residual[..count]);
         solver.solve(&mut residual, count);
@@ -480,7 +483,7 @@ fn hold(
     Ok([imbalance, released])
 }
 
-/// Largest change of a twist against the squares of the rates there are: in its node's axes, or in axes that do not spin with a wheel.
+/// Largest change of a twist relative to the squares of the rates: in its node's axes, or in axes that do not spin with a wheel.
 fn unsteadiness_of(system: &System, at: &Kinematics, length: f64) -> f64 {
     let size = |twist: &Vector6| {
         let (v, w) = (twist.fixed_rows::<3>(0).norm(), twist.fixed_rows::<3>(3).norm());
@@ -496,8 +499,8 @@ fn unsteadiness_of(system: &System, at: &Kinematics, length: f64) -> f64 {
     if rate > 0.0 { change / (rate * rate) } else { 0.0 }
 }
 
-/// The largest displacement, in angles and parts of the model's length, by which forces M V̇ are made up for. Accelerations of parts
-/// that are light against those that hold them show the round-off of forces over their mass, and mean nothing.
+/// The largest displacement, in angles and fractions of the model's length, due to the forces M V̇. Accelerations of parts much
+/// lighter than their supports are only the round-off of forces over their mass, and not significant.
 fn displacement_by_inertia(
     system: &System,
     at: &Kinematics,
@@ -539,7 +542,7 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
     let pattern = system.pattern();
     for (node, motion) in at.nodes.iter().enumerate() {
         let rows = system.layout().rows_of_node(node);
-        // Nodes without rotations have nothing to be turned.
+        // Nodes without rotations do not contribute.
         if rows.contains(&LOCKED) || motion.acceleration == Vector6::zeros() {
             continue;
         }
@@ -547,7 +550,7 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
         let starts = rows.map(|row| pattern.column_starts()[row as usize]);
         let first = pattern.column(rows[0] as usize);
         for (offset, &row) in first.iter().enumerate() {
-            // The columns of a node have one pattern except for drives, which see no node.
+            // The columns of a node have one pattern except for drives, which act on no node.
             let mass = starts.map(|start| parts.mass[start + offset]);
             debug_assert!(starts.iter().all(|&start| pattern.row_indices()[start + offset] == row));
             for j in 0..6 {

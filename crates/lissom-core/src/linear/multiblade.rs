@@ -1,21 +1,21 @@
-//! A rotor on a support that is not the same in all directions, in axes at rest [Coleman and Feingold 1958; Bir 2008].
+//! A rotor on an anisotropic support, in axes at rest [Coleman and Feingold 1958; Bir 2008].
 //!
-//! In the axes of its nodes the coefficients of such a model change as it turns by the angle ψ. They are constant where the
-//! rotor looks the same after every N-th part of a turn, N ≥ 3, and its displacements x are written as
+//! In the axes of its nodes the coefficients of such a model change with its angle of rotation ψ. They are constant if the
+//! rotor is invariant under rotation by the N-th part of a turn, N ≥ 3, and its displacements x are written as
 //!
 //! ```text
 //! x = exp(-ψ G) z,    ẋ = exp(-ψ G) (ż - Ω G z),    ẍ = exp(-ψ G) (z̈ - 2Ω G ż + Ω² G² z)
 //! ```
 //!
-//! G turns the vectors of nodes on the axis, and moves the pattern of displacements over the N equal nodes around it on by
-//! their discrete Fourier series: these are the multi-blade coordinates, here as values at the blades where they are.
+//! G rotates the vectors of nodes on the axis, and shifts the pattern of displacements over the N equal nodes around it by
+//! their discrete Fourier series: these are the multi-blade coordinates, represented by values at the blades.
 //!
 //! ```text
 //! M z̈ + (D - 2Ω M G) ż + (K - Ω D G + Ω² M G²) z + Bᵀ μ = 0,    B z = 0
 //! ```
 //!
-//! with the matrices of one azimuth. Whether they serve is not taken for granted: every mode is put into the equations of another
-//! azimuth ([`LinearModel::departure_of`]).
+//! with the matrices of one azimuth. This is verified: every mode is substituted into the equations of another azimuth
+//! ([`LinearModel::departure_of`]).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,19 +29,19 @@ use super::mode::Mode;
 use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
 
-/// Positions that differ by less, over the length of the model, and axes [rad], are the same.
+/// Positions that differ by less than this, over the length of the model, and axes [rad], are equal.
 const SAME: f64 = 1e-6;
-/// Blades are at most so many.
+/// Maximum number of blades.
 const MAX_BLADES: usize = 12;
 
 /// Why there are no multi-blade coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoMultiblade {
-    /// Parts turn at different rates or about different axes.
+    /// Parts rotate at different rates or about different axes.
     SeveralAxes,
-    /// The rotor does not look the same after a part of a turn.
+    /// The rotor is not invariant under rotation by a fraction of a turn.
     NotPeriodic,
-    /// It does after half a turn only: coefficients are periodic in every coordinates.
+    /// It is only invariant under half a turn: coefficients are periodic in all coordinates.
     TwoBlades,
 }
 
@@ -57,8 +57,8 @@ impl NoMultiblade {
 }
 
 impl<'a> LinearModel<'a> {
-    /// The same model in axes at rest, with the multi-blade coordinates of its rotor: its modes have the frequencies that are
-    /// seen from there. They are true only if [`departure_of`](Self::departure_of) says so.
+    /// The same model in axes at rest, with the multi-blade coordinates of its rotor: the frequencies of its modes are those
+    /// in these axes. They are valid only if [`departure_of`](Self::departure_of) confirms them.
     ///
     /// # Errors
     /// If the rotor has no such coordinates.
@@ -107,7 +107,7 @@ impl<'a> LinearModel<'a> {
         self.with_generator(parts, structure, generator)
     }
 
-    /// How much of a mode in axes at rest goes round with the rotation or against it: 1 for a circle in its sense, 0 for none.
+    /// Degree to which a mode in axes at rest moves with the rotation or against it: 1 for a circle in its sense, 0 for none.
     pub(super) fn sense_at_rest(&self, generator: &Generator, mode: &Mode) -> f64 {
         let count = self.coordinate_count();
         let pattern = self.pattern();
@@ -132,7 +132,7 @@ impl<'a> LinearModel<'a> {
     }
 }
 
-/// The axis of rotation: a position on it, its direction, and the rate; and which nodes turn.
+/// The axis of rotation: a position on it, its direction, and the rate; and the nodes that rotate.
 struct Axis {
     place: Vector3,
     direction: Vector3,
@@ -186,8 +186,8 @@ impl Axis {
         (apart - self.direction * apart.dot(&self.direction)).norm() <= SAME * self.length
     }
 
-    /// The node at which each node that turns beside the axis is after the `blades`-th part of a turn; none if there is no
-    /// such node.
+    /// The node at the position of each rotating node off the axis after the `blades`-th part of a turn; none if there is
+    /// no such node.
     fn images(&self, at: &Kinematics, blades: usize) -> Option<Vec<Option<NodeId>>> {
         let part = self.rotation(std::f64::consts::TAU / blades as f64);
         // By the position along the axis and the distance from it, so that few are compared.
@@ -222,7 +222,7 @@ impl Axis {
     }
 }
 
-/// The generator for a rotor that looks the same after the N-th part of a turn, for the largest N there is.
+/// The generator for a rotor that is invariant under rotation by the N-th part of a turn, for the largest such N.
 fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     let axis = Axis::of(model)?;
     let at = model.kinematics();
@@ -251,7 +251,7 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
             around(&own, blades, &mut columns);
         }
     }
-    // Coordinates of joints between nodes that go over into each other.
+    // Coordinates of joints between nodes that are mapped to each other.
     let joints = model.system().joints();
     let image_of = |node: NodeId| {
         images[node].or((!axis.turns[node] || axis.is_on(&at.nodes[node].frame.position)).then_some(node))
@@ -283,7 +283,8 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     generator(columns)
 }
 
-/// What `first` comes through in `blades` parts of a turn, if it comes back; none for what stays where it is.
+/// The nodes to which `first` is mapped in `blades` parts of a turn, if the sequence is closed; none for a fixed
+/// node.
 fn orbit(first: usize, blades: usize, image: &dyn Fn(usize) -> Option<usize>) -> Option<Vec<usize>> {
     let mut orbit = vec![first];
     for _ in 1..blades {
@@ -296,7 +297,7 @@ fn orbit(first: usize, blades: usize, image: &dyn Fn(usize) -> Option<usize>) ->
     (comes_back && sorted.len() == blades).then_some(orbit)
 }
 
-/// Vectors of nodes on the axis turn.
+/// Vectors of nodes on the axis rotate.
 fn on_the_axis(model: &LinearModel<'_>, axis: &Axis, columns: &mut [Vec<(usize, f64)>]) {
     let layout = model.system().layout();
     for (node, motion) in model.kinematics().nodes.iter().enumerate() {
@@ -317,7 +318,7 @@ fn on_the_axis(model: &LinearModel<'_>, axis: &Axis, columns: &mut [Vec<(usize, 
     }
 }
 
-/// Values at equal angles, in the order of the rotation, move on over the angle by their Fourier series.
+/// Values at equal angles, in the order of the rotation, are shifted by the angle by their Fourier series.
 fn around(rows: &[usize], blades: usize, columns: &mut [Vec<(usize, f64)>]) {
     if rows.len() != blades {
         return;

@@ -1,4 +1,4 @@
-//! Natural modes of a linearised model, by the search that fits it.
+//! Natural modes of a linearised model, by the appropriate search.
 
 use num_complex::Complex64;
 
@@ -8,10 +8,10 @@ use super::model::LinearModel;
 use super::{arnoldi, lanczos};
 
 impl LinearModel<'_> {
-    /// Natural modes: real and counted where the model is conservative, else complex.
+    /// Natural modes: real and counted if the model is conservative, otherwise complex.
     ///
     /// # Errors
-    /// If the model has no mass or its matrices cannot be factored.
+    /// If the model has no mass or its matrices cannot be factorised.
     pub fn modes(&self, options: &ModeOptions) -> Result<Modes, ModeError> {
         if options.count == 0 {
             return Err(ModeError::NothingAsked {});

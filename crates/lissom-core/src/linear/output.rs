@@ -1,11 +1,11 @@
-//! Derivatives of a number that is recorded, by the unknowns of the linear model.
+//! Derivatives of a recorded quantity with respect to the unknowns of the linear model.
 //!
 //! ```text
 //! δy = c_q δq + c_v δv + c_a δa + c_λ δλ + c_u δu
 //! ```
 //!
 //! q positions (body variations and coordinates), v twists and rates, a their derivatives, λ multipliers, u held values. About a
-//! moving state the unknowns are departures η from going on, δv = η̇ + ad_V η and δa = η̈ + ad_V η̇ + ad_V̇ η.
+//! moving state the unknowns are departures η from extrapolation, δv = η̇ + ad_V η and δa = η̈ + ad_V η̇ + ad_V̇ η.
 
 use std::collections::BTreeMap;
 
@@ -16,24 +16,24 @@ use super::model::LinearModel;
 use crate::kinematics::LOCKED;
 use crate::signals::HeldId;
 
-/// Derivatives of a number by row; rows that are not there have none.
+/// Derivatives of a quantity by row; missing rows are zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OutputDerivatives {
-    /// By positions.
+    /// With respect to positions.
     pub by_place: BTreeMap<usize, f64>,
-    /// By twists and rates.
+    /// With respect to twists and rates.
     pub by_rate: BTreeMap<usize, f64>,
-    /// By accelerations.
+    /// With respect to accelerations.
     pub by_acceleration: BTreeMap<usize, f64>,
-    /// By multipliers; rows as in the layout, after those of the coordinates.
+    /// With respect to multipliers; rows as in the layout, after those of the coordinates.
     pub by_multiplier: BTreeMap<usize, f64>,
-    /// By held values.
+    /// With respect to held values.
     pub by_held: BTreeMap<HeldId, f64>,
 }
 
 impl OutputDerivatives {
-    /// Amplitude of the number where the unknowns and multipliers move as `amplitudes` times e^{st}, held values omitted, and
-    /// the sum of the sizes of its terms.
+    /// Amplitude of the quantity if the unknowns and multipliers are `amplitudes` times e^{st}, without held values, and the
+    /// sum of the magnitudes of its terms.
     pub fn amplitude(&self, s: Complex64, amplitudes: &[Complex64]) -> (Complex64, f64) {
         let factors = [Complex64::from(1.0), s, s * s, Complex64::from(1.0)];
         let parts = [&self.by_place, &self.by_rate, &self.by_acceleration, &self.by_multiplier];
@@ -50,7 +50,8 @@ impl OutputDerivatives {
 }
 
 impl LinearModel<'_> {
-    /// Derivatives by the unknowns of this model, from those by positions, twists and accelerations as they are.
+    /// Derivatives with respect to the unknowns of this model, from those with respect to positions, twists and
+    /// accelerations.
     #[must_use]
     pub fn along_departures(&self, mut output: OutputDerivatives) -> OutputDerivatives {
         if self.is_at_rest() {

@@ -1,4 +1,5 @@
-//! Reduction of a flexible assembly to its interfaces and some of its modes with these held [Craig and Bampton 1968].
+//! Reduction of a flexible assembly to its interfaces and some of its modes with fixed interfaces [Craig and Bampton
+//! 1968].
 //!
 //! ```text
 //! x = ψ b + φ q:      K ψ + Bᵀ μ = 0,  B ψ = 0  with the interfaces displaced by one unknown of b
@@ -6,9 +7,9 @@
 //! M_r = Tᵀ M T,   D_r = Tᵀ D T,   K_r = Tᵀ K T,   T = [ψ φ]
 //! ```
 //!
-//! K is that of body variations, and holds the stresses of the state. Forces f₀ that the interfaces are under there turn
-//! with them. A superelement has an energy f₀·u + ½ u·K u instead, in displacements u relative to one interface, whose forces
-//! in body axes are the same to first order:
+//! K refers to body variations, and includes the stresses of the state. Forces f₀ on the interfaces there rotate with them. A
+//! superelement has an energy f₀·u + ½ u·K u instead, in displacements u relative to one interface, whose forces in body axes
+//! are the same to first order:
 //!
 //! ```text
 //! δ(Eᵀ f) = δf - θ × f₀,      δ(T⁻ᵀ m) = δm - ½ θ × m₀
@@ -32,9 +33,9 @@ use crate::system::{Linearization, State, System};
 
 /// Forces on parts between the interfaces that displace them by less than this fraction of the model's length are round-off.
 const BALANCED: f64 = 1e-7;
-/// Forces of rigid displacements below this fraction of the terms they are made of are round-off.
+/// Forces of rigid displacements below this fraction of their terms are round-off.
 const RIGID: f64 = 1e-6;
-/// Preload that displaces by less than this fraction of the model's length is none.
+/// A preload that displaces by less than this fraction of the model's length is zero.
 const NO_PRELOAD: f64 = 1e-9;
 
 diagnostics! {
@@ -113,19 +114,19 @@ pub struct Reduction {
     pub matrices: ReducedMatrices,
     /// Positions of the interfaces [m].
     pub places: Vec<Vector3>,
-    /// Frequencies of the modes with the interfaces held [Hz].
+    /// Frequencies of the modes with fixed interfaces [Hz].
     pub frequencies: Vec<f64>,
-    /// Number of shapes behind the modes that make up for those omitted.
+    /// Number of correction shapes after the modes.
     pub corrections: usize,
     /// Whether a count shows that no mode was missed.
     pub is_counted: bool,
     /// Number of unknowns that were reduced.
     pub unknowns: usize,
-    /// What is of second order over all shapes; [`Self::with_modes`] makes matrices of it.
+    /// Second-order terms over all shapes; [`Self::with_modes`] builds matrices from them.
     pub(super) second_order: Option<SecondOrder>,
 }
 
-/// What is reduced: the assembly, the same with its interfaces locked (none where nothing is left then), and where it is.
+/// The input of a reduction: the assembly, the same with fixed interfaces (none if nothing remains then), and its state.
 pub struct Assembly<'a> {
     /// With free interfaces.
     pub free: &'a System,
@@ -133,17 +134,17 @@ pub struct Assembly<'a> {
     pub locked: Option<&'a System>,
     /// Positions in equilibrium, without velocities.
     pub state: &'a State,
-    /// The interfaces, the first of which will carry the floating frame.
+    /// The interfaces, the first of which carries the floating frame.
     pub interfaces: &'a [NodeId],
-    /// What finds accelerations.
+    /// Solver for accelerations.
     pub solver: &'a lissom_solver::SolverKind,
 }
 
 impl Assembly<'_> {
-    /// Reduces to the interfaces and at most so many modes.
+    /// Reduces to the interfaces and at most this number of modes.
     ///
     /// # Errors
-    /// If the assembly with its interfaces held is a mechanism, not elastic, or not in equilibrium; if something else holds it.
+    /// If the assembly with fixed interfaces is a mechanism, not elastic, or not in equilibrium; if it is supported otherwise.
     pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
         refuse(self.free)?;
         let mut model = self
@@ -235,7 +236,7 @@ impl Assembly<'_> {
         columns
     }
 
-    /// Adds what the assembly between the interfaces does when they are displaced.
+    /// Adds the displacements of the assembly between the interfaces when these are displaced.
     fn add_static_shapes(
         &self,
         whole: &Whole,
@@ -250,7 +251,7 @@ impl Assembly<'_> {
         let multipliers = self.free.layout().multiplier_rows().len();
         let mut right = vec![0.0; locked.layout().size()];
         for column in columns {
-            // Refined once: what is left of forces and violations is solved for again.
+            // Refined: the remaining forces and violations are solved for again.
             for _ in 0..2 {
                 let forces = whole.times_constrained(self.free, &column[..]);
                 for &(free, own) in &inner {
@@ -273,7 +274,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// The matrices among the columns.
+    /// The matrices projected on the columns.
     fn projected(&self, whole: &Whole, columns: &[Vec<f64>], length: f64) -> ReducedMatrices {
         let among = |values: &[f64]| {
             let pattern = self.free.pattern();
@@ -318,7 +319,7 @@ impl Assembly<'_> {
         }
     }
 
-    /// From forces in body axes to those of an energy, by the displacements relative to the first interface.
+    /// Transforms forces in body axes to those of an energy, by the displacements relative to the first interface.
     fn to_energy(&self, preload: &[f64], stiffness: &mut DMatrix<f64>) {
         for i in 1..self.interfaces.len() {
             let part = |first: usize| Vector3::from_column_slice(&preload[6 * i + first..6 * i + first + 3]);
@@ -330,7 +331,7 @@ impl Assembly<'_> {
         }
     }
 
-    /// From displacements to those relative to the first interface, which are zero there.
+    /// Transformation from displacements to those relative to the first interface, which are zero there.
     fn relative(&self, size: usize) -> DMatrix<f64> {
         let mut map = DMatrix::identity(size, size);
         let nodes = &self.state.kinematics.nodes;
@@ -390,14 +391,14 @@ impl Whole {
         forces
     }
 
-    /// Roots of the diagonal of the stiffness: rows and columns divided by them have one unit.
+    /// Square roots of the diagonal of the stiffness: rows and columns divided by them have one unit.
     fn scale(&self, pattern: &Pattern) -> Vec<f64> {
         (0..self.size)
             .map(|row| pattern.position(row, row).map_or(0.0, |at| self.parts.stiffness[at].abs().sqrt()))
             .collect()
     }
 
-    /// Fails where a rigid motion has forces: coordinates of joints stay as they are in it.
+    /// Fails if a rigid motion causes forces: coordinates of joints do not change in it.
     fn check_rigid(&self, assembly: &Assembly<'_>) -> Result<(), ReductionError> {
         let (system, at) = (assembly.free, &assembly.state.kinematics);
         let layout = system.layout();
@@ -425,7 +426,8 @@ impl Whole {
             pattern.multiply(&self.parts.stiffness, &motion, &mut forces);
             let motion: Vec<f64> = motion.iter().map(|value| value.abs()).collect();
             pattern.multiply(&sizes, &motion, &mut terms);
-            // Terms may be round-off themselves: the norm of the stiffness, scaled to one unit by its diagonal, bounds that.
+            // Terms may be round-off themselves: their bound is the norm of the stiffness, scaled to one unit by its
+            // diagonal.
             let norm = motion.iter().zip(&scale).map(|(own, scale)| own * scale).fold(0.0, f64::max);
             let wrong = (0..layout.coordinate_count()).find(|&row| {
                 forces[row].abs() > RIGID * terms[row] + round_off::EIGENVALUE * scale[row] * norm

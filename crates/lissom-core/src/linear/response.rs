@@ -4,7 +4,7 @@
 //! (s² M + s D + K) x + Bᵀ μ = f,    B x = g
 //! ```
 //!
-//! Each solution is refined with the equations as they are, and judged by what it leaves of them.
+//! Each solution is refined with the original equations, and checked by their residual.
 
 use num_complex::Complex64;
 
@@ -13,11 +13,11 @@ use super::shifted::ComplexShift;
 use crate::diagnostics::{Diagnostic, Value, diagnostics};
 use crate::interrupt;
 
-/// What a solution leaves of the equations, relative to their terms, at most.
+/// Allowed residual of the equations, relative to their terms.
 const LEFT: f64 = 1e-9;
-/// Solutions are refined until so much is left …
+/// Solutions are refined until the residual is below this …
 const ENOUGH: f64 = 1e-15;
-/// … or so many times.
+/// … or this number of times.
 const REFINEMENTS: usize = 8;
 
 diagnostics! {
@@ -59,7 +59,7 @@ impl From<&Complex64> for Value {
     }
 }
 
-/// Solves for one s after the other.
+/// Solves for one s after another.
 pub struct FrequencyResponse<'m, 'a> {
     model: &'m LinearModel<'a>,
     solver: ComplexShift<'a>,
@@ -82,7 +82,7 @@ impl FrequencyResponse<'_, '_> {
     /// right-hand sides and of constraints' violations, by row. `s` [1/s] is not zero.
     ///
     /// # Errors
-    /// If s is an eigenvalue, or so near to one that the solution means nothing.
+    /// If s is an eigenvalue, or so near to one that the solution is inaccurate.
     pub fn amplitudes(
         &mut self,
         s: Complex64,
@@ -98,7 +98,7 @@ impl FrequencyResponse<'_, '_> {
         let impulses: Vec<usize> = self.model.system.layout().impulses().map(|(row, _)| row).collect();
         let of = |input: &Vec<f64>| {
             let mut amplitudes = self.solve(s, input)?;
-            // Forces were the unknowns; they are the rates of impulses.
+            // The unknowns were forces, which are the rates of impulses.
             for &row in &impulses {
                 amplitudes[row] /= s;
             }
@@ -134,7 +134,7 @@ impl FrequencyResponse<'_, '_> {
         if left <= LEFT { Ok(best) } else { Err(ResponseError::Inexact { s, left }) }
     }
 
-    /// What is left of the equations; gives its size relative to their terms, rows and terms scaled as for the
+    /// Residual of the equations; returns its magnitude relative to their terms, rows and terms scaled as for the
     /// factorisation.
     fn remainder(&self, input: &[f64], x: &[Complex64], rest: &mut [Complex64]) -> f64 {
         let pattern = self.model.pattern();

@@ -6,9 +6,9 @@
 //! ω = σ a + κ n,      x = exp(-t σ ã) z
 //! ```
 //!
-//! The point of contact moves through the axes of a wheel, so that coefficients there change. In axes that turn about the normal at κ
-//! and not with the spin they are constant for a wheel with the inertia of a body of revolution. Displacements x of its node become z there, by
-//! the same change as that to axes at rest (`multiblade`). Whether it serves is not taken for granted, see
+//! The point of contact moves relative to the axes of a wheel, so that coefficients there change. In axes that rotate about the
+//! normal at κ and not with the spin they are constant for a wheel with the inertia of a body of revolution. Displacements x of
+//! its node become z there, by the same transformation as that to axes at rest (`multiblade`). This is verified, see
 //! [`LinearModel::departure_of`].
 
 use lissom_motion::{Motion, Vector3, Vector6};
@@ -18,10 +18,10 @@ use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED};
 use crate::system::System;
 
-/// The sine of the angle between axis and normal below which a wheel lies flat: its spin is not known.
+/// Sine of the angle between axis and normal below which a wheel is flat: its spin is then undefined.
 const FLAT: f64 = 1e-6;
 
-/// Spin of every node [rad/s], in its axes: zero for all but wheels that roll.
+/// Spin of every node [rad/s], in its axes: zero except for rolling wheels.
 pub(super) fn spins(system: &System, at: &Kinematics) -> Vec<Vector3> {
     let mut spins = vec![Vector3::zeros(); at.nodes.len()];
     for joint in system.joints().iter().filter(|joint| !joint.impulses.is_empty()) {
@@ -40,7 +40,8 @@ pub(super) fn spins(system: &System, at: &Kinematics) -> Vec<Vector3> {
     spins
 }
 
-/// A node's frame and twist some time later, if its wheel rolls on steadily: the axes that do not spin go on with their twist W.
+/// A node's frame and twist some time later, if its wheel continues to roll steadily: the axes that do not spin move with their
+/// twist W.
 pub(super) fn later(frame: Motion, twist: &Vector6, spin: &Vector3, time: f64) -> (Motion, Vector6) {
     let own = lissom_motion::screw(&Vector3::zeros(), spin);
     let rest = twist - own;
@@ -49,13 +50,13 @@ pub(super) fn later(frame: Motion, twist: &Vector6, spin: &Vector3, time: f64) -
 }
 
 impl<'a> LinearModel<'a> {
-    /// Whether wheels roll on: their contacts move through the axes of the nodes.
+    /// Whether wheels are rolling: their contacts move relative to the axes of the nodes.
     pub fn rolls_on(&self) -> bool {
         spins(self.system(), self.kinematics()).iter().any(|spin| *spin != Vector3::zeros())
     }
 
-    /// The same model in axes that do not spin with the wheels. Its modes are true only if
-    /// [`departure_of`](Self::departure_of) says so.
+    /// The same model in axes that do not spin with the wheels. Its modes are valid only if
+    /// [`departure_of`](Self::departure_of) confirms them.
     pub fn in_rolling_axes(&self) -> LinearModel<'a> {
         let layout = self.system().layout();
         let rate = self.spin().norm();

@@ -5,11 +5,12 @@
 use nalgebra::{DMatrix, Hessenberg};
 use num_complex::Complex64;
 
-/// Iterations per eigenvalue.
+/// Maximum number of iterations per eigenvalue.
 const MAX_ITERATIONS: usize = 300;
-/// An exceptional shift follows so many iterations without deflation.
+/// Number of iterations without deflation before an exceptional shift.
 const EXCEPTIONAL: usize = 10;
-/// A subdiagonal entry below this fraction of the matrix's norm, times the round-off, is zero whatever its neighbours.
+/// A subdiagonal entry below this fraction of the matrix's norm, times the round-off, is zero regardless of its
+/// neighbours.
 const TINY: f64 = 1e-12;
 
 /// Unitary Q and upper triangular T with A = Q T Qᴴ; none if an entry is not finite or the iteration does not converge.

@@ -1,4 +1,4 @@
-//! Shapes of modes as seen from outside: displacement and rotation of every node in global axes, kinetic energy by part.
+//! Shapes of modes in global axes: displacement and rotation of every node, kinetic energy by part.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::model::LinearModel;
 use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::LOCKED;
 
-/// What a node does in a mode, in global axes.
+/// Motion of a node in a mode, in global axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodeShape {
     /// Name of the node.
@@ -24,18 +24,18 @@ pub struct NodeShape {
 }
 
 impl LinearModel<'_> {
-    /// The shape of a mode at every node but the ground.
+    /// The shape of a mode at every node except the ground.
     pub fn shape(&self, mode: &Mode) -> Vec<NodeShape> {
         self.complex_shape(&mode.shape)
     }
 
-    /// The same of real displacements and rotations by row.
+    /// The same for real displacements and rotations by row.
     pub fn shape_of(&self, rows: &[f64]) -> Vec<NodeShape> {
         let rows: Vec<Complex64> = rows.iter().copied().map(Complex64::from).collect();
         self.complex_shape(&rows)
     }
 
-    /// Largest angle by which a node is turned against the other model's state [rad].
+    /// Largest rotation of a node relative to the other model's state [rad].
     pub fn largest_turn(&self, other: &LinearModel<'_>) -> f64 {
         let nodes = self.at.nodes.iter().zip(&other.at.nodes);
         nodes.fold(0.0, |most, (one, two)| {
@@ -71,7 +71,8 @@ impl LinearModel<'_> {
             .collect()
     }
 
-    /// Share of each part in the kinetic energy of a mode, by name: a beam is one part, so is a body. Sums up to 1.
+    /// Share of each part in the kinetic energy of a mode, by name: a beam is one part, and so is a body. The sum is
+    /// 1.
     pub fn kinetic_shares(&self, mode: &Mode) -> BTreeMap<String, f64> {
         let layout = self.system.layout();
         let mut shares = BTreeMap::new();
@@ -115,7 +116,7 @@ impl LinearModel<'_> {
     }
 }
 
-/// The part a node belongs to: the beam of `beam@0.5`, `beam.start` or `beam.end`, or the body itself.
+/// The part of a node: the beam of `beam@0.5`, `beam.start` or `beam.end`, or the body itself.
 pub(super) fn part_of(node: &str) -> &str {
     let base = node.split_once('@').map_or(node, |(beam, _)| beam);
     base.strip_suffix(".start").or_else(|| base.strip_suffix(".end")).unwrap_or(base)

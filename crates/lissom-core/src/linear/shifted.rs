@@ -1,7 +1,7 @@
 //! The saddle-point matrix s² M + s D + K with the constraints, scaled, augmented and factored without pivoting.
 //!
-//! With time in units of 1/|s| it is the tangent of a scheme whose rate and curvature are s/|s| and s²/|s|² times the
-//! increment: the same scaling, augmented term and equilibration serve.
+//! With time in units of 1/|s| it is the tangent of a scheme whose velocity and acceleration are s/|s| and s²/|s|²
+//! times the increment: the same scaling, augmented term and equilibration are used.
 
 use std::ops::Mul;
 
@@ -13,7 +13,7 @@ use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Linearization, System};
 
-/// The square of the rate from which the search for modes starts, relative to that of the stiffest parts.
+/// The squared rate from which the search for modes starts, relative to that of the stiffest parts.
 pub(super) const SMALL: f64 = 1e-6;
 
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
@@ -36,12 +36,12 @@ impl<'a> RealShift<'a> {
         }
     }
 
-    /// A square of a rate [1/s²] that is small against those of the stiffest parts; 1 where nothing is stiff.
+    /// A squared rate [1/s²] that is small compared with those of the stiffest parts; 1 without stiffness.
     pub(super) fn small_square(&self) -> f64 {
         small_square(&self.representative)
     }
 
-    /// Factors for λ = `shift` [1/s²]; gives the number of eigenvalues λ below it.
+    /// Factorises at λ = `shift` [1/s²]; returns the number of eigenvalues λ below it.
     pub(super) fn factor(&mut self, parts: &Linearization, shift: f64) -> Result<usize, FactorError> {
         let magnitude = if shift == 0.0 { self.small_square() } else { shift.abs() };
         self.scaled = Scaled::at_rate(&self.representative, magnitude.sqrt());
@@ -67,13 +67,13 @@ impl<'a> RealShift<'a> {
         self.saddle.solve(self.system.structure(), right);
     }
 
-    /// From a scaled multiplier to one in SI.
+    /// Factor from a scaled multiplier to SI.
     pub(super) fn multiplier_factor(&self) -> f64 {
         self.scaled.multiplier_factor()
     }
 }
 
-/// A rate s at which a model with damping is shifted: real, or complex.
+/// A shift s of a model with damping: real, or complex.
 pub(super) trait Shift: SolverOf + Mul<f64, Output = Self> {
     /// |s|.
     fn size(self) -> f64;
@@ -121,7 +121,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         }
     }
 
-    /// Factors for `shift` [1/s], which is not zero.
+    /// Factorises at `shift` [1/s], which is not zero.
     pub(super) fn factor(&mut self, parts: &Linearization, shift: S) -> Result<(), FactorError> {
         self.scaled = Scaled::at_rate(&self.representative, shift.size());
         let unit = shift * shift.size().recip();
@@ -151,12 +151,12 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         }
     }
 
-    /// Whether constraints repeat each other in the matrix that was factored.
+    /// Whether constraints are redundant in the factored matrix.
     pub(super) fn has_redundant_constraints(&self) -> bool {
         self.saddle.redundant().is_some()
     }
 
-    /// What brings rows in SI to the size of the matrix that is factored.
+    /// Factors of rows in SI that give the rows of the factored matrix.
     pub(super) fn row_factors(&self) -> impl Iterator<Item = f64> + '_ {
         let count = self.system.layout().coordinate_count();
         let of_rows = [self.scaled.dynamic_factor(), self.scaled.scale()];
@@ -164,13 +164,13 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         factors.map(move |(row, factor)| factor * of_rows[usize::from(row >= count)])
     }
 
-    /// From a scaled multiplier to one in SI.
+    /// Factor from a scaled multiplier to SI.
     pub(super) fn multiplier_factor(&self) -> f64 {
         self.scaled.multiplier_factor()
     }
 }
 
-/// A square of a rate [1/s²] that is small against those of the stiffest parts.
+/// A squared rate [1/s²] that is small compared with those of the stiffest parts.
 pub(super) fn small_square(representative: &Representative) -> f64 {
     let square = SMALL * representative.stiffness / representative.mass;
     if square.is_finite() && square > 0.0 { square } else { 1.0 }

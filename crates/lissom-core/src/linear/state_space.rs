@@ -15,11 +15,11 @@ use super::output::OutputDerivatives;
 use crate::diagnostics::diagnostics;
 use crate::kinematics::{Quantity, Subject};
 
-/// Most coordinates of a model whose matrices are filled.
+/// Maximum number of coordinates of a model with full matrices.
 const MAX_COORDINATES: usize = 600;
-/// A pivot of the constraints below this fraction of the largest is none.
+/// A pivot of the constraints below this fraction of the largest is zero.
 const RANK: f64 = 1e-9;
-/// A reduced mass matrix of a smaller ratio between pivots has degrees of freedom without mass.
+/// Ratio of pivots of the reduced mass matrix below which degrees of freedom have no mass.
 const SINGULAR: f64 = 1e-13;
 
 /// Matrices of first-order equations.
@@ -33,7 +33,7 @@ pub struct StateSpace {
     pub c: DMatrix<f64>,
     /// D.
     pub d: DMatrix<f64>,
-    /// What each state is: an unknown in words, or its rate.
+    /// The states in words: an unknown, or its rate.
     pub states: Vec<String>,
 }
 
@@ -95,8 +95,8 @@ diagnostics! {
 }
 
 impl LinearModel<'_> {
-    /// First-order equations with these right-hand sides as inputs, by row, and these outputs with the derivative of each by
-    /// each input itself.
+    /// First-order equations with these right-hand sides as inputs, by row, and these outputs with the direct derivative of
+    /// each with respect to each input.
     ///
     /// # Errors
     /// If there are none, or they would be too large.
@@ -124,7 +124,7 @@ impl LinearModel<'_> {
         reduced.with_outputs(self, outputs, inputs)
     }
 
-    /// A of ẋ = A x with at most `most` states, velocities in units of `rate` [1/s]; none where there are no such equations or they
+    /// A of ẋ = A x with at most `most` states, velocities in units of `rate` [1/s]; none if there are no such equations or they
     /// would be larger.
     pub(super) fn first_order(&self, most: usize, rate: f64) -> Option<DMatrix<f64>> {
         let freedoms = self.coordinate_count().saturating_sub(self.system.layout().multiplier_rows().len());
@@ -225,7 +225,8 @@ fn for_each(pattern: &Pattern, values: &[f64], count: usize, mut take: impl FnMu
     }
 }
 
-/// Columns of the constraints in an order in which the first `rank` depend on the others, and how.
+/// Columns of the constraints in an order in which the first `rank` depend on the others, and the matrix of this
+/// dependence.
 fn dependent(gradient: &DMatrix<f64>) -> (Vec<usize>, usize, DMatrix<f64>) {
     let count = gradient.ncols();
     let mut order = DMatrix::from_fn(1, count, |_, j| j as f64);

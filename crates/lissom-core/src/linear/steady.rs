@@ -1,13 +1,13 @@
-//! Steady rotation: the positions at which a model keeps turning as it does, without any change in the axes of its nodes.
+//! Steady rotation: the positions at which a model continues to rotate without any change in the axes of its nodes.
 //!
-//! The field of velocities that nodes have at the start, each its own, stays in space; positions are found at which the equations
-//! of motion hold with constant body twists. Newton's method with the linear model about the state, in departures from going on:
+//! The initial velocity field of each node is fixed in space; the solution is positions at which the equations of motion are
+//! satisfied with constant body twists. Newton's method with the linear model about the state, in departures from extrapolation:
 //!
 //! ```text
 //! (s² M + s D + K) δ + Bᵀ δμ = -r(V̇ = 0),    B δ = -c,    δV = ad_V δ
 //! ```
 //!
-//! with a small s, so that free rotations have no share in the corrections.
+//! with a small s, so that free rotations do not contribute to the corrections.
 
 use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
 use lissom_solver::SolverKind;
@@ -27,23 +27,23 @@ use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// Most corrections; one that is round-off ends them, and one that is no smaller than the last.
+/// Maximum number of corrections; they end at round-off, or when one is no smaller than the last.
 const MAX_CORRECTIONS: usize = 60;
 /// The small s, over the rate of rotation.
 const SMALL: f64 = 1e-3;
-/// How far a state is turned to see whether coefficients are constant [rad].
+/// Rotation of a state for the check of constant coefficients [rad].
 const TURN: f64 = 0.7;
-/// The shift at which that is seen, relative to the eigenvalue.
+/// The shift of this check, relative to the eigenvalue.
 const BESIDE: f64 = 0.9;
-/// Samples of what round-off does to a mode.
+/// Number of samples of the effect of round-off on a mode.
 const SAMPLES: usize = 3;
 
-/// How far a mode is from being one of another model, over its size.
+/// Deviation of a mode from one of another model, over its magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
-    /// The departure.
+    /// The deviation.
     pub size: f64,
-    /// What round-off in the terms of the mode's own equations makes of it.
+    /// The deviation due to round-off in the terms of the mode's own equations.
     pub round_off: f64,
 }
 
@@ -83,10 +83,10 @@ impl From<LinearError> for SteadyError {
     }
 }
 
-/// The state of steady rotation with the velocities of `state`, which the constraints may correct.
+/// The state of steady rotation with the velocities of `state`, which may be corrected for the constraints.
 ///
 /// # Errors
-/// If nothing turns, or there are no such positions.
+/// If nothing rotates, or there are no such positions.
 pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
     if rate_of(state) == 0.0 {
         return Err(SteadyError::AtRest {});
@@ -154,12 +154,12 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     }
 }
 
-/// Largest rate at which a node turns [rad/s].
+/// Largest angular velocity of a node [rad/s].
 fn rate_of(state: &State) -> f64 {
     state.kinematics.nodes.iter().map(|node| rotation_part(&node.twist).norm()).fold(0.0, f64::max)
 }
 
-/// Moves the state; gives the size of the correction in angles and parts of `length`.
+/// Moves the state; returns the magnitude of the correction in angles and fractions of `length`.
 fn correct(system: &System, state: &mut State, change: &[Complex64], fields: &[Vector6], length: f64) -> f64 {
     let layout = system.layout();
     let mut size = 0.0_f64;
@@ -187,13 +187,13 @@ fn correct(system: &System, state: &mut State, change: &[Complex64], fields: &[V
 }
 
 impl<'a> LinearModel<'a> {
-    /// Largest rate at which a node turns, as a vector [rad/s], in global axes.
+    /// Largest angular velocity of a node, as a vector [rad/s], in global axes.
     pub fn spin(&self) -> Vector3 {
         let spins = self.at.nodes.iter().map(NodeMotion::angular_velocity);
         spins.fold(Vector3::zeros(), |most, spin| if spin.norm() > most.norm() { spin } else { most })
     }
 
-    /// The model a part of a turn later, if it goes on steadily: everything where its own twist takes it.
+    /// The model a fraction of a turn later, if it moves steadily: each node is moved by its own twist.
     ///
     /// # Errors
     /// If there is no linear model there.
@@ -221,11 +221,11 @@ impl<'a> LinearModel<'a> {
         LinearModel::of(self.system, &state, self.solver)
     }
 
-    /// How far a mode of this model is from being one of `other`, the model a part of a turn later: 0 where the coefficients it
-    /// sees are constant, so that it oscillates as it says.
+    /// Deviation of a mode of this model from one of `other`, the model a fraction of a turn later: 0 if its coefficients are
+    /// constant, so that it is a solution.
     ///
     /// # Errors
-    /// If the matrices cannot be factored.
+    /// If the matrices cannot be factorised.
     pub fn departure_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<Departure, LinearError> {
         let s = mode.eigenvalue;
         if s.norm() == 0.0 {
@@ -235,7 +235,7 @@ impl<'a> LinearModel<'a> {
         shifted.factor(&other.parts, BESIDE * s).map_err(|error| other.stopped(&error))?;
         let pattern = other.pattern();
         let mut right = vec![Complex64::default(); pattern.size()];
-        // Sums of the sizes of what each row is made of.
+        // Sums of the magnitudes of the terms of each row.
         let mut terms = vec![0.0; pattern.size()];
         let count = self.coordinate_count();
         let [places, rates, accelerations] = match self.generator() {
@@ -264,7 +264,7 @@ impl<'a> LinearModel<'a> {
         let whole = size(&mode.shape);
         let mut departure_by = |mut forces: Vec<Complex64>| {
             shifted.solve(&mut forces);
-            // Shapes are without the forces of constraints.
+            // Shapes do not contain the forces of constraints.
             other.system.layout().impulses().for_each(|(row, _)| forces[row] = Complex64::default());
             size(&forces[..count]) / whole
         };
@@ -279,7 +279,7 @@ impl<'a> LinearModel<'a> {
         Ok(Departure { size: departure_by(right), round_off })
     }
 
-    /// How alike two shapes are, weighed with the mass of this model: 1 for the same, 0 for orthogonal ones.
+    /// Likeness of two shapes, weighted with the mass of this model: 1 for equal, 0 for orthogonal ones.
     pub fn assurance(&self, one: &Mode, other: &Mode) -> f64 {
         let pattern = self.pattern();
         let weighed = |shape: &[Complex64]| {

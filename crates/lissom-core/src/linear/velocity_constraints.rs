@@ -1,20 +1,20 @@
-//! Constraints between velocities in a linear model: wheels that roll, latches that hold.
+//! Velocity constraints in a linear model: rolling wheels and engaged latches.
 //!
-//! Legend: Λ impulses, coordinates without mass whose rates μ = Λ̇ are the forces, b rows of the constraints between
-//! velocities, η displacements.
+//! Legend: Λ impulses, coordinates without mass whose rates μ = Λ̇ are the forces, b rows of the velocity
+//! constraints, η displacements.
 //!
 //! ```text
 //! M η̈ + D η̇ + K η + bᵀ Λ̇ = 0,    b η̇ + N η = 0        ->        M η̈ + D η̇ + K η + bᵀ μ = 0
 //! ```
 //!
-//! The forces are taken for unknowns in place of the impulses, or else each impulse would add two eigenvalues of zero, which are no motion. At
-//! rest N = 0, and b η̇ = 0 is taken as b η = 0: what a wheel has rolled or a latch has slid before, it keeps. So the
-//! model stays symmetric, and its modes can be counted. A contact that rolls steadily has N ≠ 0 and keeps both terms.
+//! The forces are the unknowns instead of the impulses; otherwise each impulse would add two zero eigenvalues without a motion.
+//! At rest N = 0, and b η̇ = 0 is replaced by b η = 0: earlier rolling of a wheel or sliding of a latch is a constant offset. So
+//! the model remains symmetric, and its modes can be counted. A contact that rolls steadily has N ≠ 0 and both terms.
 
 use super::model::LinearError;
 use crate::system::{Linearization, System};
 
-/// Takes forces for unknowns in place of impulses.
+/// Replaces impulses by forces as unknowns.
 pub(super) fn take_forces(system: &System, parts: &mut Linearization, is_at_rest: bool) {
     let pattern = system.pattern();
     for (impulse, _) in system.layout().impulses() {
@@ -39,7 +39,7 @@ pub(super) fn take_forces(system: &System, parts: &mut Linearization, is_at_rest
     }
 }
 
-/// Rejects constraints between velocities, for analyses that know positions alone.
+/// Rejects velocity constraints, for analyses that consider positions only.
 pub(super) fn refuse(system: &System) -> Result<(), LinearError> {
     if let Some(joint) = system.joints().iter().find(|joint| !joint.impulses.is_empty()) {
         return Err(LinearError::Rolls { joint: joint.name.clone() });

@@ -1,12 +1,12 @@
-//! Whirl of a mode about the axis of rotation, from the shape in rotating axes to what is seen in axes at rest.
+//! Whirl of a mode about the axis of rotation: from the shape in rotating axes to the motion in axes at rest.
 //!
-//! With e₁, e₂, e₃ = axis and displacements d, z = d₁ + i d₂ turns in rotating axes as
+//! With e₁, e₂, e₃ = axis and displacements d, z = d₁ + i d₂ moves in rotating axes as
 //!
 //! ```text
 //! z = ½ (d₁ + i d₂) e^{iωt} + ½ (d₁ - i d₂)* e^{-iωt}
 //! ```
 //!
-//! forward with rate ω and backward with rate -ω; in axes at rest both are faster by the rate of rotation.
+//! forward with rate ω and backward with rate -ω; in axes at rest the rate of rotation is added to both.
 
 use lissom_motion::Vector3;
 use num_complex::Complex64;
@@ -14,17 +14,18 @@ use num_complex::Complex64;
 use super::mode::Mode;
 use super::model::LinearModel;
 
-/// A mode with less displacement across the axis than this fraction of all is none that whirls.
+/// A mode with less displacement perpendicular to the axis than this fraction of the total does not whirl.
 const LATERAL: f64 = 1e-6;
-/// Parts of forward and backward that differ by less are an ellipse, with two frequencies in axes at rest.
+/// If the forward and backward parts differ by less than this, the orbit is an ellipse, with two frequencies in axes
+/// at rest.
 const CIRCULAR: f64 = 0.999;
 
-/// What a mode is in axes at rest.
+/// Whirl of a mode in axes at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Whirl {
-    /// Along the axis or about it, or nothing turns.
+    /// Motion along the axis or about it, or no rotation.
     None,
-    /// A circle in the sense of the rotation, with this frequency in axes at rest [Hz]; of a mode that was found in axes at rest
+    /// A circle in the sense of the rotation, with this frequency in axes at rest [Hz]; for a mode computed in axes at rest also
     /// an ellipse.
     Forward(f64),
     /// A circle against the rotation, or an ellipse, likewise.
@@ -46,7 +47,7 @@ impl Whirl {
 }
 
 impl LinearModel<'_> {
-    /// What a mode is in axes at rest.
+    /// Whirl of a mode in axes at rest.
     pub fn whirl(&self, mode: &Mode) -> Whirl {
         let spin = self.spin();
         let rate = spin.norm();
