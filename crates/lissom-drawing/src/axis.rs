@@ -1,12 +1,12 @@
-//! Axes: what they run over, and where their ticks are.
+//! Axes: their ranges and ticks.
 
-/// How an axis is divided.
+/// Division of an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
     /// Evenly.
     #[default]
     Linear,
-    /// By decades; what is not above zero has no position.
+    /// By decades; only positive numbers have a position.
     Logarithmic,
 }
 
@@ -15,19 +15,19 @@ pub enum Scale {
 pub struct Axis {
     /// Quantity and unit.
     pub label: String,
-    /// How it is divided.
+    /// Its division.
     pub scale: Scale,
-    /// From where to where; what the curves need, and a little more, if there is none.
+    /// Its range; by default that of the curves with a margin.
     pub range: Option<[f64; 2]>,
 }
 
 impl Axis {
-    /// An evenly divided axis.
+    /// A linear axis.
     pub fn new(label: &str) -> Self {
         Self { label: label.to_owned(), ..Self::default() }
     }
 
-    /// An axis of decades.
+    /// A logarithmic axis.
     pub fn logarithmic(label: &str) -> Self {
         Self { scale: Scale::Logarithmic, ..Self::new(label) }
     }
@@ -37,7 +37,7 @@ impl Axis {
         number.is_finite() && (self.scale == Scale::Linear || number > 0.0)
     }
 
-    /// The range, of numbers that have a position, of which there is one at least.
+    /// The range of numbers with a position, of which there is at least one.
     pub(crate) fn extent(&self, numbers: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
         if let Some([from, to]) = self.range.filter(|[from, to]| from < to) {
             return [from, to];
@@ -49,7 +49,7 @@ impl Axis {
             return [10.0_f64.powf(low), 10.0_f64.powf(if high > low { high } else { low + 1.0 })];
         }
         let extent = high - low;
-        // A constant would have an axis without extent.
+        // The axis of a constant would have zero length.
         let room = match (extent > 1e-12 * high.abs().max(low.abs()), high == 0.0) {
             (true, _) => room * extent,
             (false, true) => 1.0,
@@ -58,7 +58,7 @@ impl Axis {
         [low - room, high + room]
     }
 
-    /// Share of the axis that lies before a number.
+    /// Fraction of the axis before a number.
     pub(crate) fn share(&self, [from, to]: [f64; 2], number: f64) -> f64 {
         match self.scale {
             // Halves, so that the largest numbers do not overflow.
@@ -67,7 +67,7 @@ impl Axis {
         }
     }
 
-    /// Numbers with a tick and what is written there; at most so many are written.
+    /// Numbers with a tick and their labels; at most `most` of them have one.
     pub(crate) fn ticks(&self, range: [f64; 2], most: usize) -> Vec<(f64, String)> {
         match self.scale {
             Scale::Linear => linear(range, most),
@@ -88,7 +88,7 @@ fn linear([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
         return Vec::new();
     }
     let (first, last) = ((from / step - 1e-6).ceil(), (to / step + 1e-6).floor());
-    // Digits behind the point, or of the mantissa where numbers are very large or small.
+    // Digits after the point, or of the mantissa for very large or small numbers.
     let largest = (first.abs().max(last.abs()) * step).max(f64::MIN_POSITIVE);
     let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
     let is_plain = largest < 1e5 && decimals <= 5;
@@ -113,7 +113,7 @@ fn linear([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Every decade, or every so many; where there are few, halves and fifths of them as well.
+/// Every decade, or every n-th; if there are few, halves and fifths of them as well.
 fn decades([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
     let (first, last) = (from.log10() - 1e-9, to.log10() + 1e-9);
     let count = (last - first).floor().max(0.0) as usize + 1;

@@ -1,4 +1,4 @@
-//! Charts: panels of curves below and beside one another, with axes, grid and legend.
+//! Charts: panels of curves below each other or side by side, with axes, grid and legend.
 
 use crate::axis::{Axis, Scale};
 use crate::drawing::{Align, Drawing, Shade};
@@ -8,25 +8,25 @@ const INK: Shade = [0x33, 0x33, 0x33];
 const GRID: Shade = [0xe4, 0xe4, 0xe4];
 const BLACK: Shade = [0; 3];
 
-/// Heights of words.
+/// Heights of text.
 const TITLE: u32 = 16;
 const LABEL: u32 = 13;
 const TICK: u32 = 11;
-/// From the edges, and between things beside each other.
+/// Distances from the edges, and between adjacent elements.
 const MARGIN: f64 = 12.0;
-/// Space for the words below a panel.
+/// Space for the text below a panel.
 const FOOT: f64 = 46.0;
 /// Length of the sample of a curve in the legend, and height of its lines.
 const SAMPLE: f64 = 24.0;
 const LEGEND_LINE: f64 = 17.0;
-/// Widest legend, as a share of the drawing.
+/// Maximum width of a legend, as a fraction of the drawing.
 const LEGEND_SHARE: f64 = 0.4;
-/// Of the extent of the curves, left free above and below them.
+/// Margin above and below the curves, as a fraction of their extent.
 const ROOM: f64 = 0.04;
 /// Radius of marks.
 const RADIUS: f64 = 3.6;
 
-/// What is at the points of a curve.
+/// Marks at the points of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
     /// A disc.
@@ -42,7 +42,7 @@ pub enum Mark {
 /// Points joined by lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What the legend calls it; nothing if it is empty.
+    /// Its name in the legend; none if it is empty.
     pub name: String,
     /// Its points. Those that have no position on the axes are omitted.
     pub points: Vec<(f64, f64)>,
@@ -52,7 +52,7 @@ pub struct Curve {
     pub width: f64,
     /// Whether it is dashed.
     pub is_dashed: bool,
-    /// What is at its points.
+    /// The marks at its points.
     pub mark: Option<Mark>,
     /// Half the size of marks.
     pub radius: f64,
@@ -76,24 +76,24 @@ impl Curve {
 /// Curves with common axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// Below.
+    /// Below the panel.
     pub x: Axis,
-    /// At the left.
+    /// To the left of the panel.
     pub y: Axis,
-    /// Curves; later ones lie above.
+    /// Curves; later ones are drawn above.
     pub curves: Vec<Curve>,
 }
 
-/// Panels below one another, or several beside each other.
+/// Panels below each other, or several side by side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// Name, fit for a file.
+    /// Name, suitable for a file.
     pub name: String,
-    /// Above all.
+    /// Title above all panels.
     pub title: String,
     /// Panels.
     pub panels: Vec<Panel>,
-    /// Panels beside each other; the next ones are below.
+    /// Number of panels side by side; the next ones are below.
     pub columns: usize,
     /// Of the drawing.
     pub width: f64,
@@ -101,12 +101,12 @@ pub struct Chart {
     pub panel_height: f64,
 }
 
-/// Where a panel's curves are drawn.
+/// The area of a panel's curves.
 struct Frame<'a> {
     panel: &'a Panel,
     x: [f64; 2],
     y: [f64; 2],
-    /// Where its words begin.
+    /// Beginning of its text.
     edge: f64,
     left: f64,
     right: f64,
@@ -121,7 +121,7 @@ impl Chart {
         Self { name: name.to_owned(), title: String::new(), panels, columns: 1, width: 760.0, panel_height }
     }
 
-    /// Panels without any point that has a position are omitted.
+    /// Panels without any point on the axes are omitted.
     pub fn draw(&self) -> Drawing {
         let frames: Vec<Frame<'_>> = self.panels.iter().filter_map(Frame::of).collect();
         let head = if self.title.is_empty() { MARGIN } else { 2.0 * MARGIN + f64::from(TITLE) };
@@ -130,7 +130,7 @@ impl Chart {
         let cell = self.width / columns as f64;
         let height = head + self.panel_height * rows as f64;
         let mut drawing = Drawing::new(&self.name, [self.width, height]);
-        // Of one width, so that times lie below one another.
+        // Of equal width, so that times are aligned vertically.
         let numbers =
             frames.iter().flat_map(Frame::y_ticks).map(|(_, text)| lettering::width(&text, f64::from(TICK)));
         let left = 2.0 * MARGIN + f64::from(LABEL) + numbers.fold(0.0, f64::max) + 6.0;
@@ -153,7 +153,7 @@ impl Chart {
             let height = fitting(&self.title, TITLE, self.width - 2.0 * MARGIN);
             let middle = if columns == 1 { 0.5 * (left + right) } else { 0.5 * self.width };
             let at = [middle, MARGIN + f64::from(TITLE)];
-            // In the middle of the panels, unless it is too long for that.
+            // Centred on the panels, unless it is too long for that.
             let half = 0.5 * lettering::width(&self.title, f64::from(height));
             let x = at[0].clamp(MARGIN + half, (self.width - MARGIN - half).max(MARGIN + half));
             drawing.words([x, at[1]], &self.title, height, Align::Middle, BLACK);
@@ -162,13 +162,13 @@ impl Chart {
     }
 }
 
-/// The largest height up to `height` at which words have the width.
+/// The largest height up to `height` at which the text has this width.
 fn fitting(words: &str, height: u32, width: f64) -> u32 {
     (7..=height).rev().find(|height| lettering::width(words, f64::from(*height)) <= width).unwrap_or(7)
 }
 
 impl<'a> Frame<'a> {
-    /// Without positions on the drawing; none if no point has a position.
+    /// Before its position on the drawing is known; none if no point is on the axes.
     fn of(panel: &'a Panel) -> Option<Self> {
         let points =
             || panel.curves.iter().flat_map(|curve| &curve.points).filter(|point| panel.shows(point));
@@ -186,7 +186,7 @@ impl<'a> Frame<'a> {
 
     fn place(&self, (x, y): (f64, f64)) -> [f64; 2] {
         let share = [self.panel.x.share(self.x, x), self.panel.y.share(self.y, y)];
-        // Beyond the range curves run along its edge.
+        // Beyond the range curves follow its edge.
         let [x, y] = share.map(|share| share.clamp(0.0, 1.0));
         [self.left + x * (self.right - self.left), self.bottom - y * (self.bottom - self.top)]
     }
@@ -195,7 +195,7 @@ impl<'a> Frame<'a> {
         let Panel { x, y, curves } = self.panel;
         let middle = [0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom)];
         let tick = f64::from(TICK);
-        // A number for each so many pixels.
+        // One number for this many pixels.
         let most: f64 = if x.scale == Scale::Linear { 8.0 } else { 9.0 };
         let widest = most.min((self.right - self.left) / 60.0).max(2.0) as usize;
         for (number, text) in x.ticks(self.x, widest) {
@@ -228,14 +228,14 @@ impl<'a> Frame<'a> {
     }
 
     fn curve(&self, drawing: &mut Drawing, curve: &Curve) {
-        // A gap is left where points have no position.
+        // A gap is left if points have no position.
         for piece in curve.points.split(|point| !self.panel.shows(point)) {
             let places: Vec<[f64; 2]> = piece.iter().map(|point| self.place(*point)).collect();
             for place in curve.mark.map(|_| &places).into_iter().flatten() {
                 mark(drawing, *place, curve);
             }
             if let [place] = places[..] {
-                // A line through one point would not be seen.
+                // A line through a single point would be invisible.
                 mark(drawing, place, &Curve { mark: curve.mark.or(Some(Mark::Circle)), ..curve.clone() });
             } else if !places.is_empty() && curve.width > 0.0 {
                 line(drawing, places, curve);
@@ -247,7 +247,7 @@ impl<'a> Frame<'a> {
         let named: Vec<&Curve> = self.panel.curves.iter().filter(|curve| !curve.name.is_empty()).collect();
         let lines = (((self.bottom - self.top) / LEGEND_LINE) as usize).max(1);
         let left = self.right + MARGIN;
-        // The last line shows how many there are more.
+        // The last line contains the number of the others.
         let shown = if named.len() > lines { lines - 1 } else { named.len() };
         for (index, curve) in named[..shown].iter().enumerate() {
             let y = self.top + LEGEND_LINE * (index as f64 + 0.5);

@@ -1,4 +1,4 @@
-//! Lines cut into dashes, which go on along the whole line.
+//! Lines divided into dashes, which continue along the whole line.
 
 /// Lengths of a dash and of the gap after it.
 pub(crate) const DASH: [f64; 2] = [8.0, 4.0];

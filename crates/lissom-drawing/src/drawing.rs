@@ -1,51 +1,51 @@
-//! What a drawing is made of.
+//! Elements of a drawing.
 
 use crate::png::{self, PngError};
 use crate::raster::Image;
 use crate::svg;
 
-/// Red, green and blue as screens take them, 0 to 255.
+/// Red, green and blue in screen values, 0 to 255.
 pub type Shade = [u8; 3];
 
-/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): distinguished also by
-/// people who do not see all colours, and on paper.
+/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008), which colour-blind readers can
+/// also distinguish, and on paper.
 const COLOURS: [Shade; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
 
-/// Colour of the curve of this number, from zero. Colours repeat after seven.
+/// Colour of the curve of this index, from zero. Colours repeat after seven.
 pub fn palette(index: usize) -> Shade {
     COLOURS[index % COLOURS.len()]
 }
 
-/// A drawing that cannot be made.
+/// Why a drawing cannot be made.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum DrawingError {
-    /// There is nothing to see.
+    /// The drawing is empty.
     #[error("{0}")]
     Empty(&'static str),
-    /// A polygon, line or word has no position.
+    /// A polygon, line or text has no finite position.
     #[error("a position in it is not a finite number")]
     NotFinite,
-    /// It does not fit into a picture.
+    /// It exceeds the limits of a picture.
     #[error(transparent)]
     Png(#[from] PngError),
 }
 
-/// Where words are beside their position.
+/// Alignment of text relative to its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// They begin there.
+    /// It begins there.
     Start,
-    /// Their middle is there.
+    /// It is centred there.
     Middle,
-    /// They end there.
+    /// It ends there.
     End,
 }
 
-/// A drawing, in pixels from the upper left corner. What comes later lies above.
+/// A drawing, in pixels from the upper left corner. Later elements are drawn above earlier ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
-    /// Name, fit for a file.
+    /// Name, suitable for a file.
     pub name: String,
     /// Width and height.
     pub size: [f64; 2],
@@ -66,7 +66,7 @@ impl Drawing {
         Self { name: name.to_owned(), size, shapes: Vec::new() }
     }
 
-    /// Adds a filled polygon. Its edge is drawn too, 0.8 pixels wide, so that no seam is left to a neighbour.
+    /// Adds a filled polygon. Its edge is also drawn, 0.8 pixels wide, so that there is no gap to a neighbour.
     pub fn polygon(&mut self, points: Vec<[f64; 2]>, shade: Shade) {
         self.shapes.push(Shape::Polygon { points, shade });
     }
@@ -81,24 +81,24 @@ impl Drawing {
         self.shapes.push(Shape::Line { points, shade, width, is_dashed: false });
     }
 
-    /// Adds a dashed line through points; dashes go on from one piece to the next.
+    /// Adds a dashed line through points; dashes continue from one segment to the next.
     pub fn dashed_line(&mut self, points: Vec<[f64; 2]>, shade: Shade, width: f64) {
         self.shapes.push(Shape::Line { points, shade, width, is_dashed: true });
     }
 
-    /// Adds words of a height; `at` is on the line they are on.
+    /// Adds text of a height; `at` is on its baseline.
     pub fn words(&mut self, at: [f64; 2], text: &str, height: u32, align: Align, shade: Shade) {
         let text = text.to_owned();
         self.shapes.push(Shape::Words { at, text, height, align, shade, is_upright: false });
     }
 
-    /// Adds words that run upwards.
+    /// Adds text that runs upwards.
     pub fn upright_words(&mut self, at: [f64; 2], text: &str, height: u32, align: Align, shade: Shade) {
         let text = text.to_owned();
         self.shapes.push(Shape::Words { at, text, height, align, shade, is_upright: true });
     }
 
-    /// How many polygons there are.
+    /// Number of polygons.
     pub fn polygon_count(&self) -> usize {
         self.shapes.iter().filter(|shape| matches!(shape, Shape::Polygon { .. })).count()
     }

@@ -1,5 +1,5 @@
-//! Words as outlines, and how wide they are. The letters are those of DejaVu Sans: Latin, Greek, Cyrillic capitals and what
-//! formulas and units need. What is missing is drawn as a box.
+//! Text as outlines, and its width. The letters are those of DejaVu Sans: Latin, Greek, Cyrillic capitals and the symbols
+//! of formulas and units. Missing characters are drawn as boxes.
 
 use std::sync::LazyLock;
 
@@ -10,10 +10,10 @@ static FONT: &[u8] = include_bytes!("DejaVuSans-subset.ttf");
 
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());
 
-/// Pieces that a bend of an outline is made of.
+/// Number of segments of a curve of an outline.
 const PIECES: u32 = 5;
 
-/// Width of words of a height.
+/// Width of text of a height.
 pub(crate) fn width(text: &str, height: f64) -> f64 {
     let Some(face) = &*FACE else { return 0.6 * height * text.chars().count() as f64 };
     let units: f64 = text.chars().map(|letter| advance(face, glyph(face, letter))).sum();
@@ -28,7 +28,7 @@ fn advance(face: &Face<'_>, glyph: GlyphId) -> f64 {
     f64::from(face.glyph_hor_advance(glyph).unwrap_or_default())
 }
 
-/// Closed outlines of words that begin at the origin, to the right and downwards.
+/// Closed outlines of text that begins at the origin, to the right and downwards.
 pub(crate) fn outlines(text: &str, height: f64) -> Vec<Vec<[f64; 2]>> {
     let Some(face) = &*FACE else { return Vec::new() };
     let scale = height / f64::from(face.units_per_em());

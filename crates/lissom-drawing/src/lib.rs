@@ -1,5 +1,5 @@
-//! Drawings made of filled polygons, lines and words, and charts made of these, as SVG and as PNG. Knows no mechanics and
-//! opens no files.
+//! Drawings of filled polygons, lines and text, and charts consisting of these, as SVG and as PNG. Independent of
+//! mechanics and files.
 //!
 //! ```
 //! use lissom_drawing::{Axis, Chart, Curve, Panel, palette};

@@ -1,4 +1,4 @@
-//! Pictures as PNG files, and several of them as a moving one (APNG, which browsers show and other programs take for its first
+//! Pictures as PNG files, and several of them as an animation (APNG, which browsers show; other programs show the first
 //! picture).
 
 use std::io::Write;
@@ -9,21 +9,21 @@ use flate2::{Compression, Crc};
 use crate::drawing::{Drawing, DrawingError};
 use crate::raster::Image;
 
-/// A picture that cannot be written.
+/// Why a picture cannot be written.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PngError {
-    /// It has no pixels, or there is none.
+    /// It has no pixels, or there is no picture.
     #[error("a picture without pixels")]
     Nothing,
     /// It has too many.
     #[error("a picture of {width} x {height} pixels is too large")]
     TooLarge {
-        /// Pixels across.
+        /// Width in pixels.
         width: u64,
-        /// Pixels down.
+        /// Height in pixels.
         height: u64,
     },
-    /// Pictures of a moving one differ in size.
+    /// Frames of an animation differ in size.
     #[error("the pictures of a moving one have different sizes")]
     Sizes,
 }
@@ -39,11 +39,11 @@ pub(crate) fn picture(image: &Image) -> Result<Vec<u8>, PngError> {
     Ok(file)
 }
 
-/// A moving picture of drawings of one size, as the bytes of an APNG file: each is shown for `delay` [s], again and again, with
+/// An animation of drawings of one size, as the bytes of an APNG file: each is shown for `delay` [s], in an infinite loop, with
 /// `scale` pixels for each of the drawings'.
 ///
 /// # Errors
-/// If there is no drawing, sizes differ, or a drawing has no position or too many pixels.
+/// If there is no drawing, sizes differ, or a drawing has no finite position or too many pixels.
 pub fn animation(drawings: &[Drawing], delay: f64, scale: f64) -> Result<Vec<u8>, DrawingError> {
     let first = drawings.first().ok_or(PngError::Nothing)?;
     if drawings.iter().any(|drawing| drawing.size != first.size) {
@@ -56,14 +56,14 @@ pub fn animation(drawings: &[Drawing], delay: f64, scale: f64) -> Result<Vec<u8>
         let image = drawing.image(scale)?;
         if index == 0 {
             chunk(&mut file, *b"IHDR", &header(&image)?);
-            // Number of pictures, and how often they are shown: without end.
+            // Number of frames, and number of repetitions: infinite.
             chunk(&mut file, *b"acTL", &[(drawings.len() as u32).to_be_bytes(), [0; 4]].concat());
         }
         let mut control = number.to_be_bytes().to_vec();
         number += 1;
         control.extend((image.width as u32).to_be_bytes());
         control.extend((image.height as u32).to_be_bytes());
-        // At the upper left corner, shown for so many thousandths, left as it is, not blended.
+        // At the upper left corner, duration in thousandths, no disposal, no blending.
         control.extend([0; 8]);
         control.extend(milliseconds.to_be_bytes());
         control.extend(1000_u16.to_be_bytes());
@@ -98,7 +98,7 @@ fn header(image: &Image) -> Result<Vec<u8>, PngError> {
 /// Pictures are a twentieth larger than at level 6, which took a third of the instructions of a run with its plots.
 const LEVEL: Compression = Compression::new(4);
 
-/// Rows, each as what differs from the row above, compressed.
+/// Rows, each as the difference from the row above, compressed.
 fn compressed(image: &Image) -> Vec<u8> {
     const UP: u8 = 2;
     let length = 3 * image.width;
@@ -132,7 +132,7 @@ mod tests {
 
     use super::*;
 
-    /// Kinds and contents of the chunks of a file, with their sums checked.
+    /// Types and contents of the chunks of a file, with their checksums verified.
     fn chunks(file: &[u8]) -> Vec<(String, Vec<u8>)> {
         assert_eq!(file[..8], SIGNATURE);
         let (mut at, mut found) = (8, Vec::new());

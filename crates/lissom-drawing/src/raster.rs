@@ -1,11 +1,11 @@
-//! Drawings as pixels, with edges as smooth as pixels allow: each takes as much of a shape's colour as the shape covers.
+//! Drawings as pixels, antialiased: the weight of a shape's colour in a pixel is the area that it covers.
 
 use crate::dashes::dashes;
 use crate::drawing::{Align, Shade, Shape};
 use crate::lettering;
 use crate::png::PngError;
 
-/// Pixels of the largest picture.
+/// Maximum number of pixels of a picture.
 const MAX_PIXELS: f64 = 1e8;
 
 /// Rows of pixels, red, green and blue.
@@ -16,7 +16,7 @@ pub(crate) struct Image {
     pub(crate) pixels: Vec<u8>,
     /// Pixels for each of the drawing.
     scale: f64,
-    /// What is drawn covers of each pixel, zero before and after.
+    /// Coverage of each pixel by the present shape, zero before and after.
     cover: Vec<f32>,
 }
 
@@ -103,16 +103,16 @@ impl Image {
             }
         }
         let sides = [self.width, self.height];
-        // Numbers beyond the picture become its ends.
+        // Numbers beyond the picture are clamped to it.
         let from = std::array::from_fn(|axis| (least[axis].floor().max(0.0) as usize).min(sides[axis]));
         let to = std::array::from_fn(|axis| (most[axis].ceil().max(0.0) as usize).min(sides[axis]));
         (from[0] < to[0] && from[1] < to[1]).then_some(Bounds { from, to })
     }
 
-    /// Fills closed outlines; holes run around the other way.
+    /// Fills closed outlines; holes have the opposite orientation.
     ///
-    /// Every edge adds to the pixels it crosses how much further left or right it leaves of them, so that sums along rows
-    /// are the area covered.
+    /// Every edge adds its change of coverage to the pixels that it crosses, so that sums along rows are the covered
+    /// area.
     fn fill(&mut self, outlines: &[Vec<[f64; 2]>], shade: Shade) {
         let Some(bounds) = self.bounds(outlines.iter().flatten(), 1.0) else { return };
         for outline in outlines {
@@ -149,7 +149,7 @@ impl Image {
             let (x0, x1) = (x[0].min(x[1]), x[0].max(x[1]));
             let area = sign * (y1 - y0);
             let (start, end) = (x0.floor() as usize, x1.ceil().max(x0.floor() + 1.0) as usize);
-            // Share of the edge's height that is left of the right end of each pixel.
+            // Fraction of the edge's height that is left of the right end of each pixel.
             let mut before = 0.0;
             for column in start..=end {
                 if column >= bounds.to[0] {
@@ -180,17 +180,17 @@ impl Image {
         }
     }
 
-    /// Notes how much of the pixels a straight piece covers, unless another piece covers more.
+    /// Records the coverage of pixels by a straight segment, unless another segment covers more.
     fn segment(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
         let reach = 0.5 * width + 1.0;
         let Some(bounds) = self.bounds([from, to].iter(), reach) else { return };
-        // Thinner lines than a pixel are paler.
+        // Lines thinner than a pixel are paler.
         let most = width.min(1.0);
         let along = [to[0] - from[0], to[1] - from[1]];
         let square = along[0] * along[0] + along[1] * along[1];
         for row in bounds.from[1]..bounds.to[1] {
             let y = row as f64 + 0.5;
-            // What lies within reach of this row.
+            // The part within reach of this row.
             let x = [y - reach, y + reach].map(|y| {
                 let share = if along[1] == 0.0 { 0.0 } else { ((y - from[1]) / along[1]).clamp(0.0, 1.0) };
                 from[0] + share * along[0]
@@ -225,14 +225,14 @@ impl Image {
     }
 }
 
-/// How much of a pixel's width, from `column` on, lies right of an edge from `x0` to `x1`, on average over its height, with what
-/// lies further left counted as whole.
+/// Fraction of a pixel's width, from `column` on, that is right of an edge from `x0` to `x1`, averaged over its height; the part
+/// further left counts as whole.
 fn covered_share(x0: f64, x1: f64, column: f64) -> f64 {
     let right = column + 1.0;
     if x1 - x0 < 1e-9 {
         return (right - x0).clamp(0.0, 1.0);
     }
-    // Integral over the edge of what is right of it within the pixel.
+    // Integral over the edge of the part to its right within the pixel.
     let part = |from: f64, to: f64| 0.5 * (to - from).max(0.0) * ((right - from) + (right - to).max(0.0));
     let before = (x1.min(column) - x0).max(0.0);
     let inside = part(x0.max(column), x1.min(right));

@@ -76,7 +76,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-/// To a tenth of a pixel.
+/// Rounded to a tenth of a pixel.
 fn rounded(number: f64) -> f64 {
     (10.0 * number).round() / 10.0 + 0.0
 }

@@ -1,7 +1,7 @@
-//! The functions of FMI 3.0 as importers call them, by the names and types of its header. The only unsafe code of the project:
-//! exported names must be unique in a process, which the standard sees to, and pointers come from the importer, which promises
-//! by the standard that they are what the header says. Every pointer is checked for null, nothing is kept of it but the
-//! instance, and no panic leaves a function.
+//! The functions of FMI 3.0 for importers, with the names and types of its header. The only unsafe code of the project:
+//! exported names must be unique in a process, which the standard guarantees, and pointers come from the importer, which
+//! guarantees by the standard that they are as declared in the header. Every pointer is checked for null, only the instance is
+//! retained, and no panic leaves a function.
 #![allow(unsafe_code)]
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
@@ -17,10 +17,10 @@ const OK: Status = 0;
 const ERROR: Status = 3;
 const FATAL: Status = 4;
 
-/// What an importer does with a message.
+/// The importer's function for messages.
 type Log = Option<unsafe extern "C" fn(*mut c_void, Status, *const c_char, *const c_char)>;
 
-/// What an importer holds.
+/// The object that an importer owns.
 struct Unit {
     instance: Instance,
     environment: *mut c_void,
@@ -30,13 +30,13 @@ struct Unit {
 fn log_message(log: Log, environment: *mut c_void, status: Status, words: &str) {
     let Some(log) = log else { return };
     let Ok(message) = CString::new(words.replace('\0', " ")) else { return };
-    // SAFETY: the importer's own function and environment; both texts end with zero and live through the call.
+    // SAFETY: the importer's own function and environment; both texts are null-terminated and live through the call.
     unsafe { log(environment, status, c"logStatusError".as_ptr(), message.as_ptr()) };
 }
 
-/// Does something with a unit; what goes wrong is reported to the importer.
+/// Applies `act` to a unit; errors are reported to the importer.
 fn with(unit: *mut c_void, act: impl FnOnce(&mut Instance) -> Result<(), String>) -> Status {
-    // SAFETY: a unit is null or what `fmi3InstantiateCoSimulation` gave, and is used by one thread at a time.
+    // SAFETY: a unit is null or the result of `fmi3InstantiateCoSimulation`, and is used by one thread at a time.
     let Some(unit) = (unsafe { unit.cast::<Unit>().as_mut() }) else { return ERROR };
     let (words, status) = match catch_unwind(AssertUnwindSafe(|| act(&mut unit.instance))) {
         Ok(Ok(())) => return OK,
@@ -52,24 +52,24 @@ fn read<'a, T>(from: *const T, count: usize) -> Result<&'a [T], String> {
     match (from.is_null(), count) {
         (_, 0) => Ok(&[]),
         (true, _) => Err("a pointer is null".to_owned()),
-        // SAFETY: the importer gives as many as it says, and they live through the call.
+        // SAFETY: the importer provides the declared number, and they live through the call.
         (false, _) => Ok(unsafe { slice::from_raw_parts(from, count) }),
     }
 }
 
-/// Room at a pointer.
+/// Memory at a pointer.
 fn room<'a, T>(at: *mut T, count: usize) -> Result<&'a mut [T], String> {
     match (at.is_null(), count) {
         (_, 0) => Ok(&mut []),
         (true, _) => Err("a pointer is null".to_owned()),
-        // SAFETY: the importer gives as much room as it says, to this call alone.
+        // SAFETY: the importer provides the declared amount of memory, exclusively for this call.
         (false, _) => Ok(unsafe { slice::from_raw_parts_mut(at, count) }),
     }
 }
 
-/// Puts a value at a pointer, where there is one.
+/// Writes a value to a pointer, if it is not null.
 fn put<T>(at: *mut T, value: T) {
-    // SAFETY: the importer gives room for one value, or null.
+    // SAFETY: the importer provides memory for one value, or null.
     if let Some(at) = unsafe { at.as_mut() } {
         *at = value;
     }
@@ -79,7 +79,7 @@ fn text(from: *const c_char) -> Result<String, String> {
     if from.is_null() {
         return Err("a text is missing".to_owned());
     }
-    // SAFETY: texts of the importer end with zero.
+    // SAFETY: texts of the importer are null-terminated.
     Ok(unsafe { CStr::from_ptr(from) }.to_string_lossy().into_owned())
 }
 
@@ -129,7 +129,7 @@ extern "C" fn fmi3InstantiateCoSimulation(
 #[unsafe(no_mangle)]
 extern "C" fn fmi3FreeInstance(unit: *mut c_void) {
     if !unit.is_null() {
-        // SAFETY: the importer gives back what `fmi3InstantiateCoSimulation` gave, once.
+        // SAFETY: the importer returns the result of `fmi3InstantiateCoSimulation`, once.
         drop(unsafe { Box::from_raw(unit.cast::<Unit>()) });
     }
 }
@@ -215,7 +215,7 @@ extern "C" fn fmi3GetFMUState(unit: *mut c_void, state: *mut *mut c_void) -> Sta
     with(unit, |instance| {
         let [place] = room(state, 1)? else { return Err("a pointer is null".to_owned()) };
         let saved = instance.save();
-        // SAFETY: the importer hands in null, or a state of this library to be written over.
+        // SAFETY: the importer passes null, or a state of this library to be overwritten.
         match unsafe { place.cast::<SavedState>().as_mut() } {
             Some(old) => *old = saved,
             None => *place = Box::into_raw(Box::new(saved)).cast(),
@@ -226,7 +226,7 @@ extern "C" fn fmi3GetFMUState(unit: *mut c_void, state: *mut *mut c_void) -> Sta
 
 /// The state at a pointer.
 fn saved<'a>(state: *mut c_void) -> Result<&'a SavedState, String> {
-    // SAFETY: the importer hands in what `fmi3GetFMUState` or `fmi3DeserializeFMUState` gave.
+    // SAFETY: the importer passes the result of `fmi3GetFMUState` or `fmi3DeserializeFMUState`.
     unsafe { state.cast::<SavedState>().as_ref() }.ok_or_else(|| "a state is missing".to_owned())
 }
 
@@ -240,7 +240,7 @@ extern "C" fn fmi3FreeFMUState(unit: *mut c_void, state: *mut *mut c_void) -> St
     with(unit, |_| {
         let [place] = room(state, 1)? else { return Ok(()) };
         if !place.is_null() {
-            // SAFETY: as in `saved`; the importer forgets it, as null states.
+            // SAFETY: as in `saved`; the importer no longer uses it, as stated by null.
             drop(unsafe { Box::from_raw(place.cast::<SavedState>()) });
             *place = null_mut();
         }
@@ -288,8 +288,8 @@ extern "C" fn fmi3DeserializeFMUState(
     })
 }
 
-/// Functions for what a unit does not have: an error, unless nothing is asked for. What follows the arguments named here is
-/// left alone, which the calling conventions of C allow.
+/// Functions of features that a unit does not have: an error, unless the number of values is zero. Further arguments are
+/// not read, which the calling conventions of C allow.
 macro_rules! without {
     ($what:literal: $($name:ident)*) => {$(
         #[unsafe(no_mangle)]
@@ -302,7 +302,7 @@ macro_rules! without {
     )*};
 }
 
-/// The same for functions whose arguments do not count anything.
+/// The same for functions without a number of values.
 macro_rules! never {
     ($what:literal: $($name:ident)*) => {$(
         #[unsafe(no_mangle)]

@@ -1,4 +1,4 @@
-//! A unit on its way: its phase, the values it was given, and the session. Errors are sentences for the importer's log.
+//! An instance of a unit: its phase, its values, and the session. Errors are sentences for the importer's log.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -8,10 +8,10 @@ use lissom::fmu::{Causality, Interface, MODEL_FILE, PackedModel, Variable};
 use lissom::{Model, Override, Session, SessionSnapshot, sealed};
 use serde::{Deserialize, Serialize};
 
-/// Communication points this close, relative to the step, are one.
+/// Communication points this close, relative to the step, are equal.
 const SAME_POINT: f64 = 1e-6;
 
-/// What the importer may call.
+/// Phases, which determine the functions that the importer may call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum Phase {
     Instantiated,
@@ -20,7 +20,7 @@ enum Phase {
     Terminated,
 }
 
-/// How a step ended.
+/// Result of a step.
 pub(crate) struct Stepped {
     /// Time reached [s].
     pub(crate) time: f64,
@@ -28,27 +28,27 @@ pub(crate) struct Stepped {
     pub(crate) is_ended: bool,
 }
 
-/// A unit.
+/// An instance of a unit.
 pub(crate) struct Instance {
     packed: PackedModel,
     model: Model,
     interface: Interface,
     given: Given,
-    /// Started as soon as something is asked of it.
+    /// Started when it is first needed.
     session: Option<Session>,
     values: Vec<f64>,
 }
 
-/// What the importer has said: with a snapshot of the session a whole state.
+/// Data from the importer: together with a snapshot of the session the whole state.
 #[derive(Clone, Serialize, Deserialize)]
 struct Given {
     phase: Phase,
-    /// First time [s], where it is not that of the model.
+    /// First time [s], if it differs from that of the model.
     start: Option<f64>,
     /// Parameters and inputs by their value references.
     parameters: BTreeMap<usize, f64>,
     inputs: BTreeMap<usize, f64>,
-    /// Inputs that the session has not been given.
+    /// Inputs that have not yet been passed to the session.
     pending: Vec<usize>,
 }
 
@@ -64,7 +64,7 @@ impl Given {
     }
 }
 
-/// A state of a unit, to be gone back to.
+/// A saved state of a unit.
 #[derive(Clone, Serialize, Deserialize)]
 pub(crate) struct SavedState {
     given: Given,
@@ -144,7 +144,7 @@ impl Instance {
         self.session = None;
     }
 
-    /// Values put into the model: those it was packed with, parameters, and another first time.
+    /// Overrides of the model: those with which it was packed, parameters, and another first time.
     fn overrides(&self) -> Vec<Override> {
         let mut all = self.packed.overrides.clone();
         for (&index, value) in &self.given.parameters {
@@ -158,7 +158,7 @@ impl Instance {
         all
     }
 
-    /// The session, started where there is none, with all inputs set.
+    /// The session, started if there is none, with all inputs set.
     fn session(&mut self) -> Result<&mut Session, String> {
         if self.session.is_none() {
             self.session = Some(self.model.session(&self.overrides()).map_err(words)?);
@@ -241,7 +241,7 @@ impl Instance {
         Ok(())
     }
 
-    /// Goes on from `current` [s] by `size` [s]. After an error the unit is at the end of the last step with a solution.
+    /// Continues from `current` [s] by `size` [s]. After an error the unit is at the end of the last successful step.
     pub(crate) fn step(&mut self, current: f64, size: f64) -> Result<Stepped, String> {
         self.expect(&[Phase::Step], "a step")?;
         let session = self.session()?;
@@ -258,7 +258,7 @@ impl Instance {
         Ok(Stepped { time, is_ended: session.stopped_by().is_some() })
     }
 
-    /// Time the unit is at [s].
+    /// Present time of the unit [s].
     pub(crate) fn time(&self) -> f64 {
         self.session.as_ref().map_or(self.interface.span[0], |session| session.progress().time)
     }
@@ -267,7 +267,8 @@ impl Instance {
         SavedState { given: self.given.clone(), snapshot: self.session.as_ref().map(Session::snapshot) }
     }
 
-    /// Goes to a state that was saved of this unit, or of another one of the same model. On failure it stays where it was.
+    /// Restores a state that was saved from this unit, or from another one of the same model. On failure the state is
+    /// unchanged.
     pub(crate) fn restore(&mut self, state: &SavedState) -> Result<(), String> {
         let known = self.interface.variables.len();
         let mut references = state.given.parameters.keys().chain(state.given.inputs.keys());
@@ -297,7 +298,7 @@ impl Instance {
     }
 }
 
-/// The path of a parameter, its name in quotes where it has dots in it.
+/// The path of a parameter, its name in quotes if it contains dots.
 fn quoted_path(name: &str) -> String {
     match name.split_once('.') {
         Some((table, own)) if own.contains(['.', ' ', '"']) => {
