@@ -1,4 +1,4 @@
-//! The energy-decaying scheme's promises, on a rigid and flexible spatial model.
+//! The properties of the energy-decaying scheme, on a rigid and flexible spatial model.
 
 use lissom_core::analysis::Simulation;
 use lissom_model::Document;

@@ -60,7 +60,7 @@ fn with(error: PyErr, diagnostic: &Diagnostic) -> PyErr {
     result.err().unwrap_or(error)
 }
 
-/// A question that makes no sense for a model.
+/// A request that is invalid for a model.
 pub(crate) fn question(words: impl Into<String>) -> PyErr {
     let words = words.into();
     with(ModelError::new_err(words.clone()), &Diagnostic::uncatalogued(&words))
@@ -71,12 +71,12 @@ pub(crate) fn solution(error: &(impl Diagnose + Display)) -> PyErr {
     with(SolutionError::new_err(error.to_string()), &error.diagnostic())
 }
 
-/// A wrong question, or a model without a solution.
+/// An invalid request, or a model without a solution.
 pub(crate) fn refused(is_of_question: bool, error: &(impl Diagnose + Display)) -> PyErr {
     if is_of_question { question(error.to_string()) } else { solution(error) }
 }
 
-/// A wrong model. Its problems are those of `lissom check --json`.
+/// An invalid model. Its problems are those of `lissom check --json`.
 pub(crate) fn of_report(report: &Report) -> PyErr {
     let error = ModelError::new_err(format!("\n{}{report}", report.render(false)));
     let problems = report.to_value();

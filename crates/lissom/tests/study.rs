@@ -65,7 +65,7 @@ fn condition_numbers_over_the_step_size() {
     assert_flat(&column(&rows, "physical"));
 }
 
-/// Least and largest of what `docs/measured.md` prints of them.
+/// Smallest and largest of the figures in `docs/measured.md`.
 #[test]
 fn condition_numbers_are_those_of_the_readme() {
     let rows = measured(&conditioning::Request {

@@ -6,7 +6,7 @@ use lissom::core::system::WORTH_WHILE;
 use lissom::{Model, Session};
 use lissom_model::lower::lower;
 
-/// A chain of bodies on spherical joints, one more than makes a second thread worth while.
+/// A chain of bodies on spherical joints, one more than the number at which a second thread is used.
 fn chain() -> String {
     let mut text = String::from(
         "lissom = 1\ngravity = [0, 0, -9.81]\n[analysis]\nkind = \"dynamics\"\nscheme = \"generalized-alpha\"\nend = 0.003\nstep = 1e-3\n",

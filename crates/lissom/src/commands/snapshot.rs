@@ -83,10 +83,10 @@ pub(super) struct Snapshot {
     quiet: bool,
 }
 
-/// Longest moving picture [s], and pictures of it in a second.
+/// Maximum duration of an animation [s], and number of its pictures per second.
 const MAX_SECONDS: f64 = 30.0;
 const PICTURES_PER_SECOND: f64 = 20.0;
-/// Most shapes of natural modes on a sheet.
+/// Maximum number of shapes of natural modes on a sheet.
 const MAX_SHAPES: usize = 20;
 
 /// Directions of view on the command line.

@@ -141,7 +141,7 @@ fn what_is_drawn_lies_where_the_table_says() {
                 );
             }
         }
-        // To the right, above and towards the one who looks are a right-handed system.
+        // The directions to the right, upward and towards the viewer are a right-handed system.
         let [x, y, z] = [0, 1, 2].map(|k| Vector3::ith(k, 1.0));
         let column = |v: &Vector3| {
             let [right, above] = projection.flat(v);

@@ -258,7 +258,7 @@ fn a_wheel_that_would_slide_or_lift_is_reported() {
     assert!(warnings(&hanging).contains(&"wheel-lifts".to_owned()));
 }
 
-/// A disc that lies nearly flat and precesses steadily turns at 3 rad/s, but its point of contact runs round at 62 rad/s: steps of
+/// A disc that lies nearly flat and precesses steadily turns at 3 rad/s, but its point of contact travels at 62 rad/s: steps of
 /// Steps of 10 ms resolve the one and not the other, which is reported; shorter and adaptive ones give no warning.
 #[test]
 fn a_point_of_contact_that_runs_round_in_few_steps_is_reported() {
