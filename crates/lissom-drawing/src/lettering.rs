@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
-/// A part of DejaVu Sans (free to be used and given on, see `DejaVuSans-LICENSE`).
+/// A part of DejaVu Sans (free to use and redistribute, see `DejaVuSans-LICENSE`).
 static FONT: &[u8] = include_bytes!("DejaVuSans-subset.ttf");
 
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::parse(FONT, 0).ok());

@@ -1,4 +1,4 @@
-//! The analyses around motion: each gives the texts of the files that its command leaves, so that Python reads the same bits.
+//! Analyses without time integration: each returns the texts of its command's files, so that Python reads identical values.
 
 use std::str::FromStr;
 
@@ -18,7 +18,7 @@ use crate::model::NativeModel;
 use crate::results::{Parts, json, parts};
 use crate::watch::{Watch, interruptible};
 
-/// Names and texts of files, the summary as JSON, and what is to be doubted.
+/// Names and texts of files, the summary as JSON, and warnings.
 pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
 
 fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[String]) -> Files {
@@ -45,7 +45,7 @@ fn of_frequency(error: &FrequencyError) -> PyErr {
     }
 }
 
-/// What is asked of `modes`.
+/// The request for `modes`.
 pub(crate) fn mode_request(
     count: Option<usize>,
     state: Option<&str>,
@@ -68,7 +68,7 @@ fn of_linear(
     (found.files.clone(), json(&found.summary(name, overrides, document)), found.warnings.clone())
 }
 
-/// The linear model where `session` is, as files.
+/// The linear model at the state of `session`, as files.
 pub(crate) fn linearize_here(
     session: &Session,
     model: &NativeModel,

@@ -1,4 +1,4 @@
-//! The page that shows a moving model: what `lissom view` writes, as a text.
+//! The page of an animation, as written by `lissom view`, as a text.
 
 use std::io::{self, Write};
 use std::num::NonZero;

@@ -31,7 +31,7 @@ create_exception!(
      run failed, a `lissom.Result`; None otherwise."
 );
 
-/// What every exception has, where it knows nothing: so that nobody need ask whether it is there.
+/// Attributes of every exception, with their defaults, so that they always exist.
 pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let py = module.py();
     let all = [

@@ -1,5 +1,5 @@
-//! The compiled part of the Python package `lissom`. The package itself, in `python/`, holds what users see; here are the
-//! classes and functions it is made of. No mechanics is done here.
+//! The compiled part of the Python package `lissom`. The package itself, in `python/`, contains what users see; the
+//! classes and functions that it uses are here.
 
 mod analyses;
 mod animation;

@@ -1,4 +1,4 @@
-//! A model: its text with overrides, checked when it is made.
+//! A model: its text with overrides, checked when it is created.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -38,14 +38,14 @@ impl NativeModel {
         self.model.document(&self.overrides).map_err(|report| of_report(&report))
     }
 
-    /// A number that distinguishes models by all they are made of: text, values put into it, included files.
+    /// A number that distinguishes models by all their inputs: text, overrides, included files.
     pub(crate) fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         (self.model.text(), &self.overrides, self.model.included(), lissom::VERSION).hash(&mut hasher);
         hasher.finish()
     }
 
-    /// Rejects a model whose analysis has no course in time.
+    /// Rejects a model whose analysis has no time history.
     pub(crate) fn in_time(document: &Document) -> PyResult<()> {
         match document.analysis.kind {
             AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => Ok(()),
@@ -54,7 +54,7 @@ impl NativeModel {
     }
 }
 
-/// So many threads, or one per processor.
+/// This number of threads, or one per processor.
 pub(crate) fn threads_or_all(threads: Option<NonZero<usize>>) -> NonZero<usize> {
     threads.unwrap_or_else(|| std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN))
 }
@@ -180,7 +180,7 @@ impl NativeModel {
 }
 
 impl NativeModel {
-    /// A session at its start, or why there is none; and the facts that are known of it.
+    /// A session at its start, or the reason for its absence; and the known contents of the summary.
     fn start(&self, threads: Option<NonZero<usize>>) -> PyResult<(Result<Session, PyErr>, Summary)> {
         let document = self.document()?;
         let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
@@ -197,7 +197,7 @@ impl NativeModel {
     }
 }
 
-/// Runs a session to its end, and says why it failed, if it did.
+/// Runs a session to its end, and returns the reason if it failed.
 fn solve(
     session: &mut Session,
     summary: &mut Summary,

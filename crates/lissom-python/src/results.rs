@@ -1,4 +1,4 @@
-//! Results as Python takes them: arrays by name, made without a copy, and the summary as JSON.
+//! Results for Python: arrays by name, created without a copy, and the summary as JSON.
 
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use crate::errors;
 pub(crate) type Parts<'py> =
     (Bound<'py, PyArray1<f64>>, Vec<String>, Vec<String>, Vec<Bound<'py, PyArray1<f64>>>, String);
 
-/// Hands the numbers over.
+/// Converts the numbers.
 pub(crate) fn parts(py: Python<'_>, record: Record, summary: String) -> Parts<'_> {
     let Record { columns, times, values } = record;
     let names = columns.iter().map(lissom::Column::name).collect();

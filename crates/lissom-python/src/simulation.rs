@@ -1,4 +1,4 @@
-//! A simulation that Python takes step by step.
+//! A simulation that Python advances step by step.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -37,7 +37,7 @@ struct Inner {
     session: Session,
     values: Vec<f64>,
     are_current: bool,
-    /// How many of the session's warnings Python was given.
+    /// Number of the session's warnings that Python has received.
     reported: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Sweeps: the members of a sweep file over a model, all here or some of them for a cluster.
+//! Sweeps: the members of a sweep file over a model, all in this process or some of them for a cluster.
 
 use std::num::NonZero;
 use std::path::PathBuf;
@@ -21,8 +21,8 @@ pub(crate) struct NativeSweep {
     sweep: Sweep,
 }
 
-/// An outcome as Python takes it: member, state, collected values, time, steps, largest violation, diagnosis, histories as a
-/// Parquet file.
+/// An outcome for Python: member, state, collected values, time, steps, largest violation, diagnosis, histories as a Parquet
+/// file.
 type Outcome =
     (usize, &'static str, Vec<f64>, Option<f64>, usize, Option<f64>, Option<String>, Option<Vec<u8>>);
 
@@ -123,7 +123,7 @@ impl NativeSweep {
             let (found, count) = (outcomes.len(), self.sweep.len() as f64);
             let mut keep = |outcome: MemberOutcome| {
                 folder.append(&outcome).map_err(|error| of_file(&error))?;
-                // Histories are in their files now.
+                // Histories are already in their files.
                 outcomes.push(MemberOutcome { history: None, ..outcome });
                 Ok::<(), PyErr>(())
             };
@@ -134,7 +134,7 @@ impl NativeSweep {
             outcomes.sort_by_key(|outcome| outcome.member);
             if ended.is_continue() {
                 let mut summary = Summary::new();
-                // Names and numbers can be said in JSON.
+                // Names and numbers are valid JSON.
                 let _ = summary.insert("model", self.sweep.model_name());
                 let _ = summary.insert("version", lissom::VERSION);
                 let _ = summary.insert("members", outcomes.len());

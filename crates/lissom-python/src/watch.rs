@@ -1,4 +1,4 @@
-//! Looks after Python while the interpreter lock is released: Ctrl-C, and a function that receives the progress.
+//! Handles Python while the interpreter lock is released: Ctrl-C, and a function that receives the progress.
 
 use std::ops::ControlFlow;
 use std::panic::resume_unwind;
@@ -11,14 +11,14 @@ use std::time::{Duration, Instant};
 use lissom::core::interrupt;
 use pyo3::prelude::*;
 
-/// How often Python is asked.
+/// Interval of calls of Python.
 const EVERY: Duration = Duration::from_millis(50);
 
-/// Stack of a thread that works for Python, as large as that of a main thread.
+/// Stack of a worker thread, as large as that of a main thread.
 const STACK: usize = 8 << 20;
 
-/// Does work that asks nothing on its way, with the interpreter lock released. It is done in another thread, so that this one can
-/// look for Ctrl-C, which raises at once. The work is then asked to end, which it does within a moment.
+/// Runs non-interactive work with the interpreter lock released, in another thread, so that this one can check for Ctrl-C, which
+/// raises at once. The work is then cancelled, and ends within a moment.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> PyResult<T> + Send + 'static,
@@ -27,7 +27,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
         let (sender, receiver) = mpsc::channel();
         let given_up = Arc::new(AtomicBool::new(false));
         let asked_of_work = Arc::clone(&given_up);
-        // Where nobody waits any more, there is no receiver.
+        // If the caller no longer waits, there is no receiver.
         let begun = thread::Builder::new().name("lissom".to_owned()).stack_size(STACK).spawn(move || {
             let _ = sender.send(interrupt::within(asked_of_work, work));
         });
@@ -41,7 +41,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
                 Err(RecvTimeoutError::Disconnected) => break,
             }
         }
-        // The sender is gone without a word: the work met a defect of the program.
+        // The sender was dropped without a result: the work met a defect of the program.
         match worker.join() {
             Err(defect) => resume_unwind(defect),
             Ok(()) => Err(crate::errors::SolutionError::new_err("the work ended without a result")),
@@ -49,7 +49,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     })
 }
 
-/// Raises what Python has to raise, as for Ctrl-C.
+/// Raises pending Python exceptions, such as that of Ctrl-C.
 fn asked() -> PyResult<()> {
     Python::attach(|py| {
         py.check_signals()?;
@@ -57,7 +57,7 @@ fn asked() -> PyResult<()> {
     })
 }
 
-/// What is asked now and then.
+/// Calls Python at intervals.
 pub(crate) struct Watch<'a> {
     progress: Option<&'a Py<PyAny>>,
     asked: Instant,
@@ -65,12 +65,13 @@ pub(crate) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// `progress` is called with two numbers: how much is done, and of how much.
+    /// `progress` is called with two numbers: the work done, and the total.
     pub(crate) fn new(progress: Option<&'a Py<PyAny>>) -> Self {
         Self { progress, asked: Instant::now(), raised: None }
     }
 
-    /// Whether to go on. Where Python raises an exception, as for Ctrl-C, it is kept for [`finish`](Self::finish).
+    /// Whether to continue. If Python raises an exception, such as that of Ctrl-C, it is stored for
+    /// [`finish`](Self::finish).
     pub(crate) fn ask(&mut self, done: f64, all: f64) -> ControlFlow<()> {
         if self.raised.is_some() {
             return ControlFlow::Break(());
@@ -92,7 +93,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Raises what was raised.
+    /// Raises the stored exception.
     pub(crate) fn finish(self) -> PyResult<()> {
         self.raised.map_or(Ok(()), Err)
     }

@@ -277,7 +277,7 @@ impl Builder {
             if self.start_values.is_some() {
                 joint = unset;
             } else {
-                // Initial values determine the zero of the coordinates: the tip's point stays at the joint's
+                // Initial values determine the zero of the coordinates: the tip's point remains at the joint's
                 // location, and the base's frame moves back.
                 let back = unset.initial().1.position - joint.initial().1.position;
                 base = base * Motion::translation(back);

@@ -141,7 +141,7 @@ impl LoadControl {
         self.size >= self.least
     }
 
-    /// Records a step of that length, accepted after so many iterations.
+    /// Records a step of that length, accepted after this number of iterations.
     fn accept(&mut self, size: f64, iterations: usize, (missing, tolerance): (f64, f64), tuning: &Tuning) {
         let ease = EASY / iterations.max(1) as f64;
         // The missing fraction grows with the square of the length.

@@ -58,7 +58,7 @@ pub enum SnapshotError {
     /// It was taken of another model, or with another scheme.
     #[error("the snapshot belongs to another model or scheme ({found}): restore it where it was taken")]
     OtherModel {
-        /// What it belongs to.
+        /// Description of the snapshot's model and scheme.
         found: String,
     },
     /// The tangent in use cannot be factorised again.

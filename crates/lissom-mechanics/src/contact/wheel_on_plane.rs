@@ -142,7 +142,7 @@ mod tests {
 
     use super::*;
 
-    /// Rims as many spheres, at so many angles about the axis.
+    /// Number of spheres that represent a rim, at equal angles about the axis.
     const SPHERES: usize = 20_000;
 
     /// Smallest height of the rim over the plane, and its lowest position relative to the wheel's centre, in the tip's

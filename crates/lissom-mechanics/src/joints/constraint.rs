@@ -4,7 +4,7 @@
 //! Legend: q positions of the local unknowns, v their rates, c violations, μ multipliers.
 //!
 //! ```text
-//! c(q, t) = 0,      ċ = B v + ∂c/∂t,      c̈ = B v̇ + (what `acceleration` gives),      forces Bᵀ μ
+//! c(q, t) = 0,      ċ = B v + ∂c/∂t,      c̈ = B v̇ + (result of `acceleration`),      forces Bᵀ μ
 //! ```
 //!
 //! Local unknowns are those of the constraint's ports, in their order: six body variations of a node, or one

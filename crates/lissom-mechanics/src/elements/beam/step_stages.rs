@@ -1,4 +1,4 @@
-//! A beam's forces at the stages of a step, with strains integrated from their rates. See `step` for the
+//! A beam's forces at the stages of a step, with strains integrated from their rates. See `kinematics::step_stages` for the
 //! formulas; σ_j are the twists of the nodes relative to the reference node.
 
 use lissom_motion::{

@@ -5,7 +5,7 @@
 //! f_q(ω) centrifugal modal forces.
 //!
 //! ```text
-//! b = u - Σ N_k w_k - F_q f_q(ω)                       what the part bends besides its elongation
+//! b = u - Σ N_k w_k - F_q f_q(ω)                       bending without elongation
 //! H_k = (6/5) v²/ℓ - (1/5) v·t + (2/15) ℓ t²           shortening (twice) of a cubic from the frame to the displacement v and slope t
 //! H_j = ∫ρ φ_j² (ℓ/m) κ_j² q_j²,   κ_j⁴ = ω_j² m/(ℓ EI),   EI = ℓ³/(3 λ),   λ largest transverse flexibility
 //! part = (Σ |N_k| H_k + Σ |N_k| Σ_j H_j + ω² b·M b) / (b·K b)

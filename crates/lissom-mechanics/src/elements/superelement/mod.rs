@@ -22,7 +22,7 @@
 //!
 //! ```text
 //! force on i   E_iᵀ (ṗ_i + ω_f × p_i),     moment on i   E_iᵀ (ṗ_i + (ω_f - E_i ω_i) × p_i),     on q   ṗ_q
-//! moment on f, besides:   Σ (E_i v_i) × p_i + (E_i ω_i) × p_i    with p_i of force, and of moment
+//! additional moment on f:  Σ (E_i v_i) × p_i + (E_i ω_i) × p_i    with p_i of force, and of moment
 //! ```
 
 mod build;

@@ -1,4 +1,4 @@
-//! The entries of a model, one type per kind. The files beside this one are made of the program's own tables.
+//! The entries of a model, one type per kind. The other files of this folder are generated from the program's tables.
 
 #![allow(clippy::doc_markdown, reason = "the words are those of the tables")]
 
