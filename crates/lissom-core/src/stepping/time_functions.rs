@@ -2,7 +2,7 @@
 //! period, appears in no residual and in no error estimate: it would be ignored or misinterpreted without notice. The same
 //! applies to a jump that no line of time under `step` or `sign` reports.
 //!
-//! A function is determined by the ends of an interval if the cubic through values and slopes there reproduces its values in between:
+//! A function is determined by the ends of an interval if the cubic through values and slopes there reproduces its values:
 //!
 //! ```text
 //! |f(t) - H(t)| ≤ DEPARTURE · max |f|
