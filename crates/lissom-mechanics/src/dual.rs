@@ -151,6 +151,14 @@ impl<const N: usize> Neg for Dual<N> {
     }
 }
 
+/// The angle of the point (x, y): its derivative is (x δy - y δx)/(x² + y²).
+pub fn arc_tangent_of_ratio<T: Number>(y: T, x: T) -> T {
+    let (b, a) = (y.value(), x.value());
+    let square = a * a + b * b;
+    // The values of both terms cancel: only derivatives remain.
+    (y.scaled(a / square) - x.scaled(b / square)).composed(b.atan2(a), 1.0)
+}
+
 /// Three components.
 pub type Three<T> = [T; 3];
 

@@ -3,12 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use lissom_core::analysis::accumulated::{AcceptedStep, Accumulated};
-use lissom_core::kinematics::Kinematics;
+use lissom_core::kinematics::{CarriedFrame, Kinematics};
 use lissom_core::system::ElementId;
 use lissom_motion::{Rotation, Vector3};
 
-use crate::channels::Place;
-use crate::observers::Observer;
+use crate::outputs::Location;
 
 /// Work of what acts on a model.
 pub(crate) struct Work {
@@ -52,8 +51,8 @@ const MIN_COSINE: f64 = 1e-3;
 /// that the angular velocity gives.
 pub(crate) struct AngleAboutAxis {
     pub(crate) name: String,
-    pub(crate) place: Place,
-    pub(crate) observer: Observer,
+    pub(crate) location: Location,
+    pub(crate) observer: CarriedFrame,
     /// In the observer's axes.
     pub(crate) axis: Vector3,
     /// Rotation of the node in the observer's axes at the start.
@@ -72,9 +71,9 @@ struct Turned {
 impl AngleAboutAxis {
     fn turned(&self, at: &Kinematics) -> Turned {
         let own = self.observer.frame(at).rotation;
-        let [scalar, x, y, z] =
-            (own.inverse() * self.place.frame(at).rotation * self.start.inverse()).quaternion();
-        let relative = self.place.velocity(at).1 - at.nodes[self.observer.node].angular_velocity();
+        let node = self.location.motion(at);
+        let [scalar, x, y, z] = (own.inverse() * node.frame.rotation * self.start.inverse()).quaternion();
+        let relative = node.angular_velocity() - at.nodes[self.observer.node].angular_velocity();
         let rate = self.axis.dot(&own.apply_inverse(&relative));
         Turned { scalar, vector: Vector3::new(x, y, z), rate }
     }

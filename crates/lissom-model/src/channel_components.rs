@@ -30,7 +30,6 @@ pub(crate) fn components(
                 coordinates.map(|&coordinate| effort(system, coordinate)).unzip();
             (numbered(&words), units)
         }
-        (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
         (OutputKind::RelativeAcceleration, Source::Accelerations(owners)) => {
             let of = |&(joint, own): &(usize, usize)| system.joints()[joint].coordinates[own];
             accelerations(owners.iter().map(of).collect(), system)
@@ -41,18 +40,35 @@ pub(crate) fn components(
         (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
             words(&[("rotation", "rad"), ("rate", "rad/s"), ("moment", "N m")])
         }
-        (OutputKind::Line, Source::Line(places)) => {
-            let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
-            (0..places.len()).flat_map(of).unzip()
-        }
-        (OutputKind::Modal, Source::Modal(unknowns)) => {
-            let of = |k: usize| ["q", "v"].map(|letter| (format!("{letter}{k}"), ""));
-            (1..=unknowns.coordinates().len()).flat_map(of).unzip()
-        }
         (OutputKind::Recovered, Source::Recovered(_, matrix)) => {
             (1..=matrix.nrows()).map(|k| (format!("r{k}"), "")).unzip()
         }
-        _ => words(kind.components()),
+        _ => {
+            components_of_motion(kind, source, &|coordinate| system.layout().coordinate_quantity(coordinate))
+        }
+    }
+}
+
+/// Names and units of the components of a source that needs nothing but the motion.
+pub(crate) fn components_of_motion(
+    kind: OutputKind,
+    source: &Source,
+    quantity: &dyn Fn(CoordinateId) -> Quantity,
+) -> (Vec<String>, Vec<&'static str>) {
+    match source {
+        Source::Coordinates(coordinates) => {
+            let quantities: Vec<Quantity> = coordinates.iter().map(|&own| quantity(own)).collect();
+            coordinate_components(&quantities).into_iter().map(|own| (own.name, own.unit)).unzip()
+        }
+        Source::Line(points) => {
+            let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
+            (0..points.len()).flat_map(of).unzip()
+        }
+        Source::Modal(unknowns) => {
+            let of = |k: usize| ["q", "v"].map(|letter| (format!("{letter}{k}"), ""));
+            (1..=unknowns.coordinates().len()).flat_map(of).unzip()
+        }
+        _ => kind.components().iter().map(|&(word, unit)| (word.to_owned(), unit)).unzip(),
     }
 }
 
@@ -71,13 +87,6 @@ fn accelerations(coordinates: Vec<CoordinateId>, system: &System) -> (Vec<String
         Quantity::Length | Quantity::State => "m/s²",
     };
     (numbered(&vec!["a"; coordinates.len()]), coordinates.into_iter().map(unit).collect())
-}
-
-/// Components of relative coordinates.
-fn relative(coordinates: &[CoordinateId], system: &System) -> (Vec<String>, Vec<&'static str>) {
-    let quantities: Vec<Quantity> =
-        coordinates.iter().map(|&own| system.layout().coordinate_quantity(own)).collect();
-    coordinate_components(&quantities).into_iter().map(|own| (own.name, own.unit)).unzip()
 }
 
 /// A value or a rate of a joint's coordinates, with the name that outputs, expressions and equations have for it.

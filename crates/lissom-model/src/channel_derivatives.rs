@@ -9,13 +9,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use lissom_core::joints::slider::Slider;
-use lissom_core::kinematics::{CoordinateId, GROUND, LOCKED, NodeId};
+use lissom_core::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, NodeId};
 use lissom_core::linear::{LinearModel, OutputDerivatives};
 use lissom_core::signals::Argument;
+use lissom_core::signals::measurement::Component;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
-use crate::channels::{Channel, Place, Source};
+use crate::channels::{Channel, Source};
 
 /// Angle, and part of a length, by which positions are moved: far above round-off, and its sixth power far below.
 const APART: f64 = 2e-3;
@@ -36,7 +37,11 @@ impl Channel {
     pub fn derivatives(&self, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
         let system = model.system();
         let layout = system.layout();
-        let touched = self.touched(system, model)?;
+        if let Some(measurements) = self.source.measurements() {
+            let outputs = measurements.iter().map(|own| derivatives_of(own, system, model.kinematics()));
+            return Some(outputs.map(|output| model.along_departures(output)).collect());
+        }
+        let touched = touched(&self.source, system, model)?;
         let state = State {
             kinematics: model.kinematics().clone(),
             multipliers: model.multipliers().to_vec(),
@@ -92,23 +97,15 @@ impl Channel {
         }
         Some(outputs.into_iter().map(|output| model.along_departures(output)).collect())
     }
-
-    fn touched(&self, system: &System, model: &LinearModel<'_>) -> Option<Touched> {
-        touched(&self.source, system, model)
-    }
 }
 
 fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<Touched> {
     let mut touched =
         Touched { nodes: BTreeSet::new(), coordinates: BTreeSet::new(), multipliers: 0..0, held: 0..0 };
     match source {
-        Source::Observed { inner, axes, relative_to } => {
-            touched = self::touched(inner, system, model)?;
-            let observers = axes.iter().chain(relative_to.iter().map(|(observer, _)| observer));
-            touched.nodes.extend(observers.map(|observer| observer.node));
-        }
-        Source::Place(place, _) => touched.nodes.extend(place.nodes()),
-        Source::Joint(index, _) | Source::RelativeMotion(index) | Source::Contact(index) => {
+        Source::BetweenNodes(section) => touched.nodes.extend(section.nodes()),
+        Source::Section(section) => touched.nodes.extend(section.nodes()),
+        Source::Joint(index, _) | Source::Contact(index) => {
             let joint = &system.joints()[*index];
             touched.nodes.extend(joint.frames.iter().chain(&joint.output_frames).map(|frame| frame.node));
             touched.coordinates.extend(&joint.coordinates);
@@ -116,8 +113,6 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.coordinates.extend(&joint.impulses);
             touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
         }
-        Source::Line(places) => touched.nodes.extend(places.iter().flat_map(Place::nodes)),
-        Source::Modal(unknowns) => touched.coordinates.extend(unknowns.coordinates()),
         Source::Recovered(unknowns, _) => {
             touched.nodes.extend(unknowns.nodes());
             touched.coordinates.extend(unknowns.coordinates());
@@ -145,7 +140,6 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.coordinates.extend(&coupling.coordinates);
             touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
         }
-        Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
         Source::FreeAccelerations(coordinates) => {
             touched.coordinates.extend(coordinates);
             let is_own = |slider: &&Slider| coordinates.contains(&slider.coordinate);
@@ -167,15 +161,41 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
         }
         // Several ranges of multipliers may meet in one expression.
         Source::Expression(..)
+        | Source::Measured(_)
+        | Source::Line(_)
+        | Source::Coordinates(_)
+        | Source::Modal(_)
+        | Source::Angle(_)
         | Source::Spring(..)
         | Source::Power(_)
         | Source::Accumulated(_)
         | Source::Energy
-        | Source::Momentum => {
+        | Source::Momentum(_) => {
             return None;
         }
     }
     Some(touched)
+}
+
+/// Derivatives of a component of a measurement, by row.
+fn derivatives_of(of: &Component, system: &System, at: &Kinematics) -> OutputDerivatives {
+    let layout = system.layout();
+    let nodes = of.of.nodes().iter().flat_map(|&node| layout.rows_of_node(node).iter().copied());
+    let coordinates = of.of.coordinates().iter().map(|&own| layout.row_of_coordinate(own) as u32);
+    let gradient = of.gradient(at);
+    let mut output = OutputDerivatives::default();
+    for (slot, row) in nodes.chain(coordinates).enumerate().filter(|&(_, row)| row != LOCKED) {
+        for (own, value) in [
+            (&mut output.by_place, gradient.by_place[slot]),
+            (&mut output.by_rate, gradient.by_rate[slot]),
+            (&mut output.by_acceleration, gradient.by_acceleration[slot]),
+        ] {
+            if value != 0.0 {
+                *own.entry(row as usize).or_insert(0.0) += value;
+            }
+        }
+    }
+    output
 }
 
 /// The smallest distance between two of several nodes [m].

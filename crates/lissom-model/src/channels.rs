@@ -3,26 +3,23 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
-use lissom_core::elements::quadrature::gauss_lobatto;
-use lissom_core::elements::shape::lagrange;
+use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::joints::attached::AttachedJoint;
 use lissom_core::joints::{Equations, MAX_COORDINATES};
-use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_core::signals::measurement::Measurement;
 use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{ElementId, State, System};
-use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, translation_part};
+use lissom_motion::{Rotation, rotation_part, translation_part};
 use nalgebra::DMatrix;
 
-use crate::document::{
-    Feature, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, Subject, interface_name,
-};
+use crate::document::{Feature, Output, OutputKind, OutputSource, ReactionAxes};
 use crate::expression::Formula;
 use crate::lower::Deformed;
-use crate::observers::{Observer, Seen};
+use crate::outputs::{self, BeamSection, Location, ObservedSection, Subjects};
 use crate::report::{Located, Problem};
-use crate::superelement_channels::{self, recovered};
+use crate::superelement_channels::recovered;
 use crate::sweep::Fatigue;
 
 /// One output: a name, its components, and how they are found.
@@ -63,28 +60,18 @@ pub fn signal_value(system: &System, at: &Kinematics, argument: Argument) -> f64
     }
 }
 
-/// A point that moves: carried by a node, or at a place in a beam element.
-#[derive(Clone)]
-pub(crate) enum Place {
-    Carried {
-        node: NodeId,
-        offset: Vector3,
-    },
-    /// With the element's nodes, and where on each of them the line of sections goes through.
-    OnBeam {
-        probe: Arc<dyn BeamProbe>,
-        xi: f64,
-        point: Vector3,
-        nodes: Vec<(NodeId, Vector3)>,
-    },
-}
-
 /// Where a channel's numbers come from.
 #[derive(Clone)]
 pub(crate) enum Source {
-    Place(Place, Motion),
+    /// Of a frame that a node carries.
+    Measured(Arc<dyn Measurement>),
+    /// Of a section between the nodes of a beam.
+    BetweenNodes(ObservedSection),
+    /// Forces or moments of a section.
+    Section(BeamSection),
+    /// An angle about an axis, before it is accumulated.
+    Angle(Location),
     Joint(usize, ReactionAxes),
-    RelativeMotion(usize),
     /// Of a wheel on a rail.
     Contact(usize),
     Drive(usize),
@@ -103,96 +90,24 @@ pub(crate) enum Source {
     /// What the simulation accumulates.
     Accumulated(usize),
     /// Places along a beam.
-    Line(Vec<Place>),
+    Line(Vec<Arc<dyn Measurement>>),
     /// Modal coordinates of a superelement.
     Modal(Arc<Deformation>),
     /// What a matrix makes of its unknowns.
     Recovered(Arc<Deformation>, Arc<DMatrix<f64>>),
     Energy,
-    Momentum,
+    /// In global axes, or in those of a frame.
+    Momentum(Option<CarriedFrame>),
     Signal(Argument),
     /// An expression of components of other channels.
     Expression(Formula, Vec<(Channel, usize)>),
-    /// A channel in other axes, or as seen from a frame that moves; with the frame at the start in the observer's.
-    Observed {
-        inner: Box<Source>,
-        axes: Option<Observer>,
-        relative_to: Option<(Observer, Motion)>,
-    },
-}
-
-impl Place {
-    /// Nodes that it depends on.
-    pub(crate) fn nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
-        let (one, several) = match self {
-            Self::Carried { node, .. } => (Some(*node), &[][..]),
-            Self::OnBeam { nodes, .. } => (None, nodes.as_slice()),
-        };
-        one.into_iter().chain(several.iter().map(|(node, _)| *node))
-    }
-
-    pub(crate) fn frame(&self, at: &Kinematics) -> Motion {
-        match self {
-            Self::Carried { node, offset } => at.nodes[*node].frame * Motion::translation(*offset),
-            Self::OnBeam { probe, xi, point, .. } => probe.frame_at(at, *xi) * Motion::translation(*point),
-        }
-    }
-
-    /// Velocity and angular velocity in global axes.
-    pub(crate) fn velocity(&self, at: &Kinematics) -> (Vector3, Vector3) {
-        match self {
-            Self::Carried { node, offset } => {
-                let node = &at.nodes[*node];
-                (node.velocity_at(offset), node.angular_velocity())
-            }
-            Self::OnBeam { probe, xi, point, .. } => {
-                let rotation = probe.frame_at(at, *xi).rotation;
-                let twist = probe.twist_at(at, *xi);
-                let angular = rotation_part(&twist);
-                (rotation.apply(&(translation_part(&twist) + angular.cross(point))), rotation.apply(&angular))
-            }
-        }
-    }
-
-    fn seen(&self, at: &Kinematics) -> Seen {
-        let (velocity, angular_velocity) = self.velocity(at);
-        Seen { frame: self.frame(at), velocity, angular_velocity, acceleration: self.acceleration(at) }
-    }
-
-    /// Acceleration in global axes; between a beam's nodes, those of the line and of its turning are interpolated from theirs.
-    fn acceleration(&self, at: &Kinematics) -> Vector3 {
-        match self {
-            Self::Carried { node, offset } => at.nodes[*node].acceleration_at(offset),
-            Self::OnBeam { probe, xi, point, nodes } => {
-                let weights: Vec<f64> = match nodes.len() {
-                    2 => lagrange::<2>(*xi).0.to_vec(),
-                    3 => lagrange::<3>(*xi).0.to_vec(),
-                    _ => lagrange::<4>(*xi).0.to_vec(),
-                };
-                let (mut line, mut turning) = (Vector3::zeros(), Vector3::zeros());
-                for ((node, offset), weight) in nodes.iter().zip(weights) {
-                    let node = &at.nodes[*node];
-                    line += weight * node.acceleration_at(offset);
-                    turning += weight * node.frame.rotation.apply(&rotation_part(&node.acceleration));
-                }
-                let rotation = probe.frame_at(at, *xi).rotation;
-                let arm = rotation.apply(point);
-                let spin = rotation.apply(&rotation_part(&probe.twist_at(at, *xi)));
-                line + turning.cross(&arm) + spin.cross(&spin.cross(&arm))
-            }
-        }
-    }
 }
 
 impl Channel {
     /// Appends the components' values.
     pub fn evaluate(&self, system: &System, state: &State, out: &mut Vec<f64>) {
-        self.evaluate_source(&self.source, system, state, out);
-    }
-
-    fn evaluate_source(&self, source: &Source, system: &System, state: &State, out: &mut Vec<f64>) {
         let at = &state.kinematics;
-        match source {
+        match &self.source {
             Source::Expression(formula, arguments) => {
                 let mut values = Vec::new();
                 let arguments: Vec<f64> = arguments
@@ -205,29 +120,15 @@ impl Channel {
                     .collect();
                 out.push(formula.value(at.time, &arguments, &[]));
             }
-            Source::Observed { inner, axes, relative_to } => {
-                let first = out.len();
-                match (relative_to, &**inner) {
-                    (Some((observer, start)), Source::Place(place, _)) => {
-                        let seen = place.seen(at).relative_to(observer, (self.kind, start), at);
-                        out.extend_from_slice(seen.as_slice());
-                    }
-                    (_, inner) => self.evaluate_source(inner, system, state, out),
-                }
-                let Some(axes) = axes else { return };
-                // What is seen from an observer is in its axes, all else in global ones.
-                let told_in =
-                    relative_to.map_or(Rotation::IDENTITY, |(observer, _)| observer.frame(at).rotation);
-                let axes = axes.frame(at).rotation;
-                for part in out[first..].chunks_exact_mut(3) {
-                    let vector = axes.apply_inverse(&told_in.apply(&Vector3::from_column_slice(part)));
-                    part.copy_from_slice(vector.as_slice());
-                }
-            }
-            Source::Place(place, start) => self.evaluate_place(place, start, at, out),
-            Source::RelativeMotion(index) => {
-                let Motion { rotation, position } = system.joints()[*index].output_motion(at);
-                out.extend(position.iter().chain(rotation.logarithm().iter()));
+            Source::Measured(measurement) => append(&**measurement, at, out),
+            Source::BetweenNodes(section) => out.extend_from_slice(&section.values(at)),
+            Source::Section(section) => {
+                let forces = section.forces(at);
+                let vector = match self.kind {
+                    OutputKind::SectionForce => translation_part(&forces),
+                    _ => rotation_part(&forces),
+                };
+                out.extend_from_slice(vector.as_slice());
             }
             Source::Contact(index) => evaluate_contact(&system.joints()[*index], state, out),
             Source::Joint(index, axes) => {
@@ -267,59 +168,31 @@ impl Channel {
                 out.extend(system.spring_motion(*element, at).unwrap_or([f64::NAN; 3]));
             }
             Source::Power(element) => out.push(system.power(*element, at)),
+            Source::Angle(_) => out.push(f64::NAN),
             Source::Accumulated(index) => out.push(*state.accumulated.get(*index).unwrap_or(&f64::NAN)),
             Source::DrivePower(index) => {
                 let drive = &system.drives()[*index];
                 let rate = at.coordinates[drive.prescribed.coordinate].rate;
                 out.push(-state.multipliers[drive.multiplier] * rate);
             }
-            Source::Line(places) => {
-                out.extend(places.iter().flat_map(|place| {
-                    let position = place.frame(at).position;
-                    [position.x, position.y, position.z]
-                }));
+            Source::Line(positions) => {
+                positions.iter().for_each(|own| append(&**own, at, out));
             }
             Source::Modal(unknowns) => out.extend(unknowns.modal(at).flatten()),
             Source::Recovered(unknowns, matrix) => out.extend(recovered(unknowns, matrix, at).iter()),
             Source::Signal(argument) => out.push(signal_value(system, at, *argument)),
-            Source::Momentum => {
+            Source::Momentum(axes) => {
                 let (linear, angular) = system.momentum(at);
-                out.extend(linear.iter().chain(angular.iter()));
+                let axes = axes.map_or(Rotation::IDENTITY, |axes| axes.frame(at).rotation);
+                for vector in [linear, angular] {
+                    out.extend_from_slice(axes.apply_inverse(&vector).as_slice());
+                }
             }
             Source::Energy => {
                 let energy = system.energy(at);
                 out.extend([energy.kinetic, energy.strain, energy.potential, energy.total()]);
             }
         }
-    }
-
-    fn evaluate_place(&self, place: &Place, start: &Motion, at: &Kinematics, out: &mut Vec<f64>) {
-        let vector = match self.kind {
-            OutputKind::Quaternion => {
-                let quaternion = place.frame(at).rotation.quaternion();
-                // Both signs mean the same axes.
-                let sign = if quaternion[0] < 0.0 { -1.0 } else { 1.0 };
-                out.extend(quaternion.map(|part| sign * part));
-                return;
-            }
-            OutputKind::CardanAngles => cardan_angles(&place.frame(at).rotation.matrix()),
-            OutputKind::Position => place.frame(at).position,
-            OutputKind::Displacement => place.frame(at).position - start.position,
-            OutputKind::Rotation => (place.frame(at).rotation * start.rotation.inverse()).logarithm(),
-            OutputKind::Velocity => place.velocity(at).0,
-            OutputKind::AngularVelocity => place.velocity(at).1,
-            OutputKind::Acceleration => place.acceleration(at),
-            _ => {
-                let Place::OnBeam { probe, xi, .. } = place else { return };
-                let forces = probe.section_forces_at(at, *xi);
-                if self.kind == OutputKind::SectionForce {
-                    translation_part(&forces)
-                } else {
-                    rotation_part(&forces)
-                }
-            }
-        };
-        out.extend_from_slice(vector.as_slice());
     }
 
     /// Whether it reports velocities, accelerations or forces of constraints. Forces in beams are those of their strains, and a
@@ -337,34 +210,26 @@ impl Channel {
     }
 }
 
-/// Angles of R = Rx(α) Ry(β) Rz(γ). Where cos β vanishes α and γ turn about the same axis; then γ is 0.
-fn cardan_angles(rotation: &Matrix3) -> Vector3 {
-    let cosine = rotation[(0, 0)].hypot(rotation[(0, 1)]);
-    let beta = rotation[(0, 2)].atan2(cosine);
-    if cosine < 1e-12 {
-        return Vector3::new(rotation[(2, 1)].atan2(rotation[(1, 1)]), beta, 0.0);
-    }
-    let alpha = (-rotation[(1, 2)]).atan2(rotation[(2, 2)]);
-    Vector3::new(alpha, beta, (-rotation[(0, 1)]).atan2(rotation[(0, 0)]))
-}
-
-/// Where the numbers of an output come from that is no expression. Places are given as the model is drawn; the motion
-/// starts from another state where the model was assembled.
+/// Source of an output that is no expression.
 pub(crate) fn source(
     output: &Output,
     system: &System,
-    (drawn, state): (&State, &State),
-    names: &Resolver<'_>,
+    state: &State,
+    subjects: &Subjects<'_>,
 ) -> Result<Source, Problem> {
-    Ok(match &output.source {
-        // Expressions name other outputs, which this one does not know.
-        OutputSource::Expression(formula) => Source::Expression(formula.value.clone(), Vec::new()),
-        OutputSource::Model if output.kind == OutputKind::Momentum => Source::Momentum,
-        OutputSource::Model => Source::Energy,
+    let names = subjects.names;
+    if let Some(source) = outputs::source(output, subjects)? {
+        return Ok(source);
+    }
+    match &output.source {
+        OutputSource::Model if output.kind == OutputKind::Momentum => {
+            let axes = output.seen_in.as_ref().map(|axes| outputs::carried_frame(axes, names)).transpose()?;
+            Ok(Source::Momentum(axes))
+        }
         OutputSource::Signal(name) => {
             names.signals.get(&name.value).map(|&of| Source::Signal(of)).ok_or_else(|| {
                 Problem::error(name.span, format!("there is no signal called `{}`", name.value))
-            })?
+            })
         }
         OutputSource::Spring(name) => {
             let known = names
@@ -374,18 +239,17 @@ pub(crate) fn source(
             known.map(|&(element, quantity)| Source::Spring(element, quantity)).ok_or_else(|| {
                 Problem::error(name.span, format!("spring `{}` has no elongation to record", name.value))
                     .help("name a spring between two points, or on a joint's coordinate")
-            })?
+            })
         }
-        OutputSource::Actor(name) => power_source(name, system, names)?,
-        OutputSource::Beam(name) => Source::Line(nodes_of(name, names)?),
-        OutputSource::Superelement(name) => superelement_channels::source(output.kind, name, names)?,
-        OutputSource::Joint(name) => joint_source(output, name, system, names)?,
-        OutputSource::Node { node, point } => {
-            let place = place(output, node, point.as_ref(), drawn, names)?;
-            let start = place.frame(&state.kinematics);
-            Source::Place(place, start)
-        }
-    })
+        OutputSource::Actor(name) => power_source(name, system, names),
+        OutputSource::Joint(name) => joint_source(output, name, system, names),
+        // Expressions name other outputs, which this one does not know.
+        OutputSource::Expression(formula) => Ok(Source::Expression(formula.value.clone(), Vec::new())),
+        OutputSource::Model
+        | OutputSource::Node { .. }
+        | OutputSource::Beam(_)
+        | OutputSource::Superelement(_) => Ok(Source::Energy),
+    }
 }
 
 /// The power of a spring, a load, a drive or the friction of a joint.
@@ -399,45 +263,26 @@ fn power_source(name: &Located<String>, system: &System, names: &Resolver<'_>) -
     })
 }
 
-/// The nodes of a beam as places on its axis.
-fn nodes_of(name: &Located<String>, names: &Resolver<'_>) -> Result<Vec<Place>, Problem> {
-    let unknown = || Problem::error(name.span, format!("there is no beam called `{}`", name.value));
-    let line = names.lines.get(&name.value).ok_or_else(unknown)?;
-    // A node may be another part's: the section has its place beside it.
-    let places = line.nodes.iter().zip(&line.offsets);
-    Ok(places.map(|(&node, offset)| Place::Carried { node, offset: offset.position }).collect())
-}
-
 fn joint_source(
     output: &Output,
     name: &Located<String>,
     system: &System,
     names: &Resolver<'_>,
 ) -> Result<Source, Problem> {
-    if matches!(output.kind, OutputKind::Relative | OutputKind::RelativeAcceleration) {
-        let coordinates = names.coordinates.get(&name.value).cloned().unwrap_or_default();
-        if coordinates.is_empty() {
-            let message = format!("joint `{}` has no relative coordinate to record", name.value);
-            return Err(Problem::error(name.span, message).help(
-                "name a joint that has one, such as a revolute, screw, planar, prismatic or point_on_line joint, \
-                 or a drive of one",
-            ));
+    if output.kind == OutputKind::RelativeAcceleration {
+        let coordinates = outputs::coordinates(name, names)?;
+        let is_free = |coordinate: &CoordinateId| {
+            system.joints().iter().all(|joint| !joint.coordinates.contains(coordinate))
+        };
+        if coordinates.iter().all(is_free) {
+            return Ok(Source::FreeAccelerations(coordinates));
         }
-        if output.kind == OutputKind::RelativeAcceleration {
-            let is_free = |coordinate: &CoordinateId| {
-                system.joints().iter().all(|joint| !joint.coordinates.contains(coordinate))
-            };
-            if coordinates.iter().all(is_free) {
-                return Ok(Source::FreeAccelerations(coordinates));
-            }
-            let owner = |coordinate: &CoordinateId| {
-                let place = |own: &[CoordinateId]| own.iter().position(|known| known == coordinate);
-                let mut joints = system.joints().iter().enumerate();
-                joints.find_map(|(joint, own)| Some((joint, place(&own.coordinates)?)))
-            };
-            return Ok(Source::Accelerations(coordinates.iter().filter_map(owner).collect()));
-        }
-        return Ok(Source::Coordinates(coordinates));
+        let owner = |coordinate: &CoordinateId| {
+            let place = |own: &[CoordinateId]| own.iter().position(|known| known == coordinate);
+            let mut joints = system.joints().iter().enumerate();
+            joints.find_map(|(joint, own)| Some((joint, place(&own.coordinates)?)))
+        };
+        return Ok(Source::Accelerations(coordinates.iter().filter_map(owner).collect()));
     }
     if let Some(index) = system.joints().iter().position(|joint| joint.name == name.value) {
         if output.kind == OutputKind::Contact && system.joints()[index].joint().rail_contact().is_none() {
@@ -445,12 +290,11 @@ fn joint_source(
             return Err(Problem::error(name.span, message).help("name a joint of kind `wheel_on_rail`"));
         }
         return Ok(match output.kind {
-            OutputKind::RelativeMotion => Source::RelativeMotion(index),
             OutputKind::Contact => Source::Contact(index),
             _ => Source::Joint(index, output.axes),
         });
     }
-    if matches!(output.kind, OutputKind::RelativeMotion | OutputKind::Contact) {
+    if output.kind == OutputKind::Contact {
         let message = format!("`{}` stands between no two nodes", name.value);
         return Err(Problem::error(name.span, message).help("name the joint that it acts on"));
     }
@@ -470,57 +314,6 @@ fn joint_source(
         .position(|drive| drive.name == name.value)
         .map(Source::Drive)
         .ok_or_else(|| Problem::error(name.span, format!("there is no joint called `{}`", name.value)))
-}
-
-fn place(
-    output: &Output,
-    node: &Located<NodeReference>,
-    point: Option<&Vector3>,
-    state: &State,
-    names: &Resolver<'_>,
-) -> Result<Place, Problem> {
-    let at = &state.kinematics;
-    let carried = |node: NodeId| {
-        let frame = at.nodes[node].frame;
-        let offset = point.map_or_else(Vector3::zeros, |point| frame.inverse_transform_point(point));
-        Place::Carried { node, offset }
-    };
-    let unknown = |name: &str| Problem::error(node.span, format!("there is no part called `{name}`"));
-    match &node.value {
-        NodeReference::Ground => Ok(carried(lissom_core::kinematics::GROUND)),
-        NodeReference::Body(name) | NodeReference::PointMass(name) => {
-            names.nodes.get(name).map(|&node| carried(node)).ok_or_else(|| unknown(name))
-        }
-        NodeReference::Interface { superelement, interface } => {
-            let name = interface_name(superelement, interface);
-            names.nodes.get(&name).map(|&node| carried(node)).ok_or_else(|| unknown(&name))
-        }
-        NodeReference::Beam { beam, fraction } => {
-            let line = names.lines.get(beam).ok_or_else(|| unknown(beam))?;
-            let of_section = output.kind.subject() == Subject::Section;
-            if let Some(node) = line.node_at(*fraction).filter(|_| !of_section) {
-                // The node may be another part's: take the section's place, not the node's.
-                let index = line.nodes.iter().position(|&other| other == node).unwrap_or(0);
-                let offset = line.offsets[index].position;
-                return Ok(match point {
-                    Some(_) => carried(node),
-                    None => Place::Carried { node, offset },
-                });
-            }
-            let (probe, xi) = line.locate(*fraction);
-            let frame = probe.frame_at(at, xi);
-            let element = line.elements.iter().position(|other| Arc::ptr_eq(other, probe)).unwrap_or(0);
-            let first = element * line.order;
-            Ok(Place::OnBeam {
-                probe: Arc::clone(probe),
-                xi,
-                point: point.map_or_else(Vector3::zeros, |point| frame.inverse_transform_point(point)),
-                nodes: (first..first + gauss_lobatto(line.order + 1).len())
-                    .map(|index| (line.nodes[index], line.offsets[index].position))
-                    .collect(),
-            })
-        }
-    }
 }
 
 /// Second derivative of a coordinate of a joint, by the joint and the place in it.
@@ -561,4 +354,9 @@ fn multipliers(joint: &AttachedJoint, state: &State) -> Equations {
     let first = joint.first_multiplier;
     mu[..joint.equations()].copy_from_slice(&state.multipliers[first..first + joint.equations()]);
     mu
+}
+
+/// Appends the components of a measurement.
+fn append(measurement: &dyn Measurement, at: &Kinematics, out: &mut Vec<f64>) {
+    out.extend_from_slice(&measurement.values(at)[..measurement.component_count()]);
 }

@@ -4,18 +4,16 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use lissom_core::analysis::accumulated::Accumulated;
+use lissom_core::kinematics::{CarriedFrame, GROUND};
 use lissom_core::system::{State, System};
-use lissom_motion::{Motion, Vector3};
+use lissom_motion::Vector3;
 
 use crate::accumulated::{Actor, AngleAboutAxis, Work};
 use crate::channel_components::{component_position, components};
 use crate::channels::{Channel, Resolver, Source, source};
-use crate::document::{
-    AnalysisKind, Document, Feature, NodeReference, Output, OutputKind, OutputSource, ReactionAxes,
-    interface_name,
-};
+use crate::document::{AnalysisKind, Document, Feature, Output, OutputKind, OutputSource, ReactionAxes};
 use crate::expression::Formula;
-use crate::observers::Observer;
+use crate::outputs::{Subjects, carried_frame};
 use crate::report::{Located, Problem, Span};
 use crate::suggest;
 
@@ -54,16 +52,28 @@ struct Made<'a> {
 impl Made<'_> {
     /// The channel of an output; `path` are the expressions that led to it.
     fn channel(&self, output: &Output, path: &mut Vec<String>) -> Result<Channel, Problem> {
-        let Self { system, drawn, state, names, .. } = *self;
         let source = match &output.source {
             OutputSource::Expression(formula) => self.expression(output, formula, path)?,
             _ if output.kind.has(Feature::Accumulated) => self.accumulated(output)?,
-            _ => source(output, system, (drawn, state), names)?,
+            _ => self.source(output)?,
         };
-        let (components, units) = components(output.kind, &source, system);
-        let source = self.observed(output, source)?;
+        let (components, units) = components(output.kind, &source, self.system);
         let (name, kind, fatigue) = (output.name.value.clone(), output.kind, output.fatigue);
         Ok(Channel { name, kind, components, units, fatigue, source })
+    }
+
+    fn source(&self, output: &Output) -> Result<Source, Problem> {
+        let joint_frames = |name: &str| {
+            let mut joints = self.system.joints().iter();
+            joints.find(|joint| joint.name == name).map(|joint| joint.output_frames)
+        };
+        let subjects = Subjects {
+            names: self.names,
+            drawn: &self.drawn.kinematics,
+            start: &self.state.kinematics,
+            joint_frames: &joint_frames,
+        };
+        source(output, self.system, self.state, &subjects)
     }
 
     /// A number that the simulation accumulates.
@@ -79,70 +89,25 @@ impl Made<'_> {
                 .help("leave it out, or use `dynamics` or `statics`"));
         }
         let name = output.name.value.clone();
-        let number: Arc<dyn Accumulated> =
-            match source(output, self.system, (self.drawn, self.state), self.names)? {
-                Source::Power(element) => Arc::new(Work { name, of: Actor::Element(element) }),
-                Source::DrivePower(drive) => Arc::new(Work { name, of: Actor::Drive(drive) }),
-                Source::Place(place, start) => {
-                    let ground = Observer { node: lissom_core::kinematics::GROUND, offset: Motion::IDENTITY };
-                    let observer = output.relative_to.as_ref().map(|node| self.observer(node)).transpose()?;
-                    let observer = observer.unwrap_or(ground);
-                    let own = observer.frame(at).rotation;
-                    let axis = output.axis.unwrap_or_else(Vector3::z);
-                    let axis =
-                        observer.frame(&self.drawn.kinematics).rotation.apply_inverse(&axis).normalize();
-                    let start = own.inverse() * start.rotation;
-                    Arc::new(AngleAboutAxis { name, place, observer, axis, start })
-                }
-                other => return Ok(other),
-            };
+        let number: Arc<dyn Accumulated> = match self.source(output)? {
+            Source::Power(element) => Arc::new(Work { name, of: Actor::Element(element) }),
+            Source::DrivePower(drive) => Arc::new(Work { name, of: Actor::Drive(drive) }),
+            Source::Angle(location) => {
+                let start = location.motion(at).frame;
+                let observer =
+                    output.relative_to.as_ref().map(|node| carried_frame(node, self.names)).transpose()?;
+                let observer = observer.unwrap_or(CarriedFrame::of_node(GROUND));
+                let own = observer.frame(at).rotation;
+                let axis = output.axis.unwrap_or_else(Vector3::z);
+                let axis = observer.frame(&self.drawn.kinematics).rotation.apply_inverse(&axis).normalize();
+                let start = own.inverse() * start.rotation;
+                Arc::new(AngleAboutAxis { name, location, observer, axis, start })
+            }
+            other => return Ok(other),
+        };
         let mut accumulated = self.accumulated.borrow_mut();
         accumulated.push(number);
         Ok(Source::Accumulated(accumulated.len() - 1))
-    }
-
-    fn observed(&self, output: &Output, inner: Source) -> Result<Source, Problem> {
-        if output.kind.has(Feature::Accumulated) || (output.seen_in.is_none() && output.relative_to.is_none())
-        {
-            return Ok(inner);
-        }
-        let observer =
-            |node: &Option<Located<NodeReference>>| node.as_ref().map(|node| self.observer(node)).transpose();
-        let axes = observer(&output.seen_in)?;
-        let relative_to = observer(&output.relative_to)?.map(|observer| {
-            let at = &self.state.kinematics;
-            let start = match &inner {
-                Source::Place(place, _) => place.frame(at).relative_to(&observer.frame(at)),
-                _ => Motion::IDENTITY,
-            };
-            (observer, start)
-        });
-        Ok(Source::Observed { inner: Box::new(inner), axes, relative_to })
-    }
-
-    fn observer(&self, node: &Located<NodeReference>) -> Result<Observer, Problem> {
-        let unknown = |name: &str| Problem::error(node.span, format!("there is no part called `{name}`"));
-        let (node, offset) = match &node.value {
-            NodeReference::Ground => (lissom_core::kinematics::GROUND, Motion::IDENTITY),
-            NodeReference::Body(name) | NodeReference::PointMass(name) => {
-                (*self.names.nodes.get(name).ok_or_else(|| unknown(name))?, Motion::IDENTITY)
-            }
-            NodeReference::Interface { superelement, interface } => {
-                let name = interface_name(superelement, interface);
-                (*self.names.nodes.get(&name).ok_or_else(|| unknown(&name))?, Motion::IDENTITY)
-            }
-            NodeReference::Beam { beam, fraction } => {
-                let line = self.names.lines.get(beam).ok_or_else(|| unknown(beam))?;
-                let found = line.node_at(*fraction).ok_or_else(|| {
-                    Problem::error(node.span, format!("beam `{beam}` has no node at {fraction}")).help(
-                        "name a node of the beam, such as its start or end, or change the number of elements",
-                    )
-                })?;
-                let index = line.nodes.iter().position(|&other| other == found).unwrap_or(0);
-                (found, line.offsets[index])
-            }
-        };
-        Ok(Observer { node, offset })
     }
 
     /// An expression of components of other outputs, of joints' coordinates, signals, inputs and states.

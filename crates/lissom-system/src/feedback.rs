@@ -23,7 +23,7 @@ use lissom_mechanics::evaluation::work::{power, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_mechanics::kinematics::step_stages::StepStages;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject};
-use lissom_mechanics::signals::measurement::Measurement;
+use lissom_mechanics::signals::measurement::Component;
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
 /// Maximum number of local unknowns of a load or state and its signal.
@@ -80,13 +80,13 @@ impl Driven {
         let own = rows.len();
         let measured: BTreeSet<usize> = graph.measurements_of(signal);
         for measurement in measured.into_iter().map(|index| &graph.measurements[index]) {
-            for &node in measurement.nodes() {
+            for &node in measurement.of.nodes() {
                 if !nodes.iter().any(|&(known, _)| known == node) {
                     nodes.push((node, rows.len()));
                     rows.extend_from_slice(layout.rows_of_node(node));
                 }
             }
-            for &coordinate in measurement.coordinates() {
+            for &coordinate in measurement.of.coordinates() {
                 if !coordinates.iter().any(|&(known, _)| known == coordinate) {
                     coordinates.push((coordinate, rows.len()));
                     rows.push(layout.row_of_coordinate(coordinate) as u32);
@@ -97,13 +97,7 @@ impl Driven {
     }
 
     /// Adds `factor` times a measurement's gradient to row `row` of the local matrices.
-    fn add_gradient(
-        &self,
-        measurement: &dyn Measurement,
-        at: &Kinematics,
-        factors: &[f64],
-        out: &mut Tangents,
-    ) {
+    fn add_gradient(&self, measurement: &Component, at: &Kinematics, factors: &[f64], out: &mut Tangents) {
         let gradient = measurement.gradient(at);
         let size = out.size();
         let mut from = 0;
@@ -117,12 +111,12 @@ impl Driven {
             }
             from += count;
         };
-        for node in measurement.nodes() {
+        for node in measurement.of.nodes() {
             if let Some(&(_, column)) = self.nodes.iter().find(|(known, _)| known == node) {
                 add(column, 6);
             }
         }
-        for coordinate in measurement.coordinates() {
+        for coordinate in measurement.of.coordinates() {
             if let Some(&(_, column)) = self.coordinates.iter().find(|(known, _)| known == coordinate) {
                 add(column, 1);
             }
@@ -148,7 +142,7 @@ impl Driven {
         }
         graph.differentiate(self.signal, at, values, |measurement, derivative| {
             let scaled = factors.map(|factor| derivative * factor);
-            self.add_gradient(&*graph.measurements[measurement], at, &scaled[..self.own], out);
+            self.add_gradient(&graph.measurements[measurement], at, &scaled[..self.own], out);
         });
     }
 }

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
-use lissom_core::kinematics::{CoordinateId, NodeId, Quantity, Subject};
+use lissom_core::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity, Subject};
 use lissom_core::registry::{Constant, ParameterType, Value};
 use lissom_core::signals::coordinate::{self, Coordinate};
-use lissom_core::signals::point::{self, Point};
-use lissom_core::signals::rotation::{self, Turn};
+use lissom_core::signals::frame_quantity::{FrameQuantity, Of};
+use lissom_core::signals::measurement::Component;
 use lissom_core::signals::{Argument, Sampling, Signal, SignalFunction};
 use lissom_core::system::Builder;
-use lissom_motion::Vector3;
+use lissom_motion::{Motion, Rotation};
 
 use super::configuration::{Configuration, Random, sample_parameters};
 use super::{check, joint_with, two_bodies, two_coordinates};
@@ -55,24 +55,34 @@ fn joint(builder: &mut Builder, nodes: [NodeId; 2], wanted: Quantity, random: &m
     builder.add_joint("joint", joint_with(wanted), &placement, &parameters).expect("valid")[0]
 }
 
+/// Quantities of frames that signals depend on.
+const MEASURED: [Of; 4] = [Of::Position, Of::Velocity, Of::Rotation, Of::AngularVelocity];
+
 /// Signals of everything that can be measured, one upon the other; the last one.
 fn graph(builder: &mut Builder, nodes: [NodeId; 2], own: CoordinateId, random: &mut Random) -> usize {
     let held = builder.add_held("input", 0.3);
     let sample = builder.add_held("sample", -0.2);
     let state = builder.add_state("state", 0.4, 1.0);
-    let axis = random.vector().normalize();
-    let frame = builder.initial_frame(nodes[1]);
-    let point = |of| Point::new(nodes[0], Vector3::new(0.3, -0.2, 0.5), axis, of);
-    let measured = [
+    let mut frame = |node| CarriedFrame {
+        node,
+        offset: Motion::new(Rotation::exponential(&random.vector()), random.vector()),
+    };
+    let observers = [None, Some(frame(nodes[1]))];
+    let axes = [None, Some(frame(nodes[0]))];
+    let [one, other] = [frame(nodes[0]), frame(nodes[1])];
+    let start = Motion::exponential(&random.screw());
+    let mut measured = vec![
         builder.add_measurement(Coordinate::new(own, coordinate::Of::Value)),
         builder.add_measurement(Coordinate::new(own, coordinate::Of::Rate)),
         builder.add_measurement(Coordinate::new(state, coordinate::Of::Value)),
-        builder.add_measurement(point(point::Of::PositionFrom(Vector3::x()))),
-        builder.add_measurement(point(point::Of::Velocity)),
-        builder.add_measurement(Turn::new(nodes[1], axis, rotation::Of::RotationFrom(frame.rotation))),
-        builder.add_measurement(Turn::new(nodes[1], axis, rotation::Of::AngularVelocity)),
-    ]
-    .map(Argument::Measured);
+    ];
+    for (index, &of) in MEASURED.iter().enumerate() {
+        let observer = observers[index % 2];
+        let own = if index % 3 == 0 { other } else { one };
+        let of = Arc::new(FrameQuantity::new(of, own, observer, axes[index / 2 % 2], start));
+        measured.push(builder.add_component(Component { of, component: index % 3 }));
+    }
+    let measured: Vec<Argument> = measured.into_iter().map(Argument::Measured).collect();
     let mut add = |arguments, sampling| builder.add_signal(signal(arguments, sampling)).expect("valid");
     let sampled = add(vec![measured[3]], Some(Sampling { held: sample, period: 0.1 }));
     let first = add(vec![measured[0], measured[4], Argument::Held(held)], None);

@@ -1,6 +1,6 @@
 //! Value or rate of a relative coordinate of a joint, or the value of a first-order state.
 
-use super::measurement::{Gradient, Measurement};
+use super::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 use crate::kinematics::{CoordinateId, Kinematics};
 
 /// Measured quantity of a coordinate.
@@ -31,15 +31,17 @@ impl Measurement for Coordinate {
         &self.coordinate
     }
 
-    fn value(&self, at: &Kinematics) -> f64 {
+    fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
         let coordinate = &at.coordinates[self.coordinate[0]];
-        match self.of {
+        let mut values = [0.0; MAX_COMPONENTS];
+        values[0] = match self.of {
             Of::Value => coordinate.value,
             Of::Rate => coordinate.rate,
-        }
+        };
+        values
     }
 
-    fn gradient(&self, _: &Kinematics) -> Gradient {
+    fn gradient(&self, _: usize, _: &Kinematics) -> Gradient {
         let mut gradient = Gradient::zero();
         match self.of {
             Of::Value => gradient.by_place[0] = 1.0,

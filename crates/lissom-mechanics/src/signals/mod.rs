@@ -12,9 +12,9 @@
 
 pub mod coordinate;
 pub mod event;
+pub mod frame_quantity;
 pub mod measurement;
-pub mod point;
-pub mod rotation;
+mod moving_frame;
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -22,7 +22,9 @@ use std::sync::Arc;
 
 use crate::instants;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject};
-use measurement::Measurement;
+use measurement::Component;
+
+pub use moving_frame::MovingFrame;
 
 pub use crate::kinematics::HeldId;
 /// Index of a signal.
@@ -113,9 +115,9 @@ pub struct SignalError {
 pub struct Graph {
     /// Signals, each after those on which it depends.
     pub signals: Vec<Signal>,
-    /// Measurements of the motion on which signals depend.
-    pub measurements: Vec<Box<dyn Measurement>>,
-    /// Names of the held values, and their initial values.
+    /// Measurements of the motion that signals depend on.
+    pub measurements: Vec<Component>,
+    /// Names of the held values, and what they are at the start.
     pub held: Vec<(String, f64)>,
     /// Events.
     pub events: Vec<event::Event>,
@@ -289,8 +291,8 @@ impl Graph {
             Argument::Signal(signal) => self.measurements_of(signal),
         };
         let of = || measurements.iter().map(|&measurement| &self.measurements[measurement]);
-        let nodes = of().flat_map(|measurement| measurement.nodes().iter().copied()).collect();
-        let coordinates = of().flat_map(|measurement| measurement.coordinates().iter().copied()).collect();
+        let nodes = of().flat_map(|measurement| measurement.of.nodes().iter().copied()).collect();
+        let coordinates = of().flat_map(|measurement| measurement.of.coordinates().iter().copied()).collect();
         (nodes, coordinates)
     }
 

@@ -1,14 +1,16 @@
 //! Components of outputs and of joints' coordinates that expressions name, as measurements.
 
-use lissom_core::kinematics::{CoordinateId, GROUND, NodeId};
+use lissom_core::kinematics::CoordinateId;
+use lissom_core::signals::MeasurementId;
 use lissom_core::signals::coordinate::Coordinate;
-use lissom_core::signals::{MeasurementId, point, rotation};
 use lissom_core::system::Builder;
-use lissom_motion::Vector3;
 
 use super::Names;
 use super::signals::relative_components;
-use crate::document::{Document, Feature, NodeReference, Output, OutputKind, OutputSource, interface_name};
+use crate::channel_components::{component_position, components_of_motion};
+use crate::document::{Document, Feature, Output, OutputKind, OutputSource};
+use crate::outputs::{Subjects, source};
+use crate::report::Problem;
 use crate::suggest;
 
 /// Why a name cannot be measured.
@@ -88,52 +90,36 @@ fn of_output(
     component: &str,
 ) -> Result<MeasurementId, Fault> {
     let owner = &output.name.value;
-    if output.seen_in.is_some() || output.relative_to.is_some() {
-        let message = format!("`{owner}` is expressed in moving axes, which signals cannot depend on");
-        return fault(message, Some("name an output without `in` and `relative_to`".to_owned()));
+    if output.kind == OutputKind::Signal {
+        let message = format!("output `{owner}` records a signal");
+        return fault(message, Some("name the signal itself".to_owned()));
     }
-    match output.kind {
-        OutputKind::Relative => {
-            let OutputSource::Joint(joint) = &output.source else {
-                return fault(format!("output `{owner}` belongs to no joint"), None);
-            };
-            let coordinates = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
-            return of_coordinates(owner, coordinates, builder, component);
-        }
-        OutputKind::Signal => {
-            let message = format!("output `{owner}` records a signal");
-            return fault(message, Some("name the signal itself".to_owned()));
-        }
-        kind if !kind.has(Feature::Measurable) => return not_measurable(owner, kind),
-        _ => {}
+    if !output.kind.has(Feature::Measurable) {
+        return not_measurable(owner, output.kind);
     }
-    let words = output.kind.components().iter().map(|(word, _)| (*word).to_owned());
-    let words: Vec<String> = words.collect();
-    let Some(index) = words.iter().position(|word| word == component) else {
-        return unknown_component(owner, component, &words);
+    let (start, resolver) = (builder.initial_kinematics(), names.resolver());
+    let joint_frames = |joint: &str| builder.output_frames(joint);
+    let subjects = Subjects { names: &resolver, drawn: &start, start: &start, joint_frames: &joint_frames };
+    let source = source(output, &subjects)?;
+    let Some((source, measurements)) =
+        source.and_then(|source| source.measurements().map(|measurements| (source, measurements)))
+    else {
+        let message = format!("`{owner}` lies between nodes of a beam");
+        let help = "measure at a node, such as the beam's start or end, or change the number of elements";
+        return fault(message, Some(help.to_owned()));
     };
-    let OutputSource::Node { node, point } = &output.source else {
-        return fault(format!("output `{owner}` belongs to no node"), None);
-    };
-    let (node, offset) = carried(owner, &node.value, point.as_ref(), builder, names)?;
-    let frame = builder.initial_frame(node);
-    let axis = Vector3::ith(index, 1.0);
-    let point = |of| point::Point::new(node, offset, axis, of);
-    Ok(match output.kind {
-        OutputKind::Rotation => {
-            let of = rotation::Of::RotationFrom(frame.rotation);
-            builder.add_measurement(rotation::Turn::new(node, axis, of))
-        }
-        OutputKind::AngularVelocity => {
-            builder.add_measurement(rotation::Turn::new(node, axis, rotation::Of::AngularVelocity))
-        }
-        OutputKind::Velocity => builder.add_measurement(point(point::Of::Velocity)),
-        OutputKind::Displacement => {
-            builder.add_measurement(point(point::Of::PositionFrom(frame.transform_point(&offset))))
-        }
-        OutputKind::Position => builder.add_measurement(point(point::Of::PositionFrom(Vector3::zeros()))),
-        kind => return not_measurable(owner, kind),
-    })
+    let quantity = |coordinate| builder.coordinate_quantity(coordinate);
+    let (known, _) = components_of_motion(output.kind, &source, &quantity);
+    match component_position(known.iter().map(String::as_str), component) {
+        Some(index) => Ok(builder.add_component(measurements[index].clone())),
+        None => unknown_component(owner, component, &known),
+    }
+}
+
+impl From<Problem> for Fault {
+    fn from(problem: Problem) -> Self {
+        Self { message: problem.message, help: problem.help }
+    }
 }
 
 fn not_measurable<T>(owner: &str, kind: OutputKind) -> Result<T, Fault> {
@@ -142,40 +128,4 @@ fn not_measurable<T>(owner: &str, kind: OutputKind) -> Result<T, Fault> {
     let words: Vec<&str> = measurable.map(OutputKind::name).collect();
     let help = format!("name a joint, or an output of one of these kinds: {}", words.join(", "));
     fault(message, Some(help))
-}
-
-/// The node that carries an output's place, and the place in its axes [m].
-fn carried(
-    owner: &str,
-    node: &NodeReference,
-    point: Option<&Vector3>,
-    builder: &Builder,
-    names: &Names,
-) -> Result<(NodeId, Vector3), Fault> {
-    let unknown = |name: &str| Fault { message: format!("there is no part called `{name}`"), help: None };
-    let at = |node: NodeId| {
-        point.map_or_else(Vector3::zeros, |point| builder.initial_frame(node).inverse_transform_point(point))
-    };
-    match node {
-        NodeReference::Ground => Ok((GROUND, at(GROUND))),
-        NodeReference::Body(name) | NodeReference::PointMass(name) => {
-            names.nodes.get(name).map(|&node| (node, at(node))).ok_or_else(|| unknown(name))
-        }
-        NodeReference::Interface { superelement, interface } => {
-            let name = interface_name(superelement, interface);
-            names.nodes.get(&name).map(|&node| (node, at(node))).ok_or_else(|| unknown(&name))
-        }
-        NodeReference::Beam { beam, fraction } => {
-            let line = names.lines.get(beam).ok_or_else(|| unknown(beam))?;
-            let Some(node) = line.node_at(*fraction) else {
-                let message = format!("`{owner}` lies between nodes of beam `{beam}`");
-                let help =
-                    "measure at a node, such as the beam's start or end, or change the number of elements";
-                return fault(message, Some(help.to_owned()));
-            };
-            // The node may be another part's: the section's place counts.
-            let index = line.nodes.iter().position(|&other| other == node).unwrap_or(0);
-            Ok((node, if point.is_some() { at(node) } else { line.offsets[index].position }))
-        }
-    }
 }

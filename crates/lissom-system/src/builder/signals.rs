@@ -1,12 +1,15 @@
 //! Adds held values, first-order states, measurements, signals and events, and loads scaled by a signal.
 
+use std::sync::Arc;
+
 use super::Builder;
 use crate::feedback::Target;
 use lissom_mechanics::elements::Contribution;
-use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::elements::initial_model::Coordinate;
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, CoordinateMotion, Kinematics};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::Event;
-use lissom_mechanics::signals::measurement::Measurement;
+use lissom_mechanics::signals::measurement::{Component, Measurement};
 use lissom_mechanics::signals::{Argument, HeldId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
 
 impl Builder {
@@ -25,13 +28,38 @@ impl Builder {
         state
     }
 
-    /// Adds a measurement.
+    /// Adds the first component of a measurement.
     pub fn add_measurement<M: Measurement + 'static>(&mut self, measurement: M) -> MeasurementId {
-        self.graph.measurements.push(Box::new(measurement));
+        self.add_component(Component { of: Arc::new(measurement), component: 0 })
+    }
+
+    /// Adds a component of a measurement.
+    pub fn add_component(&mut self, component: Component) -> MeasurementId {
+        self.graph.measurements.push(component);
         self.graph.measurements.len() - 1
     }
 
-    /// Adds a signal, after those to which it refers.
+    /// The frames of outputs of a joint between two nodes, base first.
+    pub fn output_frames(&self, joint: &str) -> Option<[CarriedFrame; 2]> {
+        let joint = self.constraints.joints.iter().find(|known| known.name == joint)?;
+        Some(joint.output_frames)
+    }
+
+    /// Motion of nodes and coordinates at the start, as far as they are added.
+    pub fn initial_kinematics(&self) -> Kinematics {
+        let coordinate =
+            |own: &Coordinate| CoordinateMotion { value: own.value, rate: own.rate, acceleration: 0.0 };
+        Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes: self.model.nodes.iter().map(|node| node.motion).collect(),
+            coordinates: self.model.coordinates.iter().map(coordinate).collect(),
+            held: Vec::new(),
+            multipliers: Vec::new(),
+        }
+    }
+
+    /// Adds a signal, after those that it names.
     ///
     /// # Errors
     /// If it refers to a later signal, or has too many arguments.
