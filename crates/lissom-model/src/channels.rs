@@ -176,7 +176,9 @@ impl Channel {
                 out.push(-state.multipliers[drive.multiplier] * rate);
             }
             Source::Line(positions) => {
-                positions.iter().for_each(|own| append(&**own, at, out));
+                for own in positions {
+                    append(&**own, at, out);
+                }
             }
             Source::Modal(unknowns) => out.extend(unknowns.modal(at).flatten()),
             Source::Recovered(unknowns, matrix) => out.extend(recovered(unknowns, matrix, at).iter()),

@@ -431,6 +431,7 @@ impl Builder {
             inertias,
             gravity: self.model.gravity,
             feedback,
+            readings: Vec::new(),
             functions: self.functions,
         };
         Ok((system, state))

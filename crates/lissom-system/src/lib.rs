@@ -5,6 +5,7 @@ mod builder;
 mod constraints;
 mod feedback;
 mod parameter_difference;
+mod reading;
 mod state;
 mod step_stages;
 
@@ -17,6 +18,7 @@ pub use lissom_mechanics::evaluation::threads::Threads;
 pub use lissom_mechanics::evaluation::{Blend, Linearization, Scratch, Sum, TangentAssembler, WORTH_WHILE};
 pub use lissom_mechanics::joints::Drive;
 pub use parameter_difference::ParameterDifference;
+pub use reading::{Quantity, Reading};
 pub use state::State;
 pub use step_stages::StepPoint;
 
@@ -75,6 +77,8 @@ pub struct System {
     pub gravity: Gravity,
     /// Signals and their targets.
     pub feedback: DrivenBatch,
+    /// Quantities that sampled signals depend on at samples alone.
+    pub readings: Vec<Reading>,
 }
 
 impl System {

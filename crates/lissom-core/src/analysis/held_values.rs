@@ -65,6 +65,16 @@ pub(super) fn settle(
     initial: &mut ConsistentInitialConditions,
     settings: &Settings,
 ) -> Result<(), InitialError> {
+    if system.has_readings() {
+        // Accelerations and multipliers that the first samples read are those without these samples.
+        system.signals().set_values_before_first_sample(&mut state.kinematics);
+        initial.set_state_rates(system, &mut state.kinematics);
+        initial.accelerations(system, state)?;
+        let readings: Vec<_> = system.take_readings(state).collect();
+        for (held, value) in readings {
+            state.kinematics.held[held] = value;
+        }
+    }
     system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
     initial.set_state_rates(system, &mut state.kinematics);
     initial.accelerations(system, state)?;

@@ -38,6 +38,11 @@ impl Simulation {
             return Ok(());
         }
         let mut at = self.state.kinematics.clone();
+        if self.system.has_readings() && graph.is_sample_due(at.time, elapsed) {
+            for (held, value) in self.system.take_readings(&self.state) {
+                at.held[held] = value;
+            }
+        }
         graph.sample(&mut at, elapsed).map_err(StepError::Signal)?;
         if at.held == self.state.kinematics.held {
             return Ok(());

@@ -119,6 +119,8 @@ pub struct Graph {
     pub measurements: Vec<Component>,
     /// Names of the held values, and what they are at the start.
     pub held: Vec<(String, f64)>,
+    /// Held values that are quantities of the state at samples.
+    pub readings: Vec<HeldId>,
     /// Events.
     pub events: Vec<event::Event>,
     /// Offsets of the sides of each signal's switches among the held values, after inputs and samples, and the end of
@@ -132,10 +134,11 @@ impl Graph {
         &self.signals
     }
 
-    /// Names of the inputs: held values that are not samples.
+    /// Names of the inputs: held values that are neither samples nor readings.
     pub fn input_names(&self) -> impl Iterator<Item = &str> {
         let is_input = |&held: &HeldId| {
-            !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
+            !self.readings.contains(&held)
+                && !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
         };
         (0..self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
     }
@@ -334,14 +337,25 @@ impl Graph {
     /// If a signal is not finite; all held values are then unchanged.
     pub fn begin(&self, at: &mut Kinematics) -> Result<(), SignalError> {
         let before = at.held.clone();
-        for Sampling { held, .. } in self.signals.iter().filter_map(|signal| signal.sampling) {
-            at.held[held] = self.held[held].1;
-        }
+        self.set_values_before_first_sample(at);
         let begun = self.sample(at, 0.0);
         if begun.is_err() {
             at.held = before;
         }
         begun
+    }
+
+    /// Whether a sample is due at `time` [s], `elapsed` [s] after the start.
+    pub fn is_sample_due(&self, time: f64, elapsed: f64) -> bool {
+        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
+        periods.into_iter().any(|period| is_due(time, elapsed, period))
+    }
+
+    /// Sets sampled signals to their values before the first sample.
+    pub fn set_values_before_first_sample(&self, at: &mut Kinematics) {
+        for Sampling { held, .. } in self.signals.iter().filter_map(|signal| signal.sampling) {
+            at.held[held] = self.held[held].1;
+        }
     }
 
     /// Takes the samples that are due `elapsed` [s] after the start. Signals are sampled in their order, so that a

@@ -40,9 +40,23 @@ pub(crate) enum Feature {
     Rates,
     /// It depends on the whole motion since the start.
     Accumulated,
-    /// Signals can depend on it.
-    Measurable,
 }
+
+/// When signals can depend on a kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Feeds {
+    /// At all times: its value and gradient follow from positions and velocities of a few nodes and coordinates.
+    Signals,
+    /// At samples, for this reason.
+    Samples(&'static str),
+}
+
+/// It follows from the solution of a step.
+const SOLUTION: Feeds = Feeds::Samples("it follows from the solution of a step");
+/// It is accumulated step by step.
+const ACCUMULATED: Feeds = Feeds::Samples("it is accumulated from step to step");
+/// It depends on the deformation of an element or the motion of the whole model.
+const WITHOUT_GRADIENT: Feeds = Feeds::Samples("it has no gradient for Newton's method");
 
 /// A recorded quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,6 +127,7 @@ struct Declaration {
     summary: &'static str,
     subject: Subject,
     features: &'static [Feature],
+    feeds: Feeds,
     components: &'static [OutputComponent],
 }
 
@@ -121,22 +136,24 @@ const fn declare(
     word: &'static str,
     subject: Subject,
     features: &'static [Feature],
+    feeds: Feeds,
     components: &'static [OutputComponent],
     summary: &'static str,
 ) -> Declaration {
-    Declaration { kind, word, summary, subject, features, components }
+    Declaration { kind, word, summary, subject, features, feeds, components }
 }
 
 /// All kinds, in the order of the enumeration and of the manual; keys of features are in the order given here.
 const KINDS: &[Declaration] = {
-    use Feature::{Accumulated, AngleAxis, Axes, Fatigue, JointAxes, Measurable, Observer, Point, Rates};
+    use Feature::{Accumulated, AngleAxis, Axes, Fatigue, JointAxes, Observer, Point, Rates};
     use OutputKind as Kind;
     &[
         declare(
             Kind::Position,
             "position",
             Subject::Node,
-            &[Observer, Axes, Point, Measurable],
+            &[Observer, Axes, Point],
+            Feeds::Signals,
             &[("x", "m"), ("y", "m"), ("z", "m")],
             "Place of a node or of a point it carries.",
         ),
@@ -144,7 +161,8 @@ const KINDS: &[Declaration] = {
             Kind::Displacement,
             "displacement",
             Subject::Node,
-            &[Observer, Axes, Point, Measurable],
+            &[Observer, Axes, Point],
+            Feeds::Signals,
             &[("u1", "m"), ("u2", "m"), ("u3", "m")],
             "Change of place since the start.",
         ),
@@ -152,7 +170,8 @@ const KINDS: &[Declaration] = {
             Kind::Rotation,
             "rotation",
             Subject::Node,
-            &[Observer, Axes, Measurable],
+            &[Observer, Axes],
+            Feeds::Signals,
             &[("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
             "Rotation vector since the start.",
         ),
@@ -160,7 +179,8 @@ const KINDS: &[Declaration] = {
             Kind::Quaternion,
             "quaternion",
             Subject::Node,
-            &[Measurable],
+            &[],
+            Feeds::Signals,
             &[("q0", ""), ("q1", ""), ("q2", ""), ("q3", "")],
             "Axes of a node as a unit quaternion, q0 not negative.",
         ),
@@ -168,7 +188,8 @@ const KINDS: &[Declaration] = {
             Kind::CardanAngles,
             "cardan_angles",
             Subject::Node,
-            &[Measurable],
+            &[],
+            Feeds::Signals,
             &[("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")],
             "Axes of a node as angles about x, the turned y and the twice turned z.",
         ),
@@ -177,6 +198,7 @@ const KINDS: &[Declaration] = {
             "angle",
             Subject::Node,
             &[AngleAxis, Observer, Accumulated],
+            ACCUMULATED,
             &[("angle", "rad")],
             "Angle of a node about an axis since the start, continued beyond half a turn.",
         ),
@@ -184,7 +206,8 @@ const KINDS: &[Declaration] = {
             Kind::Velocity,
             "velocity",
             Subject::Node,
-            &[Observer, Axes, Point, Rates, Measurable],
+            &[Observer, Axes, Point, Rates],
+            Feeds::Signals,
             &[("v1", "m/s"), ("v2", "m/s"), ("v3", "m/s")],
             "Velocity of a node or of a point it carries.",
         ),
@@ -192,7 +215,8 @@ const KINDS: &[Declaration] = {
             Kind::AngularVelocity,
             "angular_velocity",
             Subject::Node,
-            &[Observer, Axes, Rates, Measurable],
+            &[Observer, Axes, Rates],
+            Feeds::Signals,
             &[("w1", "rad/s"), ("w2", "rad/s"), ("w3", "rad/s")],
             "Angular velocity of a node.",
         ),
@@ -201,6 +225,7 @@ const KINDS: &[Declaration] = {
             "acceleration",
             Subject::Node,
             &[Observer, Axes, Point, Rates],
+            SOLUTION,
             &[("a1", "m/s²"), ("a2", "m/s²"), ("a3", "m/s²")],
             "Acceleration of a node or of a point it carries.",
         ),
@@ -209,6 +234,7 @@ const KINDS: &[Declaration] = {
             "section_force",
             Subject::Section,
             &[Fatigue],
+            WITHOUT_GRADIENT,
             &[("f1", "N"), ("f2", "N"), ("f3", "N")],
             "Axial and shear forces in a beam, local axes.",
         ),
@@ -217,6 +243,7 @@ const KINDS: &[Declaration] = {
             "section_moment",
             Subject::Section,
             &[Fatigue],
+            WITHOUT_GRADIENT,
             &[("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
             "Torsion and bending moments in a beam, local axes.",
         ),
@@ -224,7 +251,8 @@ const KINDS: &[Declaration] = {
             Kind::Line,
             "line",
             Subject::Beam,
-            &[Measurable],
+            &[],
+            Feeds::Signals,
             &[],
             "Places of all nodes of a beam along its axis, from its start to its end.",
         ),
@@ -232,7 +260,8 @@ const KINDS: &[Declaration] = {
             Kind::Modal,
             "modal",
             Subject::Superelement,
-            &[Measurable],
+            &[],
+            Feeds::Signals,
             &[],
             "Modal coordinates of a superelement and their rates, in the units of its matrices.",
         ),
@@ -241,6 +270,7 @@ const KINDS: &[Declaration] = {
             "recovered",
             Subject::Superelement,
             &[Fatigue],
+            WITHOUT_GRADIENT,
             &[],
             "Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation.",
         ),
@@ -249,6 +279,7 @@ const KINDS: &[Declaration] = {
             "reaction",
             Subject::Joint,
             &[JointAxes, Fatigue, Rates],
+            SOLUTION,
             &[("f1", "N"), ("f2", "N"), ("f3", "N"), ("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
             "Force and moment of a joint on its tip.",
         ),
@@ -256,7 +287,8 @@ const KINDS: &[Declaration] = {
             Kind::Relative,
             "relative",
             Subject::Joint,
-            &[Rates, Measurable],
+            &[Rates],
+            Feeds::Signals,
             &[],
             "Relative coordinate of a joint.",
         ),
@@ -265,6 +297,7 @@ const KINDS: &[Declaration] = {
             "relative_acceleration",
             Subject::Joint,
             &[Rates],
+            SOLUTION,
             &[],
             "Accelerations of a joint's relative coordinates.",
         ),
@@ -272,7 +305,8 @@ const KINDS: &[Declaration] = {
             Kind::RelativeMotion,
             "relative_motion",
             Subject::Joint,
-            &[Measurable],
+            &[],
+            Feeds::Signals,
             &[("x", "m"), ("y", "m"), ("z", "m"), ("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
             "Place and rotation vector of a joint's tip frame, in the axes of its base frame.",
         ),
@@ -281,6 +315,7 @@ const KINDS: &[Declaration] = {
             "contact",
             Subject::Joint,
             &[Rates],
+            SOLUTION,
             &[
                 ("wheel", "m"),
                 ("rail", "m"),
@@ -299,6 +334,7 @@ const KINDS: &[Declaration] = {
             "spring",
             Subject::Spring,
             &[Fatigue, Rates],
+            WITHOUT_GRADIENT,
             &[("elongation", "m"), ("rate", "m/s"), ("force", "N")],
             "Elongation or rotation of a spring, its rate, and its force or moment.",
         ),
@@ -307,6 +343,7 @@ const KINDS: &[Declaration] = {
             "power",
             Subject::Actor,
             &[Rates],
+            WITHOUT_GRADIENT,
             &[("power", "W")],
             "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.",
         ),
@@ -315,6 +352,7 @@ const KINDS: &[Declaration] = {
             "work",
             Subject::Actor,
             &[Accumulated],
+            ACCUMULATED,
             &[("work", "J")],
             "Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.",
         ),
@@ -323,6 +361,7 @@ const KINDS: &[Declaration] = {
             "energy",
             Subject::Model,
             &[Rates],
+            WITHOUT_GRADIENT,
             &[("kinetic", "J"), ("strain", "J"), ("potential", "J"), ("total", "J")],
             "Kinetic, strain, gravity and total energy of the model.",
         ),
@@ -331,6 +370,7 @@ const KINDS: &[Declaration] = {
             "momentum",
             Subject::Model,
             &[Axes, Rates],
+            WITHOUT_GRADIENT,
             &[("p1", "N s"), ("p2", "N s"), ("p3", "N s"), ("l1", "N m s"), ("l2", "N m s"), ("l3", "N m s")],
             "Momentum and angular momentum of the model about the origin, global axes.",
         ),
@@ -339,6 +379,7 @@ const KINDS: &[Declaration] = {
             "signal",
             Subject::Signal,
             &[Fatigue],
+            Feeds::Signals,
             &[("value", "")],
             "Value of a signal, an input or a state.",
         ),
@@ -347,6 +388,7 @@ const KINDS: &[Declaration] = {
             "expression",
             Subject::Expression,
             &[Fatigue],
+            Feeds::Signals,
             &[("value", "")],
             "Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.",
         ),
@@ -386,6 +428,19 @@ impl OutputKind {
     /// Names and units of its components, unless its subject has others.
     pub(crate) fn components(self) -> &'static [OutputComponent] {
         self.declaration().components
+    }
+
+    /// When signals can depend on it.
+    pub(crate) fn feeds(self) -> Feeds {
+        self.declaration().feeds
+    }
+
+    /// Why only sampled signals can depend on it; none where all can.
+    pub(crate) fn reason_for_samples(self) -> Option<&'static str> {
+        match self.feeds() {
+            Feeds::Signals => None,
+            Feeds::Samples(reason) => Some(reason),
+        }
     }
 
     /// Whether it has a feature.

@@ -498,6 +498,6 @@ fn output_option(feature: Feature) -> Vec<Key> {
         Feature::Point => {
             vec![optional("point", Shape::Place, "m", "a place at the start, carried by the node")]
         }
-        Feature::Rates | Feature::Accumulated | Feature::Measurable => Vec::new(),
+        Feature::Rates | Feature::Accumulated => Vec::new(),
     }
 }

@@ -8,7 +8,7 @@ use lissom_core::system::Builder;
 use super::Names;
 use super::signals::relative_components;
 use crate::channel_components::{component_position, components_of_motion};
-use crate::document::{Document, Feature, Output, OutputKind, OutputSource};
+use crate::document::{Document, Output, OutputKind, OutputSource};
 use crate::outputs::{Subjects, source};
 use crate::report::Problem;
 use crate::suggest;
@@ -17,10 +17,12 @@ use crate::suggest;
 pub(super) struct Fault {
     pub(super) message: String,
     pub(super) help: Option<String>,
+    /// Whether it can be measured at samples.
+    pub(super) is_of_solution: bool,
 }
 
 fn fault<T>(message: String, help: Option<String>) -> Result<T, Fault> {
-    Err(Fault { message, help })
+    Err(Fault { message, help, is_of_solution: false })
 }
 
 /// Adds the measurement of a component of an output, or of a joint where no output is called so.
@@ -90,12 +92,12 @@ fn of_output(
     component: &str,
 ) -> Result<MeasurementId, Fault> {
     let owner = &output.name.value;
-    if output.kind == OutputKind::Signal {
-        let message = format!("output `{owner}` records a signal");
-        return fault(message, Some("name the signal itself".to_owned()));
-    }
-    if !output.kind.has(Feature::Measurable) {
-        return not_measurable(owner, output.kind);
+    if let Some(reason) = output.kind.reason_for_samples() {
+        let message = format!(
+            "`{owner}` is of kind `{}`, which only sampled signals can depend on: {reason}",
+            output.kind.name()
+        );
+        return of_solution(message);
     }
     let (start, resolver) = (builder.initial_kinematics(), names.resolver());
     let joint_frames = |joint: &str| builder.output_frames(joint);
@@ -104,9 +106,9 @@ fn of_output(
     let Some((source, measurements)) =
         source.and_then(|source| source.measurements().map(|measurements| (source, measurements)))
     else {
-        let message = format!("`{owner}` lies between nodes of a beam");
-        let help = "measure at a node, such as the beam's start or end, or change the number of elements";
-        return fault(message, Some(help.to_owned()));
+        let message =
+            format!("`{owner}` lies between nodes of a beam, where only sampled signals can measure");
+        return of_solution(message);
     };
     let quantity = |coordinate| builder.coordinate_quantity(coordinate);
     let (known, _) = components_of_motion(output.kind, &source, &quantity);
@@ -118,14 +120,12 @@ fn of_output(
 
 impl From<Problem> for Fault {
     fn from(problem: Problem) -> Self {
-        Self { message: problem.message, help: problem.help }
+        Self { message: problem.message, help: problem.help, is_of_solution: false }
     }
 }
 
-fn not_measurable<T>(owner: &str, kind: OutputKind) -> Result<T, Fault> {
-    let message = format!("`{owner}` is a {}, which signals cannot depend on", kind.name());
-    let measurable = OutputKind::all().filter(|kind| kind.has(Feature::Measurable));
-    let words: Vec<&str> = measurable.map(OutputKind::name).collect();
-    let help = format!("name a joint, or an output of one of these kinds: {}", words.join(", "));
-    fault(message, Some(help))
+/// A fault of what sampled signals can depend on.
+fn of_solution<T>(message: String) -> Result<T, Fault> {
+    let help = "add `sample` to the signal, or name a joint or an output at a node, such as its position or velocity";
+    Err(Fault { message, help: Some(help.to_owned()), is_of_solution: true })
 }

@@ -11,6 +11,7 @@ mod latches;
 mod measurements;
 mod order;
 mod parts;
+mod readings;
 mod redundancy;
 pub mod registry;
 mod resource_limits;
@@ -28,7 +29,7 @@ use lissom_core::elements::superelement::Deformation;
 use lissom_core::judge::Warning;
 use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_core::registry::ParameterError;
-use lissom_core::signals::{Argument, MeasurementId, SignalId};
+use lissom_core::signals::{Argument, SignalId};
 use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
@@ -106,8 +107,13 @@ pub struct Names {
     pub signals: BTreeMap<String, Argument>,
     /// Those of the signals that are straight lines of time, a + b t.
     lines_of_time: BTreeMap<SignalId, (f64, f64)>,
-    /// Measurements that signals use, by the names they are written with.
-    measured: BTreeMap<String, MeasurementId>,
+    /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the
+    /// signals are sampled.
+    measured: BTreeMap<(String, bool), Argument>,
+    /// Those of them that are read at samples.
+    readings: Vec<readings::NamedReading>,
+    /// Outputs that are expressions and are being resolved, each named by the one before.
+    open_expressions: Vec<String>,
 }
 
 impl Names {
@@ -193,7 +199,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     let built = builder
         .build(document.analysis.start)
         .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]));
-    let (system, mut state) = built?;
+    let (mut system, mut state) = built?;
     let drawn = state.clone();
     let mut assembly = None;
     if let Some(asked) = &document.assembly {
@@ -214,6 +220,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     couplings::check(document, &system, &state, &mut problems);
     let (channels, accumulated) =
         output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
+    system.assign_readings(readings::bind(&names.readings, &channels, accumulated.len(), &mut problems));
     stop_at(document, &mut problems)?;
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);

@@ -12,8 +12,9 @@ use lissom_core::system::Builder;
 use super::Names;
 use super::measurements::measure;
 use super::order::by_name;
+use super::readings::NamedReading;
 use crate::channel_components::coordinate_components;
-use crate::document::{Document, EventEntry, SignalEntry};
+use crate::document::{Document, EventEntry, Output, OutputSource, SignalEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
 use crate::report::{Located, Problem};
 use crate::suggest;
@@ -114,8 +115,10 @@ impl<'d> Order<'d> {
         for argument in entry.value.value.arguments() {
             // A sampled signal that names itself means its last sample.
             let is_last_sample = entry.sampling.is_some() && argument.text == name;
-            let named = self.document.signals.iter().find(|other| other.name.value == argument.text);
-            if let Some(named) = named.filter(|_| !is_last_sample) {
+            if is_last_sample {
+                continue;
+            }
+            for named in signals_named(self.document, &argument.text, &mut Vec::new()) {
                 self.visit(named)?;
             }
         }
@@ -146,13 +149,13 @@ fn add_signal(
     let name = &entry.name.value;
     let own = entry.sampling.map(|(period, start)| Sampling { held: builder.add_held(name, start), period });
     let subject = Subject::new("signal", name).called(name);
-    let (signal, line) = formula(
-        document,
-        builder,
-        names,
-        (&subject, &entry.value),
-        own.map(|own| (name.as_str(), own.held)),
-    )?;
+    let reader = Reader {
+        subject: &subject,
+        expression: &entry.value,
+        is_sampled: own.is_some(),
+        last_sample: own.map(|own| (name.as_str(), own.held)),
+    };
+    let (signal, line) = formula(document, builder, names, &reader)?;
     let signal = builder
         .add_signal(Signal { sampling: own, ..signal })
         .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
@@ -170,23 +173,35 @@ pub(super) fn add_formula(
     subject: &Subject,
     expression: &Located<Formula>,
 ) -> Result<SignalId, Problem> {
-    let (signal, _) = formula(document, builder, names, (subject, expression), None)?;
+    let reader = Reader { subject, expression, is_sampled: false, last_sample: None };
+    let (signal, _) = formula(document, builder, names, &reader)?;
     builder.add_signal(signal).map_err(|error| Problem::error(expression.span, error.to_string()))
 }
 
-/// An expression as a signal, and the straight line of time that it is; `own` is a sampled signal with its last sample.
+/// An expression that names quantities.
+pub(super) struct Reader<'a> {
+    /// What messages are about.
+    pub(super) subject: &'a Subject,
+    pub(super) expression: &'a Located<Formula>,
+    /// Whether it is evaluated at samples alone.
+    pub(super) is_sampled: bool,
+    /// Name and last sample of a sampled signal.
+    pub(super) last_sample: Option<(&'a str, HeldId)>,
+}
+
+/// An expression as a signal, and the straight line of time that it is.
 fn formula(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
-    (subject, expression): (&Subject, &Located<Formula>),
-    own: Option<(&str, HeldId)>,
+    reader: &Reader<'_>,
 ) -> Result<(Signal, Line), Problem> {
+    let Reader { subject, expression, .. } = *reader;
     let mut arguments = Vec::new();
     for argument in expression.value.arguments() {
-        arguments.push(match own {
+        arguments.push(match reader.last_sample {
             Some((name, held)) if name == argument.text => Argument::Held(held),
-            _ => resolve(document, builder, names, (subject, expression), argument)?,
+            _ => resolve(document, builder, names, reader, argument)?,
         });
     }
     let line = |argument: &Argument| match argument {
@@ -211,19 +226,20 @@ fn resolve(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
-    (what, expression): (&Subject, &Located<Formula>),
+    reader: &Reader<'_>,
     name: &Name,
 ) -> Result<Argument, Problem> {
+    let Reader { subject: what, expression, is_sampled, .. } = *reader;
     if let Some(&known) = names.signals.get(&name.text) {
         return Ok(known);
     }
-    if let Some(&known) = names.measured.get(&name.text) {
-        return Ok(Argument::Measured(known));
+    let key = (name.text.clone(), is_sampled);
+    if let Some(&known) = names.measured.get(&key) {
+        return Ok(known);
     }
-    let problem = |message: String| {
-        let place = document.within(expression.span, expression.value.text(), &name.range);
-        Problem::error(place, format!("{what} cannot be read: {message}")).label("here")
-    };
+    let place = document.within(expression.span, expression.value.text(), &name.range);
+    let problem =
+        |message: String| Problem::error(place, format!("{what} cannot be read: {message}")).label("here");
     let Some((owner, component)) = name.text.rsplit_once('.') else {
         let owners = document.outputs.iter().map(|output| output.name.value.as_str());
         let known = names.signals.keys().map(String::as_str).chain(["t", "pi"]);
@@ -238,10 +254,100 @@ fn resolve(
         };
         return Err(problem(message).maybe_help(help));
     };
-    let measured = measure(document, builder, names, owner, component)
-        .map_err(|fault| problem(fault.message).maybe_help(fault.help))?;
-    names.measured.insert(name.text.clone(), measured);
-    Ok(Argument::Measured(measured))
+    if let Some(of) = outputs_of_signals(document, owner) {
+        let output = &of.name.value;
+        if component != "value" {
+            return Err(problem(format!("`{output}` has no component `{component}`"))
+                .help("its only component is `value`"));
+        }
+        if names.open_expressions.contains(output) {
+            return Err(problem(format!("the output `{output}` is an expression of itself"))
+                .help("leave one of these names out"));
+        }
+        names.open_expressions.push(output.clone());
+        let found = output_value(document, builder, names, of, is_sampled);
+        names.open_expressions.pop();
+        let found =
+            found.map_err(|fault| fault.unwrap_or_else(|| problem(format!("`{output}` is unknown"))))?;
+        names.measured.insert(key, found);
+        return Ok(found);
+    }
+    let measured = measure(document, builder, names, owner, component);
+    let fault = match measured {
+        Ok(measured) => {
+            names.measured.insert(key, Argument::Measured(measured));
+            return Ok(Argument::Measured(measured));
+        }
+        Err(fault) => fault,
+    };
+    if !(is_sampled && fault.is_of_solution) {
+        return Err(problem(fault.message).maybe_help(fault.help));
+    }
+    let held = builder.add_reading(&name.text);
+    names.readings.push(NamedReading {
+        held,
+        output: owner.to_owned(),
+        component: component.to_owned(),
+        place,
+        reader: what.to_string(),
+    });
+    names.measured.insert(key, Argument::Held(held));
+    Ok(Argument::Held(held))
+}
+
+/// The output of this name, if it is a signal or an expression.
+fn outputs_of_signals<'d>(document: &'d Document, name: &str) -> Option<&'d Output> {
+    let is_of_signals = |output: &&Output| {
+        output.name.value == name
+            && matches!(output.source, OutputSource::Signal(_) | OutputSource::Expression(_))
+    };
+    document.outputs.iter().find(is_of_signals)
+}
+
+/// Value of an output that is a signal or an expression; no problem where another one is reported of it.
+fn output_value(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    output: &Output,
+    is_sampled: bool,
+) -> Result<Argument, Option<Problem>> {
+    match &output.source {
+        OutputSource::Signal(name) => names.signals.get(&name.value).copied().ok_or(None),
+        OutputSource::Expression(expression) => {
+            let subject = Subject::new("output", &output.name.value);
+            let reader = Reader { subject: &subject, expression, is_sampled, last_sample: None };
+            let (signal, line) = formula(document, builder, names, &reader)?;
+            let signal = builder
+                .add_signal(signal)
+                .map_err(|error| Problem::error(expression.span, error.to_string()))?;
+            names.lines_of_time.extend(line.map(|line| (signal, line)));
+            Ok(Argument::Signal(signal))
+        }
+        _ => Err(None),
+    }
+}
+
+/// The signals that a name in an expression means: one, or those that an output of signals depends on.
+fn signals_named<'d>(document: &'d Document, name: &str, path: &mut Vec<&'d str>) -> Vec<&'d SignalEntry> {
+    if let Some(own) = document.signals.iter().find(|other| other.name.value == name) {
+        return vec![own];
+    }
+    let owner = name.rsplit_once('.').and_then(|(owner, _)| outputs_of_signals(document, owner));
+    let Some(output) = owner.filter(|output| !path.contains(&output.name.value.as_str())) else {
+        return Vec::new();
+    };
+    path.push(&output.name.value);
+    let found = match &output.source {
+        OutputSource::Signal(of) => signals_named(document, &of.value, path),
+        OutputSource::Expression(formula) => {
+            let names = formula.value.arguments().iter();
+            names.flat_map(|name| signals_named(document, &name.text, path)).collect()
+        }
+        _ => Vec::new(),
+    };
+    path.pop();
+    found
 }
 
 /// Components of a joint's relative coordinates by the names that outputs have for them, and `rotation` for `angle`.

@@ -19,7 +19,14 @@ impl Builder {
         self.graph.held.len() - 1
     }
 
-    /// Adds a first-order state with its initial value and its usual magnitude. Its derivative is set by
+    /// Adds a held value that has a quantity of the state at samples, see [`assign_readings`](crate::System::assign_readings).
+    pub fn add_reading(&mut self, name: &str) -> HeldId {
+        let held = self.add_held(name, 0.0);
+        self.graph.readings.push(held);
+        held
+    }
+
+    /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
     /// [`drive_state`](Self::drive_state).
     pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
         let mut contribution = Contribution::to(&self.model);
