@@ -188,7 +188,8 @@ impl Feedback {
     /// Whether any signal with a target depends on the motion or a state, continuously or at samples, or there is a
     /// state.
     pub fn depends_on_motion(&self) -> bool {
-        !self.is_empty() && !(self.graph.measurements.is_empty() && self.graph.readings.is_empty())
+        let sees_motion = !self.graph.measurements.is_empty() || !self.graph.readings.is_empty();
+        !self.is_empty() && sees_motion
     }
 
     /// Rows of each load or state with those of each node and coordinate on which it depends: its tangent entries.

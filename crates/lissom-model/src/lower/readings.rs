@@ -55,17 +55,14 @@ pub(super) fn bind(
         // An output without a channel has its own problem.
         let Some(channel) = channels.iter().find(|channel| channel.name == *output) else { continue };
         let known = || channel.components.iter().map(String::as_str);
-        match component_position(known(), component) {
-            Some(component) => {
-                let quantity = Arc::new(ChannelQuantity { channel: channel.clone(), component, accumulated });
-                readings.push(Reading { held: *held, quantity });
-            }
-            None => {
-                let message = format!("{reader} cannot be read: `{output}` has no component `{component}`");
-                let help = suggest::help(component, known());
-                problems.push(Problem::error(*place, message).label("here").maybe_help(help));
-            }
-        }
+        let Some(component) = component_position(known(), component) else {
+            let message = format!("{reader} cannot be read: `{output}` has no component `{component}`");
+            let help = suggest::help(component, known());
+            problems.push(Problem::error(*place, message).label("here").maybe_help(help));
+            continue;
+        };
+        let quantity = Arc::new(ChannelQuantity { channel: channel.clone(), component, accumulated });
+        readings.push(Reading { held: *held, quantity });
     }
     readings
 }
