@@ -1,5 +1,6 @@
-//! Derivatives of recorded numbers by the unknowns they depend on, by differences of sixth order along each: exact to
-//! about twelve digits for numbers as smooth as positions, forces and reactions are.
+//! Derivatives of recorded numbers by the unknowns they depend on. Those of measurements, signals, expressions and drives are
+//! exact; those of reactions, of section forces and of accelerations of coordinates are differences of sixth order, exact to
+//! about twelve digits:
 //!
 //! ```text
 //! f' ≈ (3/4 (f₁ - f₋₁) - 3/20 (f₂ - f₋₂) + 1/60 (f₃ - f₋₃)) / h
@@ -11,8 +12,8 @@ use std::ops::Range;
 use lissom_core::joints::slider::Slider;
 use lissom_core::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, NodeId};
 use lissom_core::linear::{LinearModel, OutputDerivatives};
-use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::Component;
+use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
@@ -28,20 +29,12 @@ struct Touched {
     nodes: BTreeSet<NodeId>,
     coordinates: BTreeSet<CoordinateId>,
     multipliers: Range<usize>,
-    held: Range<usize>,
 }
 
 impl Channel {
-    /// Derivatives of its components at the state of `model`, in its unknowns; none of energies and momenta, which depend on
-    /// all there is.
+    /// Derivatives of its components at the state of `model`, in its unknowns; none of energies, momenta, powers, springs and
+    /// accumulated numbers.
     pub fn derivatives(&self, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
-        let system = model.system();
-        let layout = system.layout();
-        if let Some(measurements) = self.source.measurements() {
-            let outputs = measurements.iter().map(|own| derivatives_of(own, system, model.kinematics()));
-            return Some(outputs.map(|output| model.along_departures(output)).collect());
-        }
-        let touched = touched(&self.source, system, model)?;
         let state = State {
             kinematics: model.kinematics().clone(),
             multipliers: model.multipliers().to_vec(),
@@ -51,7 +44,73 @@ impl Channel {
             position_remainders: Vec::new(),
             accumulated: Vec::new(),
         };
-        let length = touched_length(&touched, &state).unwrap_or(model.length());
+        let found = self.derivatives_at(model.system(), &state, model.length())?;
+        Some(found.into_iter().map(|output| model.along_departures(output)).collect())
+    }
+
+    /// Derivatives of its components by positions, velocities, accelerations, multipliers and held values at a state; exact
+    /// where there are formulas, otherwise by differences. `length` [m] is of the size of the model.
+    pub(crate) fn derivatives_at(
+        &self,
+        system: &System,
+        state: &State,
+        length: f64,
+    ) -> Option<Vec<OutputDerivatives>> {
+        self.exact_derivatives(system, state, length).or_else(|| self.differences(system, state, length))
+    }
+
+    /// Derivatives by formulas; those of an expression by the chain rule.
+    pub(crate) fn exact_derivatives(
+        &self,
+        system: &System,
+        state: &State,
+        length: f64,
+    ) -> Option<Vec<OutputDerivatives>> {
+        let at = &state.kinematics;
+        let multiplier_row = |multiplier: usize| system.layout().coordinate_count() + multiplier;
+        if let Some(measurements) = self.source.measurements() {
+            return Some(measurements.iter().map(|own| derivatives_of(own, system, at)).collect());
+        }
+        let mut own = OutputDerivatives::default();
+        match &self.source {
+            Source::Signal(argument) => add_argument(&mut own, *argument, system, at),
+            Source::Expression(formula, arguments) => {
+                let (mut values, mut of_arguments) = (Vec::new(), Vec::new());
+                for (channel, index) in arguments {
+                    let mut all = Vec::new();
+                    channel.evaluate(system, state, &mut all);
+                    values.push(all.get(*index).copied()?);
+                    of_arguments
+                        .push(channel.derivatives_at(system, state, length)?.into_iter().nth(*index)?);
+                }
+                let mut gradient = vec![0.0; values.len()];
+                formula.gradient(at.time, &values, &[], &mut gradient);
+                for (of, factor) in of_arguments.iter().zip(gradient) {
+                    add_scaled(&mut own, of, factor);
+                }
+            }
+            // The force of a drive is minus its multiplier, its power that times the rate.
+            Source::Drive(index) => {
+                own.by_multiplier.insert(multiplier_row(system.drives()[*index].multiplier), -1.0);
+            }
+            Source::DrivePower(index) => {
+                let drive = &system.drives()[*index];
+                let coordinate = drive.prescribed.coordinate;
+                let row = system.layout().row_of_coordinate(coordinate);
+                own.by_multiplier.insert(multiplier_row(drive.multiplier), -at.coordinates[coordinate].rate);
+                own.by_rate.insert(row, -state.multipliers[drive.multiplier]);
+            }
+            _ => return None,
+        }
+        Some(vec![own])
+    }
+
+    /// Derivatives by differences.
+    fn differences(&self, system: &System, state: &State, length: f64) -> Option<Vec<OutputDerivatives>> {
+        let layout = system.layout();
+        let touched = touched(&self.source, system)?;
+        let state = state.clone();
+        let length = touched_length(&touched, &state).unwrap_or(length);
         let mut difference = Difference { channel: self, system, state };
         let mut outputs = vec![OutputDerivatives::default(); self.components.len()];
         for &node in touched.nodes.iter().filter(|&&node| node != GROUND) {
@@ -90,18 +149,12 @@ impl Channel {
             let row = layout.coordinate_count() + multiplier;
             keep(&mut outputs, &found, row, |output| &mut output.by_multiplier);
         }
-        for held in touched.held {
-            let unit = APART * difference.state.kinematics.held[held].abs().max(1.0);
-            let found = difference.of(unit, |state, change| state.kinematics.held[held] += change);
-            keep(&mut outputs, &found, held, |output| &mut output.by_held);
-        }
-        Some(outputs.into_iter().map(|output| model.along_departures(output)).collect())
+        Some(outputs)
     }
 }
 
-fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<Touched> {
-    let mut touched =
-        Touched { nodes: BTreeSet::new(), coordinates: BTreeSet::new(), multipliers: 0..0, held: 0..0 };
+fn touched(source: &Source, system: &System) -> Option<Touched> {
+    let mut touched = Touched { nodes: BTreeSet::new(), coordinates: BTreeSet::new(), multipliers: 0..0 };
     match source {
         Source::BetweenNodes(section) => touched.nodes.extend(section.nodes()),
         Source::Section(section) => touched.nodes.extend(section.nodes()),
@@ -116,15 +169,6 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
         Source::Recovered(unknowns, _) => {
             touched.nodes.extend(unknowns.nodes());
             touched.coordinates.extend(unknowns.coordinates());
-        }
-        Source::DrivePower(index) => {
-            let drive = &system.drives()[*index];
-            touched.coordinates.insert(drive.prescribed.coordinate);
-            touched.multipliers = drive.multiplier..drive.multiplier + 1;
-        }
-        Source::Drive(index) => {
-            let multiplier = system.drives()[*index].multiplier;
-            touched.multipliers = multiplier..multiplier + 1;
         }
         Source::Slider(index) => {
             let slider = &system.sliders()[*index];
@@ -151,16 +195,10 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
                 touched.coordinates.extend(&joint.coordinates);
             }
         }
-        Source::Signal(argument) => {
-            let (nodes, coordinates) = system.signals().touched_by(*argument);
-            touched.nodes.extend(nodes);
-            touched.coordinates.extend(coordinates);
-            if !matches!(argument, Argument::Measured(_)) {
-                touched.held = 0..model.kinematics().held.len();
-            }
-        }
-        // Several ranges of multipliers may meet in one expression.
         Source::Expression(..)
+        | Source::Signal(_)
+        | Source::Drive(_)
+        | Source::DrivePower(_)
         | Source::Measured(_)
         | Source::Line(_)
         | Source::Coordinates(_)
@@ -175,6 +213,38 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
         }
     }
     Some(touched)
+}
+
+/// Adds the derivatives of an argument of signals.
+fn add_argument(out: &mut OutputDerivatives, argument: Argument, system: &System, at: &Kinematics) {
+    let graph = system.signals();
+    let measured = |index: usize| derivatives_of(&graph.measurements[index], system, at);
+    match argument {
+        Argument::Held(held) => *out.by_held.entry(held).or_insert(0.0) += 1.0,
+        Argument::Measured(index) => add_scaled(out, &measured(index), 1.0),
+        Argument::Signal(signal) => graph.evaluate(at, |values| {
+            graph.differentiate_by_all(signal, at, values, |argument, derivative| match argument {
+                Argument::Held(held) => *out.by_held.entry(held).or_insert(0.0) += derivative,
+                Argument::Measured(index) => add_scaled(out, &measured(index), derivative),
+                Argument::Signal(_) => {}
+            });
+        }),
+    }
+}
+
+/// Adds `factor` times other derivatives.
+fn add_scaled(out: &mut OutputDerivatives, other: &OutputDerivatives, factor: f64) {
+    for (own, other) in [
+        (&mut out.by_place, &other.by_place),
+        (&mut out.by_rate, &other.by_rate),
+        (&mut out.by_acceleration, &other.by_acceleration),
+        (&mut out.by_multiplier, &other.by_multiplier),
+        (&mut out.by_held, &other.by_held),
+    ] {
+        for (&row, value) in other {
+            *own.entry(row).or_insert(0.0) += factor * value;
+        }
+    }
 }
 
 /// Derivatives of a component of a measurement, by row.
