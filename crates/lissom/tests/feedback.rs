@@ -318,7 +318,7 @@ fn mistakes_are_reported_with_their_place() {
         ),
         (
             load("bend.total") + "[outputs.bend]\nkind = \"energy\"\n",
-            &["is a energy, which signals cannot depend on"],
+            &["which only sampled signals can depend on"],
         ),
         (
             "[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"arm\"\nrotation = \"tip.x\"\n"

@@ -1,5 +1,7 @@
 //! Sources of outputs that need nothing but the motion: they are recorded, and signals depend on them.
 
+#[cfg(test)]
+mod every_kind;
 mod frames;
 mod location;
 

@@ -295,7 +295,7 @@ fn work_needs_a_motion_and_cycles_an_exponent() {
     for (from, to, wanted) in [
         ("woehler_exponent = 4\n", "", "reference_cycles"),
         ("of = \"motor\"", "of = \"axle\"", "no power to record"),
-        ("\"-4*rail.displacement\"", "\"-4*push.work\"", "signals cannot depend on"),
+        ("\"-4*rail.displacement\"", "\"-4*push.work\"", "only sampled signals can depend on"),
         (
             "kind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 4\nstep = 0.01",
             "kind = \"path\"",

@@ -233,8 +233,8 @@ fn mistakes_in_outputs_and_starts_are_reported() {
         ("parts = [\"stone\"]", "part = [\"stone\"]", "lacks `parts`"),
         (
             "inputs.gain = 2",
-            "inputs.gain = 2\nsignals.fast = \"speed.v1\"",
-            "is expressed in moving axes, which signals cannot depend on",
+            "inputs.gain = 2\nsignals.fast = \"twice.value\"\noutputs.e.kind = \"energy\"\nsignals.slow = \"e.total\"",
+            "which only sampled signals can depend on",
         ),
     ] {
         assert!(MODEL.contains(from), "{from}");
