@@ -17,7 +17,7 @@ use nalgebra::DMatrix;
 use crate::document::{Feature, Output, OutputKind, OutputSource, ReactionAxes};
 use crate::expression::Formula;
 use crate::lower::Deformed;
-use crate::outputs::{self, BeamSection, Location, ObservedSection, Subjects};
+use crate::outputs::{self, BeamSection, Location, ObservedSection, Subjects, value_and_rate};
 use crate::report::{Located, Problem};
 use crate::superelement_channels::recovered;
 use crate::sweep::Fatigue;
@@ -161,8 +161,9 @@ impl Channel {
                 out.extend(coordinates.iter().map(|&own| free_acceleration(system, own, at)));
             }
             Source::Coordinates(coordinates) => {
-                let motions = coordinates.iter().map(|&coordinate| &at.coordinates[coordinate]);
-                out.extend(motions.flat_map(|motion| [motion.value, motion.rate]));
+                for own in coordinates.iter().flat_map(|&own| value_and_rate((own, 1.0))) {
+                    append(&own, at, out);
+                }
             }
             Source::Spring(element, _) => {
                 out.extend(system.spring_motion(*element, at).unwrap_or([f64::NAN; 3]));
@@ -180,7 +181,11 @@ impl Channel {
                     append(&**own, at, out);
                 }
             }
-            Source::Modal(unknowns) => out.extend(unknowns.modal(at).flatten()),
+            Source::Modal(unknowns) => {
+                for own in unknowns.modal().flat_map(value_and_rate) {
+                    append(&own, at, out);
+                }
+            }
             Source::Recovered(unknowns, matrix) => out.extend(recovered(unknowns, matrix, at).iter()),
             Source::Signal(argument) => out.push(signal_value(system, at, *argument)),
             Source::Momentum(axes) => {

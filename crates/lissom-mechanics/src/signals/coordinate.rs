@@ -13,39 +13,46 @@ pub enum Of {
 }
 
 /// A coordinate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinate {
-    coordinate: [CoordinateId; 1],
+    own: [CoordinateId; 1],
     of: Of,
+    factor: f64,
 }
 
 impl Coordinate {
     /// Value or rate of a coordinate.
     pub fn new(coordinate: CoordinateId, of: Of) -> Self {
-        Self { coordinate: [coordinate], of }
+        Self::scaled(coordinate, of, 1.0)
+    }
+
+    /// The same times a factor, such as from the scaling of modal coordinates to the units of their matrices.
+    pub fn scaled(coordinate: CoordinateId, of: Of, factor: f64) -> Self {
+        Self { own: [coordinate], of, factor }
     }
 }
 
 impl Measurement for Coordinate {
     fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinate
+        &self.own
     }
 
     fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
-        let coordinate = &at.coordinates[self.coordinate[0]];
+        let coordinate = &at.coordinates[self.own[0]];
         let mut values = [0.0; MAX_COMPONENTS];
-        values[0] = match self.of {
+        let own = match self.of {
             Of::Value => coordinate.value,
             Of::Rate => coordinate.rate,
         };
+        values[0] = self.factor * own;
         values
     }
 
     fn gradient(&self, _: usize, _: &Kinematics) -> Gradient {
         let mut gradient = Gradient::zero();
         match self.of {
-            Of::Value => gradient.by_place[0] = 1.0,
-            Of::Rate => gradient.by_rate[0] = 1.0,
+            Of::Value => gradient.by_place[0] = self.factor,
+            Of::Rate => gradient.by_rate[0] = self.factor,
         }
         gradient
     }

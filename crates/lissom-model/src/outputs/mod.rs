@@ -78,6 +78,11 @@ pub(crate) fn coordinates(
     Ok(coordinates)
 }
 
+/// Value and rate of a coordinate, times a factor.
+pub(crate) fn value_and_rate((coordinate, factor): (CoordinateId, f64)) -> [Coordinate; 2] {
+    [Of::Value, Of::Rate].map(|of| Coordinate::scaled(coordinate, of, factor))
+}
+
 impl Source {
     /// Its components as measurements with exact derivatives; none where it has no such derivatives.
     pub(crate) fn measurements(&self) -> Option<Vec<Component>> {
@@ -85,17 +90,17 @@ impl Source {
             let of = Arc::clone(of);
             (0..of.component_count()).map(move |component| Component { of: Arc::clone(&of), component })
         };
-        let of_coordinate = |coordinate: CoordinateId| {
-            [Of::Value, Of::Rate]
-                .map(|of| Component { of: Arc::new(Coordinate::new(coordinate, of)), component: 0 })
+        let all_of_coordinates = |pairs: Vec<[Coordinate; 2]>| {
+            let one = |own: Coordinate| Component { of: Arc::new(own), component: 0 };
+            pairs.into_iter().flatten().map(one).collect()
         };
         match self {
             Self::Measured(of) => Some(all(of).collect()),
             Self::Line(points) => Some(points.iter().flat_map(all).collect()),
             Self::Coordinates(coordinates) => {
-                Some(coordinates.iter().copied().flat_map(of_coordinate).collect())
+                Some(all_of_coordinates(coordinates.iter().map(|&own| value_and_rate((own, 1.0))).collect()))
             }
-            Self::Modal(unknowns) => Some(unknowns.coordinates().flat_map(of_coordinate).collect()),
+            Self::Modal(unknowns) => Some(all_of_coordinates(unknowns.modal().map(value_and_rate).collect())),
             _ => None,
         }
     }

@@ -33,12 +33,9 @@ impl Deformation {
         6 * self.nodes.len() + self.modes.len()
     }
 
-    /// Modal coordinates with their rates, in the units of the matrices.
-    pub fn modal<'a>(&'a self, at: &'a Kinematics) -> impl Iterator<Item = [f64; 2]> + 'a {
-        self.modes.iter().map(|&(coordinate, factor)| {
-            let motion = &at.coordinates[coordinate];
-            [factor * motion.value, factor * motion.rate]
-        })
+    /// Modal coordinates, and the factor of each to the units of the matrices.
+    pub fn modal(&self) -> impl Iterator<Item = (CoordinateId, f64)> + '_ {
+        self.modes.iter().copied()
     }
 
     /// u: displacement [m] and rotation vector [rad] of each interface relative to the floating frame and in its axes, then the
@@ -52,7 +49,7 @@ impl Deformation {
             let moved = relative.position - (place - self.places[self.floating]);
             all.extend(moved.iter().chain(relative.rotation.logarithm().iter()));
         }
-        all.extend(self.modal(at).map(|[value, _]| value));
+        all.extend(self.modal().map(|(own, factor)| factor * at.coordinates[own].value));
         all
     }
 }
@@ -89,6 +86,9 @@ mod tests {
         assert_eq!(deformation.unknowns(&at), wanted);
         assert_eq!(deformation.size(), wanted.len());
         assert_eq!(deformation.coordinates().collect::<Vec<_>>(), [0, 1]);
-        assert_eq!(deformation.modal(&at).collect::<Vec<_>>(), [[0.6, -0.6], [0.2, -0.2]]);
+        let modal = deformation.modal().map(|(own, factor)| {
+            [at.coordinates[own].value, at.coordinates[own].rate].map(|part| factor * part)
+        });
+        assert_eq!(modal.collect::<Vec<_>>(), [[0.6, -0.6], [0.2, -0.2]]);
     }
 }
