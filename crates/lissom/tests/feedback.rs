@@ -234,6 +234,88 @@ fn samples_are_held_and_steps_land_on_them() {
     }
 }
 
+/// The acceleration that a sample reads is that before its torque acts: s₀ = 0.3/I, s_k = (0.3 - 0.5 s_{k-1})/I.
+#[test]
+fn samples_read_accelerations_before_they_act() {
+    const READ: &str = r#"
+[outputs.second]
+kind = "relative_acceleration"
+of = "arm"
+[outputs.hinge]
+kind = "reaction"
+of = "arm"
+[signals]
+seen = { value = "second.a", sample = 0.01 }
+twice = { value = "2*moment.value", sample = 0.01 }
+[outputs.moment]
+kind = "expression"
+value = "hinge.f1*0.1 + second.a"
+[loads.motor]
+kind = "joint_torque"
+joint = "arm"
+torque = "0.3 - 0.5*seen"
+"#;
+    for scheme in ["radau-iia", "generalized-alpha", "energy-decaying"] {
+        let analysis = format!("scheme = \"{scheme}\"\nend = 0.2\nstep = 2.5e-3\ntolerance = 1e-12");
+        let session = finished(&arm(READ, &analysis));
+        let (mut seen, mut rate) = (0.3 / INERTIA, 0.0);
+        for _ in 0..20 {
+            let acceleration = (0.3 - 0.5 * seen) / INERTIA;
+            rate += 0.01 * acceleration;
+            seen = acceleration;
+        }
+        for (name, wanted) in [("arm.rate", rate), ("seen", seen)] {
+            let found = session.value(name).unwrap();
+            assert!((found - wanted).abs() < 1e-9, "{scheme}: {name} {found} {wanted}");
+        }
+        assert!(session.value("twice").unwrap().is_finite(), "{scheme}");
+    }
+}
+
+/// A torque of 0.3 N m makes the kinetic energy 0.075 t² J: it passes 0.003 J at 0.2 s, which a sample sees.
+#[test]
+fn events_of_sampled_energies_happen_at_samples() {
+    const READ: &str = r#"
+[outputs.all]
+kind = "energy"
+[signals]
+energy = { value = "all.kinetic", sample = 0.03 }
+[events.enough]
+zero_of = "energy - 0.003"
+stop = true
+[loads.motor]
+kind = "joint_torque"
+joint = "arm"
+torque = 0.3
+"#;
+    let mut session = session(&arm(READ, "scheme = \"radau-iia\"\nend = 0.5\nstep = 0.01"));
+    let (_, _) = session.record();
+    let time = session.simulation().state().kinematics.time;
+    assert!((time - 0.21).abs() < 1e-9, "{time}");
+}
+
+/// A spring is fed by quantities of frames: the arm as a pendulum on cardan angles is that on its coordinate.
+#[test]
+fn quantities_of_frames_feed_loads_as_coordinates_do() {
+    let with = |torque: &str| {
+        let tables = format!(
+            "[outputs.axes]\nkind = \"cardan_angles\"\nof = \"bar\"\n\
+             [outputs.own]\nkind = \"relative_motion\"\nof = \"arm\"\n\
+             [outputs.quaternion]\nkind = \"quaternion\"\nof = \"bar\"\n\
+             [outputs.sum]\nkind = \"expression\"\nvalue = \"0.5*axes.gamma + 0.5*own.r3\"\n\
+             [loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"{torque}\"\n"
+        );
+        let session =
+            finished(&arm(&tables, "scheme = \"radau-iia\"\nend = 0.5\nstep = 0.01\ntolerance = 1e-12"));
+        session.value("arm.angle").unwrap()
+    };
+    let wanted = with("3*(0.4 - arm.angle)");
+    for angle in ["axes.gamma", "own.r3", "2*asin(quaternion.q3)", "sum.value"] {
+        let found = with(&format!("3*(0.4 - {angle})"));
+        assert!((found - wanted).abs() < 1e-10, "{angle}: {found} {wanted}");
+    }
+}
+
 #[test]
 fn a_session_restored_in_the_middle_goes_on_to_the_last_bit() {
     let tables = format!("{SAMPLED_STATE}\n{SAMPLED}");

@@ -435,14 +435,6 @@ impl OutputKind {
         self.declaration().feeds
     }
 
-    /// Why only sampled signals can depend on it; none where all can.
-    pub(crate) fn reason_for_samples(self) -> Option<&'static str> {
-        match self.feeds() {
-            Feeds::Signals => None,
-            Feeds::Samples(reason) => Some(reason),
-        }
-    }
-
     /// Whether it has a feature.
     pub(crate) fn has(self, feature: Feature) -> bool {
         self.features().contains(&feature)

@@ -8,7 +8,7 @@ use lissom_core::system::Builder;
 use super::Names;
 use super::signals::relative_components;
 use crate::channel_components::{component_position, components_of_motion};
-use crate::document::{Document, Output, OutputKind, OutputSource};
+use crate::document::{Document, Feeds, Output, OutputKind, OutputSource};
 use crate::outputs::{Subjects, source};
 use crate::report::Problem;
 use crate::suggest;
@@ -92,7 +92,7 @@ fn of_output(
     component: &str,
 ) -> Result<MeasurementId, Fault> {
     let owner = &output.name.value;
-    if let Some(reason) = output.kind.reason_for_samples() {
+    if let Feeds::Samples(reason) = output.kind.feeds() {
         let message = format!(
             "`{owner}` is of kind `{}`, which only sampled signals can depend on: {reason}",
             output.kind.name()

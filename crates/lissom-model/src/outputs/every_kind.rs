@@ -141,7 +141,7 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
     for node in 0..state.kinematics.nodes.len() {
         for (k, &row) in layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
             let (row, along) = (row as usize, Vector6::ith(k, 1.0));
-            let name = layout.name_of(row).to_string();
+            let name = layout.name_of(row).clone();
             all.push((
                 format!("position {name}"),
                 Box::new(move |state, change| {
@@ -164,7 +164,7 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
     }
     for own in 0..state.kinematics.coordinates.len() {
         let row = layout.row_of_coordinate(own);
-        let name = layout.name_of(row).to_string();
+        let name = layout.name_of(row).clone();
         all.push((
             format!("value {name}"),
             Box::new(move |state, change| state.kinematics.coordinates[own].value += change),
