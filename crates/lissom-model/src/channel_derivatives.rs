@@ -19,7 +19,8 @@ use lissom_motion::{Motion, Vector6};
 
 use crate::channels::{Channel, Source};
 
-/// Angle, and part of a length, by which positions are moved: far above round-off, and its sixth power far below.
+/// Angle, and part of a length, by which positions are moved, and part of the units of velocities and forces, since creep
+/// forces saturate with both: far above round-off, and its sixth power far below.
 const APART: f64 = 2e-3;
 /// Weights of the differences.
 const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
@@ -123,8 +124,8 @@ impl Channel {
                     own.frame = own.frame * Motion::exponential(&(change * along));
                 });
                 keep(&mut outputs, &found, row, |output| &mut output.by_place);
-                let found =
-                    difference.of(unit, |state, change| state.kinematics.nodes[node].twist += change * along);
+                let found = difference
+                    .of(APART * unit, |state, change| state.kinematics.nodes[node].twist += change * along);
                 keep(&mut outputs, &found, row, |output| &mut output.by_rate);
                 let found = difference
                     .of(unit, |state, change| state.kinematics.nodes[node].acceleration += change * along);
@@ -137,7 +138,7 @@ impl Channel {
                 .of(APART, |state, change| state.kinematics.coordinates[coordinate].value += change);
             keep(&mut outputs, &found, row, |output| &mut output.by_place);
             let found =
-                difference.of(1.0, |state, change| state.kinematics.coordinates[coordinate].rate += change);
+                difference.of(APART, |state, change| state.kinematics.coordinates[coordinate].rate += change);
             keep(&mut outputs, &found, row, |output| &mut output.by_rate);
             let found = difference
                 .of(1.0, |state, change| state.kinematics.coordinates[coordinate].acceleration += change);
@@ -145,7 +146,7 @@ impl Channel {
         }
         for multiplier in touched.multipliers {
             let unit = difference.state.multipliers[multiplier].abs().max(1.0);
-            let found = difference.of(unit, |state, change| state.multipliers[multiplier] += change);
+            let found = difference.of(APART * unit, |state, change| state.multipliers[multiplier] += change);
             let row = layout.coordinate_count() + multiplier;
             keep(&mut outputs, &found, row, |output| &mut output.by_multiplier);
         }
