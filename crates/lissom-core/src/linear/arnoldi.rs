@@ -4,8 +4,8 @@
 //! (s² M + s D + K) x + Bᵀ μ = 0,   B x = 0,   v = s x
 //! ```
 //!
-//! One application of the operator is one solve with the saddle-point matrix at the shift σ: (σ²M + σD + K) x + Bᵀμ = -M w₂
-//! - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ). Components of infinite eigenvalues vanish after two
+//! One application of the operator is one solve with the saddle-point matrix at the shift σ:
+//! (σ²M + σD + K) x + Bᵀμ = -M w₂ - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ). Components of infinite eigenvalues vanish after two
 //! applications, because positions and then velocities satisfy the constraints [Cliffe, Garratt and Spence 1994; Meerbergen
 //! and Spence 1997]. At a real shift the operator, its basis and its matrix are real; only eigenvectors are complex [Parlett
 //! and Saad 1987].
