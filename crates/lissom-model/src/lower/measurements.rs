@@ -65,6 +65,8 @@ pub(super) fn measure(
 
 fn unknown_component<T>(owner: &str, component: &str, known: &[String]) -> Result<T, Fault> {
     let message = format!("`{owner}` has no component `{component}`");
+    let synonyms = known.iter().filter_map(|word| Some(format!("rotation{}", word.strip_prefix("angle")?)));
+    let known: Vec<String> = known.iter().cloned().chain(synonyms).collect();
     fault(message, suggest::help(component, known.iter().map(String::as_str)))
 }
 
