@@ -8,7 +8,7 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Vector3};
 use nalgebra::DMatrix;
 
-use crate::kinematics::HeldId;
+use crate::kinematics::{HeldId, Switch};
 use crate::relation::Relation;
 
 /// A function of time with exact first and second derivatives.
@@ -77,8 +77,8 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     fn switch_count(&self) -> usize {
         0
     }
-    /// Passes the values of its switching functions to `visit`, in their order.
-    fn switches(&self, _first: f64, _second: f64, _sides: &[f64], _visit: &mut dyn FnMut(f64)) {}
+    /// Passes its switching functions to `visit`, in their order.
+    fn switches(&self, _first: f64, _second: f64, _sides: &[f64], _visit: &mut dyn FnMut(Switch)) {}
     /// The same as [`evaluate`](Self::evaluate), continued smoothly from the given sides of its switching functions: 1 above
     /// zero, -1 below, 0 if the function itself decides. `sides` is empty if no side is known.
     fn continued(&self, first: f64, second: f64, _sides: &[f64]) -> [f64; 3] {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lissom_core::kinematics::Switch;
 use lissom_core::registry::{Constant, Force, ForceFunction};
 use lissom_core::signals::SignalFunction;
 
@@ -55,7 +56,7 @@ impl ForceFunction for Expressed {
         self.formula.switch_count()
     }
 
-    fn switches(&self, first: f64, second: f64, sides: &[f64], visit: &mut dyn FnMut(f64)) {
+    fn switches(&self, first: f64, second: f64, sides: &[f64], visit: &mut dyn FnMut(Switch)) {
         self.formula.visit_switches(0.0, &self.arguments(first, second)[..self.count()], sides, visit);
     }
 

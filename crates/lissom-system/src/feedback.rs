@@ -22,7 +22,7 @@ use lissom_mechanics::evaluation::threads::Threads;
 use lissom_mechanics::evaluation::work::{power, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_mechanics::kinematics::step_stages::StepStages;
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject, Switch};
 use lissom_mechanics::signals::measurement::Component;
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
@@ -389,7 +389,7 @@ impl AnyBatch for DrivenBatch {
         0
     }
 
-    fn switches(&self, _: &Kinematics, _: &mut Vec<f64>) {
+    fn switches(&self, _: &Kinematics, _: &mut Vec<Switch>) {
         // Those of signals are monitored with their sides.
     }
 

@@ -39,7 +39,7 @@ use lissom_mechanics::joints::blocks::{Batches, JointBatch};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
-use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId, Subject};
+use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId, Subject, Switch};
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
 
@@ -229,7 +229,7 @@ impl System {
 
     /// Appends switching functions, which change their sign where forces of elements have a kink or a jump: the same
     /// number at every configuration.
-    pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    pub fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         self.batches.iter().for_each(|batch| batch.switches(at, out));
     }
 

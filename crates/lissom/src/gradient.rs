@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::diagnostics::{Entry, Severity};
+use lissom_core::kinematics::Switch;
 use lissom_model::document::AnalysisKind;
 use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
@@ -298,8 +299,8 @@ pub fn gradient(
 /// Signs of the switching functions of forces with kinks or jumps.
 #[derive(Default)]
 struct Switches {
-    signs: Vec<i8>,
-    values: Vec<f64>,
+    sides: Vec<f64>,
+    values: Vec<Switch>,
 }
 
 impl Switches {
@@ -308,12 +309,12 @@ impl Switches {
         let simulation = session.simulation();
         self.values.clear();
         simulation.system().switches(&simulation.state().kinematics, &mut self.values);
-        self.signs.resize(self.values.len(), 0);
+        self.sides.resize(self.values.len(), 0.0);
         let mut have_changed = false;
-        for (sign, value) in self.signs.iter_mut().zip(&self.values) {
-            let own = if *value > 0.0 { 1 } else { -1 };
-            have_changed |= *sign == -own;
-            *sign = own;
+        for (side, value) in self.sides.iter_mut().zip(&self.values) {
+            let own = value.side();
+            have_changed |= *side != 0.0 && *side != own;
+            *side = own;
         }
         have_changed
     }

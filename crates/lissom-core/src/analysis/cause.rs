@@ -55,7 +55,10 @@ impl Simulation {
             self.system.switches(at, &mut values);
             values
         });
-        let has_switched = |which: &usize| before[*which] * after[*which] < 0.0;
+        let has_switched = |which: &usize| {
+            let [before, after] = [before[*which], after[*which]];
+            before.number * after.number != 0.0 && before.side() != after.side()
+        };
         let which = (0..before.len().min(after.len())).find(has_switched)?;
         Some(self.system.name_of_switch(which))
     }

@@ -118,7 +118,7 @@ impl LinearModel<'_> {
             self.system.signals().switches(at, values);
             self.system.switches(at, values);
         }
-        let which = a.iter().zip(&b).position(|(a, b)| (*a > 0.0) != (*b > 0.0))?;
+        let which = a.iter().zip(&b).position(|(a, b)| a.side() != b.side())?;
         Some(self.system.name_of_switch(which).to_string())
     }
 

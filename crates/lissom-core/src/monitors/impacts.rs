@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::judge::{Warning, report};
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Switch};
 use crate::system::System;
 
 /// Steps after a crossing at whose ends the rate is checked.
@@ -39,7 +39,7 @@ struct Approach {
 struct Impacts {
     time: f64,
     approaches: Vec<Approach>,
-    values: Vec<f64>,
+    values: Vec<Switch>,
 }
 
 impl Impacts {
@@ -47,7 +47,7 @@ impl Impacts {
     fn new(system: &System, at: &Kinematics) -> Self {
         let mut impacts = Self { time: at.time, ..Self::default() };
         values_at(system, at, &mut impacts.values);
-        let of = |&value: &f64| Approach { value, ..Approach::default() };
+        let of = |switch: &Switch| Approach { value: position(switch), ..Approach::default() };
         impacts.approaches = impacts.values.iter().map(of).collect();
         impacts
     }
@@ -58,8 +58,8 @@ impl Impacts {
         values_at(system, at, &mut self.values);
         let duration = at.time - self.time;
         self.time = at.time;
-        for (approach, &value) in self.approaches.iter_mut().zip(&self.values) {
-            approach.accept(value, duration, at.time);
+        for (approach, switch) in self.approaches.iter_mut().zip(&self.values) {
+            approach.accept(position(switch), duration, at.time);
         }
         let found = self.approaches.iter().enumerate().filter_map(|(which, approach)| {
             let (rate, time) = approach.stopped?;
@@ -143,7 +143,12 @@ impl Approach {
     }
 }
 
-fn values_at(system: &System, at: &Kinematics, out: &mut Vec<f64>) {
+/// The distance from where a force switches; laws with levels stop nothing.
+fn position(switch: &Switch) -> f64 {
+    if switch.levels.is_some() { 0.0 } else { switch.number }
+}
+
+fn values_at(system: &System, at: &Kinematics, out: &mut Vec<Switch>) {
     out.clear();
     system.signals().switches(at, out);
     system.switches(at, out);

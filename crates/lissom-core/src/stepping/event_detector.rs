@@ -20,7 +20,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::dense;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Switch};
 use crate::round_off;
 use crate::signals::event::{Event, Occurrence};
 use crate::system::{State, System};
@@ -50,9 +50,11 @@ const MAX_SWITCHES_AT_START: usize = 8;
 /// State of the switching functions between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EventState {
-    /// 1 above zero, -1 below, 0 if unknown.
-    sides: Vec<i8>,
-    /// The largest magnitude so far.
+    /// 1 above zero, -1 below, those of levels, 0 where it is not known yet.
+    sides: Vec<f64>,
+    /// The sides before these.
+    before: Vec<f64>,
+    /// The largest magnitude seen.
     largest: Vec<f64>,
     /// Events that happened.
     pub(crate) occurrences: Vec<Occurrence>,
@@ -85,7 +87,7 @@ pub(crate) struct EventDetector {
     has_switches: bool,
     /// Number of sides changed at the start of the present step.
     switched_at_start: usize,
-    values: Vec<f64>,
+    values: Vec<Switch>,
     between: State,
 }
 
@@ -95,7 +97,8 @@ impl EventDetector {
         let mut detector = Self::of_nothing(start);
         detector.has_switches = has_switches;
         values_at(system, start, has_switches, &mut detector.values);
-        detector.known.sides = vec![0; detector.values.len()];
+        detector.known.sides = vec![0.0; detector.values.len()];
+        detector.known.before = vec![0.0; detector.values.len()];
         detector.known.largest = vec![0.0; detector.values.len()];
         detector.known.recent.0 = start.kinematics.time;
         detector.note(0..0, &[]);
@@ -129,36 +132,42 @@ impl EventDetector {
     pub(crate) fn has_frozen_switches(&self, system: &System, at: &Kinematics) -> bool {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &at.held[system.signals().first_side()..];
-        sides.iter().zip(held).all(|(side, held)| f64::from(*side) == *held)
+        sides == held
     }
 
     /// Freezes all switches on their known sides.
     pub(crate) fn freeze_switches(&self, system: &System, at: &mut Kinematics) {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &mut at.held[system.signals().first_side()..];
-        held.iter_mut().zip(sides).for_each(|(held, side)| *held = f64::from(*side));
+        held.iter_mut().zip(sides).for_each(|(held, side)| *held = *side);
     }
 
     /// Records the sides of all values that have none yet, or are neither among those `kept` nor `but`.
     fn note(&mut self, kept: std::ops::Range<usize>, but: &[usize]) {
         let known = &mut self.known;
         for (k, value) in self.values.iter().enumerate() {
-            known.largest[k] = known.largest[k].max(value.abs());
-            let is_free = known.sides[k] == 0 || !(kept.contains(&k) || but.contains(&k));
-            if is_free && value.abs() > NOISE * known.largest[k] {
-                known.sides[k] = if *value > 0.0 { 1 } else { -1 };
+            known.largest[k] = known.largest[k].max(value.number.abs());
+            let is_free = known.sides[k] == 0.0 || !(kept.contains(&k) || but.contains(&k));
+            if is_free && value.number.abs() > NOISE * known.largest[k] {
+                known.sides[k] = value.side();
             }
         }
     }
 
     /// Whether value `k` has crossed zero in a direction that counts.
     fn has_passed(&self, events: &[Event], k: usize) -> bool {
-        let (value, side) = (self.values[k], self.known.sides[k]);
+        let (value, side) = (self.values[k].number, self.known.sides[k]);
         let is_clear = value.abs() > NOISE * self.known.largest[k];
         is_clear
-            && side != 0
-            && (value > 0.0) != (side > 0)
+            && side != 0.0
+            && (value > 0.0) != (side > 0.0)
             && events.get(k).is_none_or(|event| event.direction.allows(value > 0.0))
+    }
+
+    /// Changes to the side beyond the zero of value `k`.
+    fn cross(&mut self, k: usize) {
+        let side = self.known.sides[k];
+        self.known.before[k] = std::mem::replace(&mut self.known.sides[k], self.values[k].beyond(side));
     }
 
     fn any_has_passed(&self, events: &[Event]) -> bool {
@@ -208,8 +217,8 @@ impl EventDetector {
                 after if after > 1.0 - ACCURACY => 1.0,
                 after => after.max(CLOSE),
             };
-            // A smooth function has not exceeded its noise yet.
-            let is_jump = self.values[indices[0]].abs() > CLOSE * self.known.largest[indices[0]];
+            // A smooth number is not beyond its noise yet.
+            let is_jump = self.values[indices[0]].number.abs() > CLOSE * self.known.largest[indices[0]];
             return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
@@ -221,12 +230,12 @@ impl EventDetector {
         let events = system.signals().events();
         let is_doubtful = |detector: &Self, k: usize| {
             let side = detector.known.sides[k];
-            detector.values[k].abs() <= CLOSE * detector.known.largest[k]
-                && side != 0
-                && events[k].direction.allows(side < 0)
+            detector.values[k].number.abs() <= CLOSE * detector.known.largest[k]
+                && side != 0.0
+                && events[k].direction.allows(side < 0.0)
         };
         let doubtful: Vec<(usize, f64)> =
-            (0..events.len()).filter(|&k| is_doubtful(self, k)).map(|k| (k, self.values[k])).collect();
+            (0..events.len()).filter(|&k| is_doubtful(self, k)).map(|k| (k, self.values[k].number)).collect();
         if doubtful.is_empty() {
             return None;
         }
@@ -235,10 +244,10 @@ impl EventDetector {
         self.at(system, step, BEFORE_END);
         let mut roots = Vec::new();
         for (k, end) in doubtful {
-            let (side, noise) = (f64::from(self.known.sides[k]), NOISE * self.known.largest[k]);
-            let rate = (end - beside[k]) / BESIDE;
-            // Moves clearly from the known side towards zero.
-            if side * self.values[k] <= noise || side * rate >= 0.0 {
+            let (side, noise) = (self.known.sides[k], NOISE * self.known.largest[k]);
+            let rate = (end - beside[k].number) / BESIDE;
+            // From the side that is known, clearly, towards zero.
+            if side * self.values[k].number <= noise || side * rate >= 0.0 {
                 continue;
             }
             let beyond = -end / rate;
@@ -257,7 +266,7 @@ impl EventDetector {
     /// motion slides along the switch.
     pub(crate) fn switch_at_start(&mut self, indices: &[usize]) -> bool {
         for &k in indices {
-            self.known.sides[k] = -self.known.sides[k];
+            self.cross(k);
         }
         self.known.has_switched = true;
         self.switched_at_start += 1;
@@ -282,9 +291,9 @@ impl EventDetector {
             return is_there;
         }
         self.at(system, step, 1.0 - 1e-3);
-        let earlier = self.values[first];
+        let earlier = self.values[first].number;
         self.at(system, step, 1.0);
-        let value = self.values[first];
+        let value = self.values[first].number;
         let change = -value * 1e-3 * located.size / (value - earlier);
         let is_there = change.abs() <= ACCURACY * located.whole || change.is_nan();
         if is_there || located.refinements > MAX_REFINEMENTS {
@@ -344,12 +353,18 @@ impl EventDetector {
         values_at(system, state, self.has_switches, &mut self.values);
         self.note(self.of_switches(system, &state.kinematics), indices);
         let time = state.kinematics.time;
+        // A law that goes from level to level does not slide, however often those beside it switch.
+        let mut has_progressed = false;
+        for &k in indices {
+            let before = self.known.before[k];
+            self.cross(k);
+            has_progressed |= self.values[k].levels.is_some() && self.known.sides[k] != before;
+        }
         let known = &mut self.known;
         known.stopped_by = None;
         known.has_switched = indices.iter().any(|&k| k >= events.len() || !events[k].sets.is_empty());
         let mut happened = Vec::new();
         for &k in indices {
-            known.sides[k] = -known.sides[k];
             if let Some(event) = events.get(k) {
                 happened.push(k);
                 known.occurrences.push(Occurrence { event: k, time });
@@ -358,24 +373,43 @@ impl EventDetector {
                 }
             }
         }
-        if time - known.recent.0 > longest {
+        if time - known.recent.0 > longest || has_progressed {
             known.recent = (time, 0);
         }
         known.recent.1 += indices.len();
         if known.recent.1 > MAX_CROSSINGS { Err(indices[0]) } else { Ok(happened) }
     }
 
-    /// Updates the sides of events after inputs have changed at the state; no event happens.
+    /// After a law has gone to another level at the state: what depends on it may have jumped to its other side. Whether it has.
+    pub(crate) fn follow_levels(&mut self, system: &System, state: &State) -> bool {
+        values_at(system, state, self.has_switches, &mut self.values);
+        let mut has_jumped = false;
+        for k in self.of_switches(system, &state.kinematics) {
+            if self.has_passed(&[], k) {
+                self.known.before[k] = self.known.sides[k];
+                self.known.sides[k] = self.values[k].side();
+                has_jumped = true;
+            }
+        }
+        has_jumped
+    }
+
+    /// Whether one of these values is of a law with levels.
+    pub(crate) fn have_levels(&self, indices: &[usize]) -> bool {
+        indices.iter().any(|&k| self.values[k].levels.is_some())
+    }
+
+    /// After inputs have changed at the state: sides of events change with them, and nothing happens.
     pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
         values_at(system, state, self.has_switches, &mut self.values);
         self.note(self.of_switches(system, &state.kinematics), happened);
     }
 }
 
-/// Evaluates all switching functions at a state.
-fn values_at(system: &System, state: &State, has_switches: bool, out: &mut Vec<f64>) {
+/// What is watched, at a state.
+fn values_at(system: &System, state: &State, has_switches: bool, out: &mut Vec<Switch>) {
     out.clear();
-    system.signals().event_values(&state.kinematics, out);
+    system.signals().event_values(&state.kinematics, |value| out.push(value.into()));
     if has_switches {
         system.signals().switches(&state.kinematics, out);
         system.switches(&state.kinematics, out);

@@ -5,7 +5,10 @@ use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
 use crate::kinematics::Subject;
 use crate::signals::event::Occurrence;
 
-/// Result of checking an attempt that has a solution.
+/// Laws with levels whose arguments have levels themselves, so many within each other.
+const MAX_NESTED_LEVELS: usize = 8;
+
+/// What becomes of an attempt that has a solution.
 pub(super) enum Verdict {
     /// It can be accepted, and ends at the root if there is one.
     Accept(Option<LocatedRoot>),
@@ -50,7 +53,7 @@ impl Simulation {
             if !self.events.switch_at_start(&located.indices) {
                 return Err(self.chatters(located.indices[0]));
             }
-            self.freeze_switches()?;
+            self.freeze_levels(&located.indices)?;
             self.integrator.work.forget_predictions();
             report.rejected += 1;
             return Ok(Verdict::Repeat);
@@ -83,7 +86,7 @@ impl Simulation {
             .events
             .accept(&self.system, &self.state, located, longest)
             .map_err(|which| self.chatters(which))?;
-        self.freeze_switches()?;
+        self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
         if happened.is_empty() {
             return Ok(());
         }
@@ -121,6 +124,20 @@ impl Simulation {
         }
         let time = at.time;
         self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
+    }
+
+    /// The same where switches have passed zero: what depends on a law that is on another level now is followed.
+    fn freeze_levels(&mut self, passed: &[usize]) -> Result<(), StepError> {
+        let mut has_jumped = self.events.have_levels(passed);
+        self.freeze_switches()?;
+        for _ in 0..MAX_NESTED_LEVELS {
+            if !has_jumped {
+                break;
+            }
+            has_jumped = self.events.follow_levels(&self.system, &self.state);
+            self.freeze_switches()?;
+        }
+        Ok(())
     }
 
     fn chatters(&self, which: usize) -> StepError {

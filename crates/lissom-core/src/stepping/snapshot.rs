@@ -20,7 +20,7 @@ use crate::scaling::Scaled;
 use crate::system::State;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 15;
+const VERSION: u32 = 16;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -7,7 +7,7 @@ use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry of the spring on a rotation.
@@ -170,7 +170,7 @@ impl Element for CoordinateSpring {
         self.switch_states = switch_states;
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let [elongation, rate] = self.motion(at);
         self.law.switches(elongation, rate, self.switch_states.of(at), out);
     }

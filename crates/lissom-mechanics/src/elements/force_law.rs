@@ -12,6 +12,7 @@
 //! that violates this has no potential energy, and its work is treated as that of a load.
 
 use super::switch_states::is_on_upper_branch;
+use crate::kinematics::Switch;
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 
 /// On which side of the free length it acts, for lengths.
@@ -116,9 +117,9 @@ impl ForceLaw {
         self.has_ends().iter().filter(|has| **has).count() + breakpoints + limits
     }
 
-    /// Appends switching functions for the beginning and end of the force, for kinks of its expressions, and for limits.
-    pub(crate) fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<f64>) {
-        self.walk(elongation, rate, sides, |value| out.push(value));
+    /// Appends numbers that change their sign where the force begins or ends, at kinks of its expressions, and at limits.
+    pub(crate) fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<Switch>) {
+        self.walk(elongation, rate, sides, |switch| out.push(switch));
     }
 
     /// The force at an elongation and its rate, continued from known `sides` of its switches.
@@ -126,18 +127,18 @@ impl ForceLaw {
         self.walk(elongation, rate, sides, |_| ())
     }
 
-    /// The force; `hand` is called with all switches in their order.
-    fn walk(&self, elongation: f64, rate: f64, sides: &[f64], mut hand: impl FnMut(f64)) -> Response {
+    /// The force; `hand` is given all switches in their order.
+    fn walk(&self, elongation: f64, rate: f64, sides: &[f64], mut hand: impl FnMut(Switch)) -> Response {
         let mut next = 0;
-        let mut passes = |next: &mut usize, value: f64| {
-            hand(value);
+        let mut passes = |next: &mut usize, switch: Switch| {
+            hand(switch);
             *next += 1;
-            is_on_upper_branch(sides.get(*next - 1), value)
+            is_on_upper_branch(sides.get(*next - 1), switch.number)
         };
         let [has_upper, has_lower] = self.has_ends();
         let (above, below) = (elongation - self.play, elongation + self.play);
-        let is_above = has_upper && passes(&mut next, above);
-        let is_below = has_lower && passes(&mut next, -below);
+        let is_above = has_upper && passes(&mut next, above.into());
+        let is_below = has_lower && passes(&mut next, (-below).into());
         let past = match (is_above, is_below) {
             (true, _) => above,
             (_, true) => below,
@@ -150,7 +151,7 @@ impl ForceLaw {
                 let Some(law) = law else { return [0.0; 3] };
                 let begin = next;
                 let own = sides.get(begin..begin + law.switch_count()).unwrap_or_default();
-                law.switches(one, other, own, &mut |value| _ = passes(&mut next, value));
+                law.switches(one, other, own, &mut |switch| _ = passes(&mut next, switch));
                 law.continued(one, other, own)
             });
         let response = Response {
@@ -160,7 +161,7 @@ impl ForceLaw {
         };
         let [low, high] = self.limits;
         let mut is_beyond = |limit: f64, value: f64| {
-            if is_passed(limit) { passes(&mut next, value) } else { value > 0.0 }
+            if is_passed(limit) { passes(&mut next, value.into()) } else { value > 0.0 }
         };
         let is_high = is_beyond(high, response.force - high);
         let is_low = is_beyond(low, low - response.force);
@@ -352,7 +353,7 @@ mod tests {
         let at = |law: &ForceLaw, elongation: f64| {
             let mut found = Vec::new();
             law.switches(elongation, 0.0, &[], &mut found);
-            found
+            found.iter().map(|switch| switch.number).collect::<Vec<f64>>()
         };
         let both = law(&given);
         for (place, which) in [(0.1, 0), (-0.1, 1), (0.18, 2)] {

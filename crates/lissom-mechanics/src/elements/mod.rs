@@ -39,7 +39,7 @@ pub use kind::{Attached, Attachment, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Switch};
 use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
@@ -294,9 +294,8 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// nothing.
     fn freeze_switches(&mut self, _switch_states: switch_states::SwitchStates) {}
 
-    /// Appends switching functions, which change their sign where its forces have a kink or a jump, such as the
-    /// contact of a stop.
-    fn switches(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
+    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
+    fn switches(&self, _at: &Kinematics, _out: &mut Vec<Switch>) {}
 
     /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
     /// nodes, for deformable elements. Default: none.
@@ -363,9 +362,9 @@ mod tests {
         for limit in LinearLimit::ALL {
             assert_eq!(Bare.linear_range(limit, at), None);
         }
-        let mut out = Vec::new();
-        Bare.switches(at, &mut out);
+        let (mut switches, mut out) = (Vec::new(), Vec::new());
+        Bare.switches(at, &mut switches);
         Bare.mass(at, &mut out);
-        assert!(out.is_empty());
+        assert!(switches.is_empty() && out.is_empty());
     }
 }

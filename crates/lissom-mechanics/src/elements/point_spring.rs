@@ -14,7 +14,7 @@ use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
-use crate::kinematics::{Kinematics, NodeId, NodeMotion, split};
+use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.
@@ -254,7 +254,7 @@ impl Element for PointSpring {
         self.switch_states = switch_states;
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let (_, length, rate, _) = self.tension(at, &self.points(at));
         self.law.switches(length - self.length, rate, self.switch_states.of(at), out);
     }

@@ -19,7 +19,7 @@ use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::{SwitchStates, is_on_upper_branch};
 use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
-use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId, Switch};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Sliding velocities below this are those of rolling, where the law is linear [m/s].
@@ -294,8 +294,8 @@ impl Element for RollingContact {
         self.switch_states = switch_states;
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        out.push(-self.touch(at).gap);
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        out.push((-self.touch(at).gap).into());
     }
 
     /// Gap, its rate and the normal force.

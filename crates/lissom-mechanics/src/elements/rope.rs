@@ -20,7 +20,7 @@ use super::point_spring::Point;
 use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
-use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, Switch};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
 
 /// Registry entry.
@@ -411,7 +411,7 @@ impl Element for Rope {
         self.switch_states = switch_states;
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let shape = self.shape(at);
         self.law.switches(shape.elongation, shape.rate, self.switch_states.of(at), out);
     }

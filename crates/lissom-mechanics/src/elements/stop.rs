@@ -17,7 +17,7 @@ use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::{SwitchStates, is_on_upper_branch};
 use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Smallest restitution of a contact.
@@ -228,8 +228,8 @@ impl Element for Stop {
         self.switch_states = switch_states;
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        out.extend(self.depths(at));
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        out.extend(self.depths(at).map(Switch::from));
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {

@@ -15,7 +15,8 @@ impl SwitchStates {
         Self { held: Some((first, count)) }
     }
 
-    /// The sides at a configuration: 1 above, -1 below, 0 if the value of the switch decides.
+    /// The sides at a configuration: 1 above, -1 below, those of levels ([`Switch`](crate::kinematics::Switch)), 0 where the switch
+    /// decides by itself.
     pub fn of<'k>(&self, at: &'k Kinematics) -> &'k [f64] {
         let held = self.held.and_then(|(first, count)| at.held.get(first..first + count));
         held.unwrap_or_default()

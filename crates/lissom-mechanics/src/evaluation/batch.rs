@@ -18,7 +18,7 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId, Subject};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -82,9 +82,9 @@ pub trait AnyBatch: Send + Sync {
     fn breakpoints(&self) -> Vec<f64>;
     /// Assigns every item slots for the sides of its switches, from the discrete value `first` on; returns their number.
     fn freeze_switches(&mut self, first: usize) -> usize;
-    /// Appends switching functions, which change their sign where forces have a kink or a jump.
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
-    /// Appends the location of each switch, in words.
+    /// Appends numbers that change their sign where forces have a kink or a jump.
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>);
+    /// Appends where each switch acts, in words.
     fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>);
     /// The largest deformation rate of an element [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
@@ -410,7 +410,7 @@ impl<E: Element> AnyBatch for Batch<E> {
         next - first
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         self.items.iter().for_each(|item| item.switches(at, out));
     }
 

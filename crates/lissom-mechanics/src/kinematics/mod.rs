@@ -8,6 +8,7 @@ mod motion;
 mod quantity;
 pub mod step_stages;
 mod subject;
+pub mod switch;
 pub mod work;
 
 pub use carried_frame::CarriedFrame;
@@ -19,3 +20,4 @@ pub use motion::{
 pub use quantity::Quantity;
 pub use step_stages::StepStages;
 pub use subject::Subject;
+pub use switch::Switch;

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{Graph, HeldId, SignalId};
-use crate::kinematics::{Kinematics, Subject};
+use crate::kinematics::{Kinematics, Subject, Switch};
 
 /// Direction in which a signal crosses zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,12 +69,12 @@ impl Graph {
         &self.events
     }
 
-    /// Appends the values whose crossings of zero are events, in the order of the events. They are not continued from a side,
+    /// Passes on the values whose crossings of zero are events, in the order of the events. They are not continued from a side,
     /// because a continued one never jumps, and crosses zero where the signal only touches it.
-    pub fn event_values(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    pub fn event_values(&self, at: &Kinematics, visit: impl FnMut(f64)) {
         if !self.events.is_empty() {
             self.evaluate_as_they_are(at, |values| {
-                out.extend(self.events.iter().map(|event| values[event.root]));
+                self.events.iter().map(|event| values[event.root]).for_each(visit);
             });
         }
     }
@@ -89,7 +89,7 @@ impl Graph {
 
     /// Appends switching functions, which change their sign where a signal has a kink or a jump, in the order of the
     /// sides.
-    pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+    pub fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         if self.first_sides.last() == self.first_sides.first() {
             return;
         }

@@ -21,7 +21,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::instants;
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject, Switch};
 use measurement::Component;
 
 pub use moving_frame::MovingFrame;
@@ -50,7 +50,7 @@ pub trait SignalFunction: Send + Sync + fmt::Debug {
     }
     /// Appends switching functions, which change their sign where the function has a kink or a jump; 0 at all times if
     /// these are among the known [`breakpoints`](Self::breakpoints).
-    fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<f64>) {}
+    fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<Switch>) {}
     /// Known breakpoints [s], for all arguments. Default: none.
     fn breakpoints(&self) -> &[f64] {
         &[]

@@ -1,5 +1,8 @@
 //! Where an expression is not smooth: roots of straight lines under functions that have a kink or a jump.
 
+use lissom_core::kinematics::Switch;
+use lissom_core::kinematics::switch::level_of_side;
+
 use super::{Function, Jet, STACK, Step};
 
 /// a + b x, or none for what is no straight line.
@@ -25,7 +28,9 @@ pub(super) fn of(steps: &[Step], arguments: &[Line]) -> Course {
         let first = top - step.operands().min(top);
         let operands = [0, 1, 2].map(|k| stack[(first + k).min(STACK - 1)]);
         if let Step::Call(function) | Step::Call2(function) | Step::Call3(function) = *step {
-            let is_known = operands[..step.operands()].iter().all(Option::is_some);
+            // Levels have no end.
+            let has_levels = level_argument(function, [0.0, 1.0]).is_some();
+            let is_known = !has_levels && operands[..step.operands()].iter().all(Option::is_some);
             are_known.resize(are_known.len() + switch_count(function), is_known);
         }
         stack[first] = match *step {
@@ -39,26 +44,45 @@ pub(super) fn of(steps: &[Step], arguments: &[Line]) -> Course {
     Course { line: stack[0], breakpoints, are_known }
 }
 
-/// Hands out numbers that change their sign where a function has a kink or a jump, given its arguments.
-pub(super) fn switches(function: Function, [one, other, third]: [f64; 3], mut hand: impl FnMut(f64)) {
+/// The number whose integer part is the level on which a function is smooth; none where it has no levels.
+fn level_argument(function: Function, [one, other]: [f64; 2]) -> Option<f64> {
+    match function {
+        Function::Floor | Function::Ceil => Some(one),
+        Function::Round => Some(one + 0.5),
+        Function::Mod => Some(one / other.abs()),
+        _ => None,
+    }
+}
+
+/// Passes the switching functions of a function, given its arguments and known sides, to `visit`.
+pub(super) fn switches(
+    function: Function,
+    [one, other, third]: [f64; 3],
+    sides: &[f64],
+    mut visit: impl FnMut(Switch),
+) {
+    if let Some(argument) = level_argument(function, [one, other]) {
+        return visit(Switch::of_level(argument, sides.first().copied().unwrap_or_default()));
+    }
+    let mut hand = |number: f64| visit(number.into());
     match function {
         Function::Abs | Function::Sign | Function::Step => hand(one),
-        Function::Smoothstep => [one, one - 1.0].into_iter().for_each(hand),
+        Function::Smoothstep => [one, one - 1.0].into_iter().for_each(&mut hand),
         Function::Min
         | Function::Max
         | Function::Less
         | Function::LessOrEqual
         | Function::Greater
         | Function::GreaterOrEqual => hand(one - other),
-        Function::Clamp => [one - other, one - third].into_iter().for_each(hand),
+        Function::Clamp => [one - other, one - third].into_iter().for_each(&mut hand),
         _ => {}
     }
 }
 
-/// How many numbers [`switches`] hands out.
+/// How many switching functions [`switches`] passes on.
 pub(super) fn switch_count(function: Function) -> usize {
     let mut count = 0;
-    switches(function, [0.0; 3], |_| count += 1);
+    switches(function, [0.0; 3], &[], |_| count += 1);
     count
 }
 
@@ -69,8 +93,12 @@ pub(super) fn continued(function: Function, sides: &[f64], [one, other, third]: 
         return None;
     }
     let is_above = sides[0] > 0.0;
+    let level = level_of_side(sides[0]);
     let truth = |holds: bool| Jet::constant(f64::from(u8::from(holds)));
     match function {
+        Function::Floor | Function::Round => Some(Jet::constant(level)),
+        Function::Ceil => Some(Jet::constant(level + 1.0)),
+        Function::Mod => Some(one.plus(other.scaled(-level * other.value.signum()))),
         Function::Abs => Some(one.scaled(sides[0])),
         Function::Sign => Some(Jet::constant(sides[0])),
         Function::Step | Function::Greater | Function::GreaterOrEqual => Some(truth(is_above)),

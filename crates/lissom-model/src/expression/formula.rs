@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use lissom_core::kinematics::Switch;
 use lissom_core::signals::SignalFunction;
 
 use super::breakpoints::{Course, Line};
@@ -91,8 +92,14 @@ impl Formula {
         breakpoints::of(&self.steps, arguments)
     }
 
-    /// Passes the values of its switching functions to `visit`, in their order.
-    pub(crate) fn visit_switches(&self, time: f64, arguments: &[f64], sides: &[f64], visit: impl FnMut(f64)) {
+    /// Passes its switching functions to `visit`, in their order.
+    pub(crate) fn visit_switches(
+        &self,
+        time: f64,
+        arguments: &[f64],
+        sides: &[f64],
+        visit: impl FnMut(Switch),
+    ) {
         let of = |index: usize| Jet::constant(arguments[index]);
         run_continued(&self.steps, Jet::constant(time), of, sides, visit);
     }
@@ -139,7 +146,7 @@ impl SignalFunction for Formula {
         self.steps.iter().map(of).sum()
     }
 
-    fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<f64>) {
+    fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<Switch>) {
         self.visit_switches(time, arguments, sides, |value| out.push(value));
     }
 }
@@ -181,7 +188,7 @@ mod tests {
         assert_eq!(gradient, [0.0, 10.0]);
         let mut switches = Vec::new();
         formula.switches(0.0, &[2.0, -3.0], &[1.0, 1.0, -1.0], &mut switches);
-        assert_eq!(switches, [-2.0, -3.0, 2.0]);
+        assert_eq!(switches, [-2.0, -3.0, 2.0].map(Switch::from));
     }
 
     #[test]

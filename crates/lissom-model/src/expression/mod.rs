@@ -15,6 +15,8 @@ mod token;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use lissom_core::kinematics::Switch;
+
 pub(crate) use breakpoints::Line;
 pub use formula::{Formula, Name};
 pub(crate) use jet::NAMES as FUNCTION_NAMES;
@@ -113,20 +115,21 @@ fn run(steps: &[Step], variable: Jet, argument: impl Fn(usize) -> Jet) -> Jet {
 }
 
 /// The same with functions continued from known `sides` of their switches, in the order of the switches; none for all by
-/// their arguments. `hand` is given the switches.
+/// their arguments. Passes the switching functions to `visit`.
 fn run_continued(
     steps: &[Step],
     variable: Jet,
     argument: impl Fn(usize) -> Jet,
     sides: &[f64],
-    mut hand: impl FnMut(f64),
+    mut visit: impl FnMut(Switch),
 ) -> Jet {
     let mut next = 0;
     let mut continued = |function: Function, arguments: [Jet; 3]| {
-        breakpoints::switches(function, arguments.map(|argument| argument.value), &mut hand);
         let first = next;
         next += breakpoints::switch_count(function);
-        breakpoints::continued(function, sides.get(first..next).unwrap_or_default(), arguments)
+        let own = sides.get(first..next).unwrap_or_default();
+        breakpoints::switches(function, arguments.map(|argument| argument.value), own, &mut visit);
+        breakpoints::continued(function, own, arguments)
     };
     let mut stack = [Jet::constant(0.0); STACK];
     let mut top = 0;

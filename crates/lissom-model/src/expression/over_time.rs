@@ -1,6 +1,7 @@
 //! A formula in the graph of signals, with the times of its kinks that are known before they are met: those of its parts that
 //! depend on time alone.
 
+use lissom_core::kinematics::Switch;
 use lissom_core::signals::SignalFunction;
 
 use super::Formula;
@@ -39,12 +40,12 @@ impl SignalFunction for OverTime {
         self.formula.switch_count()
     }
 
-    fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<f64>) {
+    fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<Switch>) {
         let first = out.len();
         self.formula.switches(time, arguments, sides, out);
         for (value, is_known) in out[first..].iter_mut().zip(&self.course.are_known) {
             if *is_known {
-                *value = 0.0;
+                *value = 0.0.into();
             }
         }
     }
@@ -70,7 +71,7 @@ mod tests {
         assert_eq!(found.breakpoints(), [0.5, 2.5]);
         let mut switches = Vec::new();
         found.switches(7.0, &[-3.0, 1.0], &[], &mut switches);
-        assert_eq!(switches, [0.0, -3.0, 0.0]);
+        assert_eq!(switches, [0.0, -3.0, 0.0].map(Switch::from));
         assert_eq!(found.line(), None);
     }
 
@@ -88,6 +89,6 @@ mod tests {
         assert_eq!(found.breakpoints(), [1.0]);
         let mut switches = Vec::new();
         found.switches(2.0, &[3.0, 5.0], &[], &mut switches);
-        assert_eq!(switches, [1.0, -2.0, 2.0, -3.0]);
+        assert_eq!(switches, [1.0, -2.0, 2.0, -3.0].map(Switch::from));
     }
 }
