@@ -401,7 +401,7 @@ fn mistakes_are_reported_with_their_place() {
         ),
         (
             load("bend.total") + "[outputs.bend]\nkind = \"energy\"\n",
-            &["which only sampled signals can depend on"],
+            &["`bend` is of kind `energy`", "only sampled"],
         ),
         (
             "[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"arm\"\nrotation = \"tip.x\"\n"
