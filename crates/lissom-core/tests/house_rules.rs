@@ -284,7 +284,7 @@ const FLOORS: [(&str, &[&str]); 11] = [
     ("relation.rs", &[]),
     ("registry.rs", &["kinematics", "relation"]),
     ("contact/", &["dual", "kinematics", "registry", "round_off"]),
-    ("signals/", &["instants", "kinematics", "round_off"]),
+    ("signals/", &["dual", "instants", "kinematics", "round_off"]),
     ("joints/", &["contact", "joints", "kinematics", "registry", "relation", "round_off"]),
     ("elements/", &["contact", "dual", "elements", "kinematics", "registry", "round_off"]),
     ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "round_off"]),

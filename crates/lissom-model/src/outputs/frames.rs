@@ -31,7 +31,7 @@ fn quantity(kind: OutputKind) -> Of {
 /// Source of a quantity of the frame at `location`.
 pub(super) fn source(
     output: &Output,
-    location: Location,
+    location: &Location,
     subjects: &Subjects<'_>,
 ) -> Result<Source, Problem> {
     let frame = |node: &Option<Located<NodeReference>>| {
@@ -39,17 +39,27 @@ pub(super) fn source(
     };
     let (observer, axes) = (frame(&output.relative_to)?, frame(&output.seen_in)?);
     let start = location.motion(subjects.start).frame;
-    let start = observer.map_or(start, |observer| start.relative_to(&observer.frame(subjects.start)));
+    let mut start = observer.map_or(start, |observer| start.relative_to(&observer.frame(subjects.start)));
     let of = quantity(output.kind);
-    Ok(match location {
+    let source = |of: Of, axes: Option<CarriedFrame>, start: Motion| match location {
         Location::Carried(own) => {
-            Source::Measured(Arc::new(FrameQuantity::new(of, own, observer, axes, start)))
+            Source::Measured(Arc::new(FrameQuantity::new(of, *own, observer, axes, start)))
         }
         Location::Between(section) => {
             let formula = Formula { of, start, has_axes: axes.is_some() };
-            Source::BetweenNodes(ObservedSection { section, formula, observer, axes })
+            Source::BetweenNodes(ObservedSection { section: section.clone(), formula, observer, axes })
         }
-    })
+    };
+    // By the same formula, so that displacements begin with zero and not with its round-off.
+    let position = match source(Of::Position, None, start) {
+        Source::Measured(position) => position.values(subjects.start).to_vec(),
+        Source::BetweenNodes(position) => position.values(subjects.start),
+        _ => Vec::new(),
+    };
+    if let [x, y, z, ..] = position[..] {
+        start.position = Vector3::new(x, y, z);
+    }
+    Ok(source(of, axes, start))
 }
 
 /// Pose of a joint's tip frame in its base frame.

@@ -40,7 +40,7 @@ pub(crate) fn source(output: &Output, subjects: &Subjects<'_>) -> Result<Option<
             Source::Angle(frames::location(node, point.as_ref(), subjects)?)
         }
         (OutputSource::Node { node, point }, _) => {
-            frames::source(output, frames::location(node, point.as_ref(), subjects)?, subjects)?
+            frames::source(output, &frames::location(node, point.as_ref(), subjects)?, subjects)?
         }
         (OutputSource::Beam(name), _) => Source::Line(frames::points_of_line(name, subjects.names)?),
         (OutputSource::Superelement(name), kind) => {
