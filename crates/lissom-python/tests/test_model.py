@@ -113,7 +113,9 @@ def test_failures_say_what_the_summary_says(program: Program, tmp_path: Path) ->
         lissom.load(PENDULUM, **wrong).run()
     error = caught.value
     assert str(error) == summary["error"] and str(error) in ended.stderr
-    assert {"time": error.time, "part": error.part, "remedy": error.remedy} == summary["failure"]
+    failure = summary["failure"]
+    assert (error.time, error.part, error.remedy) == (failure["time"], failure["part"], failure["remedy"])
+    assert failure["code"] == "not-converged"
     assert (error.time, error.part) == (0.01, "bob")
     assert error.remedy is not None and "a small `max_iterations`" in error.remedy
     assert len(error.result.time) == 1 and error.result.summary["failure"] == summary["failure"]
