@@ -276,18 +276,19 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the mechanics, and what of their crate they may name.
-const FLOORS: [(&str, &[&str]); 11] = [
+const FLOORS: [(&str, &[&str]); 12] = [
     ("round_off.rs", &[]),
     ("instants.rs", &["round_off"]),
     ("kinematics/", &["kinematics", "round_off"]),
     ("dual.rs", &[]),
-    ("relation.rs", &[]),
-    ("registry.rs", &["kinematics", "relation"]),
+    ("law.rs", &[]),
+    ("relation.rs", &["law"]),
+    ("registry.rs", &["kinematics", "law", "relation"]),
     ("contact/", &["dual", "kinematics", "registry", "round_off"]),
-    ("signals/", &["dual", "instants", "kinematics", "round_off"]),
-    ("joints/", &["contact", "joints", "kinematics", "registry", "relation", "round_off"]),
-    ("elements/", &["contact", "dual", "elements", "kinematics", "registry", "round_off"]),
-    ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "round_off"]),
+    ("signals/", &["dual", "instants", "kinematics", "law", "round_off"]),
+    ("joints/", &["contact", "joints", "kinematics", "law", "registry", "relation", "round_off"]),
+    ("elements/", &["contact", "dual", "elements", "kinematics", "law", "registry", "round_off"]),
+    ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "law", "round_off"]),
 ];
 
 /// Names beyond the floors: the elements of an entry are of a kind that only their batch knows, and a joint that rolls reports the

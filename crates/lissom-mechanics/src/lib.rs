@@ -10,6 +10,7 @@ pub mod evaluation;
 pub mod instants;
 pub mod joints;
 pub mod kinematics;
+pub mod law;
 pub mod registry;
 pub mod relation;
 pub mod round_off;

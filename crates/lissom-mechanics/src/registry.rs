@@ -9,6 +9,7 @@ use lissom_motion::{Matrix6, Vector3};
 use nalgebra::DMatrix;
 
 use crate::kinematics::{HeldId, Switch};
+use crate::law::Interval;
 use crate::relation::Relation;
 
 /// A function of time with exact first and second derivatives.
@@ -29,7 +30,7 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
         self.breakpoints().first().copied()
     }
     /// Bounds of the value between two times [s]. Default: none are known.
-    fn bounds(&self, _from: f64, _to: f64) -> Option<[f64; 2]> {
+    fn bounds(&self, _from: f64, _to: f64) -> Option<Interval> {
         None
     }
     /// Whether the value is constant. Default: it is not.
@@ -64,6 +65,10 @@ impl TimeFunction for Constant {
 pub trait ForceFunction: Send + Sync + fmt::Debug {
     /// The force and its derivatives with respect to the first and the second quantity.
     fn evaluate(&self, first: f64, second: f64) -> [f64; 3];
+    /// Bounds of the force over intervals of both quantities. Default: none are known.
+    fn bounds(&self, _first: Interval, _second: Interval) -> Option<Interval> {
+        None
+    }
     /// Whether it depends on the second quantity. Default: it does not.
     fn depends_on_second(&self) -> bool {
         false
@@ -71,6 +76,11 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     /// Known breakpoints in the first quantity, in ascending order. Default: none.
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
+    }
+    /// Whether few values between breakpoints determine its integral over the first quantity: not if it oscillates, or jumps at
+    /// other positions. Default: they do.
+    fn is_integrable(&self) -> bool {
+        true
     }
     /// Number of its switching functions, which change sign where it has a kink or a jump. Adaptive steps end there.
     /// Default: none.
@@ -92,6 +102,9 @@ pub type Force = Arc<dyn ForceFunction>;
 impl ForceFunction for Constant {
     fn evaluate(&self, _: f64, _: f64) -> [f64; 3] {
         [self.0, 0.0, 0.0]
+    }
+    fn bounds(&self, _: Interval, _: Interval) -> Option<Interval> {
+        Some([self.0; 2])
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt::Debug;
 
+use crate::law::{Interval, ScalarLaw};
+
 /// Maximum number of coordinates of a relation.
 pub const MAX_COUPLED: usize = 16;
 
@@ -15,6 +17,12 @@ pub type RelationPoint<'a> = (f64, &'a [f64]);
 pub trait Relation: Send + Sync + Debug {
     /// Value, and first and second derivative along a direction.
     fn jet(&self, at: RelationPoint<'_>, direction: RelationPoint<'_>) -> [f64; 3];
+
+    /// Bounds of the value over intervals of time [s] and of the coordinates. Default: none are known, and no features are
+    /// searched for.
+    fn bounds(&self, _time: Interval, _coordinates: &[Interval]) -> Option<Interval> {
+        None
+    }
 
     /// Change from one instant to another without cancellation, `elapsed` [s] and `change` later. Default: the
     /// difference of the values, or for small changes, where that is round-off, the integral of the derivative.
@@ -44,5 +52,16 @@ pub trait Relation: Send + Sync + Debug {
         let by_time = self.jet(from, (time, &Coupled::default()[..start.len()]))[1].abs();
         let rounding = 4.0 * f64::EPSILON * (before.abs() + after.abs() + by_arguments + by_time);
         if (integral - difference).abs() <= rounding { integral } else { difference }
+    }
+}
+
+impl ScalarLaw for &(dyn Relation + '_) {
+    fn value(&self, time: f64, coordinates: &[f64]) -> f64 {
+        let still = Coupled::default();
+        self.jet((time, coordinates), (0.0, &still[..coordinates.len()]))[0]
+    }
+
+    fn bounds(&self, time: Interval, coordinates: &[Interval]) -> Option<Interval> {
+        Relation::bounds(*self, time, coordinates)
     }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::kinematics::Switch;
+use lissom_core::law::Interval;
 use lissom_core::registry::{Constant, Force, ForceFunction};
 use lissom_core::signals::SignalFunction;
 
@@ -44,12 +45,26 @@ impl ForceFunction for Expressed {
         self.continued(first, second, &[])
     }
 
+    fn bounds(&self, first: Interval, second: Interval) -> Option<Interval> {
+        let mut arguments = [[0.0; 2]; 2];
+        for (place, interval) in self.places.iter().zip([first, second]) {
+            if let Some(place) = place {
+                arguments[*place] = interval;
+            }
+        }
+        self.formula.bounds([0.0; 2], &arguments[..self.count()])
+    }
+
     fn depends_on_second(&self) -> bool {
         self.places[1].is_some()
     }
 
     fn breakpoints(&self) -> Vec<f64> {
         self.breakpoints.clone()
+    }
+
+    fn is_integrable(&self) -> bool {
+        self.places[0].is_none_or(|first| self.formula.is_integrable(first))
     }
 
     fn switch_count(&self) -> usize {

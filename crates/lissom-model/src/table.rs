@@ -1,5 +1,6 @@
 //! Tables of rows (argument, value), interpolated: functions of time, and forces over an elongation.
 
+use lissom_core::law::Interval;
 use lissom_core::registry::{ForceFunction, TimeFunction};
 
 /// How a table is read between its rows.
@@ -203,6 +204,10 @@ impl ForceFunction for Table {
     fn evaluate(&self, first: f64, _: f64) -> [f64; 3] {
         let [value, slope, _] = Table::evaluate(self, first);
         [value, slope, 0.0]
+    }
+
+    fn bounds(&self, [from, to]: Interval, _: Interval) -> Option<Interval> {
+        Some(Table::bounds(self, from, to))
     }
 
     fn breakpoints(&self) -> Vec<f64> {

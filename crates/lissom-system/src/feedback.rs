@@ -23,6 +23,7 @@ use lissom_mechanics::evaluation::work::{power, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_mechanics::kinematics::step_stages::StepStages;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject, Switch};
+use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::signals::measurement::Component;
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
@@ -392,6 +393,12 @@ impl AnyBatch for DrivenBatch {
     fn switches(&self, _: &Kinematics, _: &mut Vec<Switch>) {
         // Those of signals are monitored with their sides.
     }
+
+    fn laws(&self, _: &Kinematics, _: &mut VisitLaw<'_>) {
+        // Those of signals are visited by the system.
+    }
+
+    fn name_laws(&self, _: &Kinematics, _: &Layout, _: &mut Vec<Subject>) {}
 
     fn name_switches(&self, _: &Layout, _: &mut Vec<Subject>) {}
 

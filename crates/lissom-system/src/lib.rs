@@ -40,6 +40,7 @@ use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId, Subject, Switch};
+use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
 
@@ -231,6 +232,26 @@ impl System {
     /// number at every configuration.
     pub fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         self.batches.iter().for_each(|batch| batch.switches(at, out));
+    }
+
+    /// Passes the scalar laws of signals, elements and relations that depend on the motion to `visit`, with their arguments:
+    /// the same laws in the same order at every configuration.
+    pub fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        self.signals().laws(at, visit);
+        self.batches.iter().for_each(|batch| batch.laws(at, visit));
+        self.constraints.others().for_each(|constraint| constraint.laws(at, visit));
+    }
+
+    /// Description of the law of this index.
+    pub fn name_of_law(&self, which: usize, at: &Kinematics) -> Subject {
+        let mut names = self.signals().names_of_laws();
+        self.batches.iter().for_each(|batch| batch.name_laws(at, self.layout(), &mut names));
+        for constraint in self.constraints.others() {
+            let words = format!("the relation `{}`", constraint.name());
+            constraint
+                .laws(at, &mut |_, _| names.push(Subject::new("", constraint.name()).called(words.clone())));
+        }
+        names.get(which).cloned().unwrap_or_else(|| Subject::nameless("a law"))
     }
 
     /// Description of the switch of this index: those of signals are first.

@@ -85,7 +85,7 @@ impl Simulation {
         Ok(Self {
             integrator,
             monitors,
-            stops: Stops::new(&system, &settings, state.kinematics.time),
+            stops: Stops::new(&system, &settings, &state),
             control: control::of(&settings),
             origin: Origin { kinematics: state.kinematics.clone(), velocity_correction, may_relax: true },
             previous: state.clone(),

@@ -112,6 +112,10 @@ impl Control for Adaptive {
         (self.distance, self.bound) = (distance, bound);
     }
 
+    fn limit(&mut self, size: f64) {
+        self.bound = self.bound.min(size);
+    }
+
     fn propose(&mut self) -> f64 {
         let size = self.controller.propose(self.distance).min(self.control.max_step).min(self.bound);
         // The remainder would be round-off, over which velocities cannot be determined.

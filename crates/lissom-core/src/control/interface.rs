@@ -45,6 +45,9 @@ pub(crate) trait Control: Send + Sync {
     /// Sets the target of the next attempts, `distance` [s] away, to be reached in steps no longer than `bound` [s].
     fn aim(&mut self, distance: f64, bound: f64);
 
+    /// Limits the size of the next attempts at this step [s], for a reason other than the estimated error. Default: nothing.
+    fn limit(&mut self, _size: f64) {}
+
     /// Size of the next attempt [s].
     fn propose(&mut self) -> f64;
 

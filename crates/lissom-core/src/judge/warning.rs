@@ -214,23 +214,23 @@ diagnostics! {
             advice: "No part rotates as fast as that, but the error of every such step is 1 % of a radius or more: use steps of a fiftieth of \
                 a revolution, or `relative_tolerance`.",
         }
-        /// A function of time changes within a step of planned size in a way that its ends do not determine.
+        /// A law of time or of the motion changes within a step of planned size in a way that its ends do not determine.
         FunctionUnseen {
             /// Where it was first found [s].
             time: f64,
-            /// The function, in words.
+            /// The law, in words.
             function: Subject,
             /// Size of the step [s].
             step: f64,
         } => "function-unseen" {
             time: *time,
             subject: function,
-            cause: ("around t = {time:.6e} s {function} does something within a step of {step:.3e} s that its values and slopes at the \
-                    ends do not show, such as a pulse or an oscillation: the step sees little of it, or takes it for something else"),
+            cause: ("around t = {time:.6e} s {function} changes within a step of {step:.3e} s in a way that its values and slopes at the \
+                    ends do not show, such as a pulse or an oscillation: the step misses or aliases it"),
             remedy: "take smaller steps, or set `relative_tolerance` instead of `step`",
-            meaning: "With fixed steps, a function of time changes within a step in a way that its values and slopes at the ends do not show: a \
-                pulse, or an oscillation with fewer than about four steps per period.",
-            advice: "The step misses or aliases it: use smaller steps, or `relative_tolerance`, which adapts the steps to such functions.",
+            meaning: "With fixed steps, a law of time or of the motion changes within a step in a way that its values and slopes at the ends do not \
+                show: a pulse, a narrow peak over a position, or an oscillation with fewer than about four steps per period.",
+            advice: "The step misses or aliases it: use smaller steps, or `relative_tolerance`, which adapts the steps to such laws.",
         }
         /// A wheel on a rail touches outside the range of its model.
         RailContact {

@@ -22,12 +22,14 @@ pub(crate) struct Breakpoint {
     pub(crate) time: f64,
     /// Whether a value jumps, not only its slope.
     jumps: bool,
+    /// The first instant known to be behind it [s]: `time`, or if a function may still have its former value there, the next number.
+    behind: f64,
 }
 
 impl Breakpoint {
     /// A jump at `time` [s].
     pub(crate) fn jump(time: f64) -> Self {
-        Self { time, jumps: true }
+        Self { time, jumps: true, behind: time }
     }
 }
 
@@ -55,13 +57,26 @@ pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     jumps.sort_by(f64::total_cmp);
     known.sort_by(f64::total_cmp);
     let has = |times: &[f64], time: f64| times.binary_search_by(|probe| probe.total_cmp(&time)).is_ok();
+    let is_behind = |time: f64| {
+        let functions = system
+            .functions
+            .iter()
+            .map(|(_, function)| [function.value(time), function.value(time.next_up())]);
+        functions
+            .into_iter()
+            .all(|[at, next]| (next - at).abs() <= round_off::FUNCTION * at.abs().max(next.abs()))
+    };
     let mut breakpoints: Vec<Breakpoint> = Vec::new();
     for time in system.breakpoints() {
         // For a function without a name this is unknown.
-        let jumps = has(&jumps, time) || !has(&known, time);
+        let (jumps, is_known) = (has(&jumps, time), has(&known, time));
+        let behind = if is_known && is_behind(time) { time } else { time.next_up() };
+        let jumps = jumps || !is_known;
         match breakpoints.last_mut() {
-            Some(last) if time - last.time <= near => *last = Breakpoint { time, jumps: last.jumps || jumps },
-            _ => breakpoints.push(Breakpoint { time, jumps }),
+            Some(last) if time - last.time <= near => {
+                *last = Breakpoint { time, jumps: last.jumps || jumps, behind };
+            }
+            _ => breakpoints.push(Breakpoint { time, jumps, behind }),
         }
     }
     breakpoints
@@ -98,6 +113,6 @@ pub(super) fn stop_time(
     let aside = ROUNDINGS * f64::EPSILON * breakpoint.time.abs().max(now.abs());
     let is_end = (breakpoint.time - limit).abs() <= near;
     // The work of the next step begins with the loads after the jump.
-    let clock = if is_end { limit } else { breakpoint.time };
+    let clock = if is_end { limit } else { breakpoint.behind };
     Some(StopTime { end: breakpoint.time.min(limit) - aside, clock, jump: Some(breakpoint.time) })
 }

@@ -21,13 +21,16 @@ use serde::{Deserialize, Serialize};
 
 use super::dense;
 use crate::kinematics::{Kinematics, Switch};
+use crate::law::hull;
 use crate::round_off;
 use crate::signals::event::{Event, Occurrence};
 use crate::system::{State, System};
 
-/// Step fractions at which signs are checked: functions that cross zero and return between two of them are not
-/// detected.
-const INSTANTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Step fractions at which signs are checked. Functions that cross zero and return between two of them are detected from the
+/// polynomial through their values there.
+const INSTANTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Number of intervals of a step in which the minimum of this polynomial is searched for.
+const GRID: usize = 32;
 /// The last of them before the end.
 const BEFORE_END: f64 = 0.75;
 /// Values smaller than this fraction of the largest so far have no sign.
@@ -88,6 +91,10 @@ pub(crate) struct EventDetector {
     /// Number of sides changed at the start of the present step.
     switched_at_start: usize,
     values: Vec<Switch>,
+    /// The values at each of the [`INSTANTS`].
+    samples: [Vec<Switch>; INSTANTS.len()],
+    /// Step fractions at which signs are checked, with the index of the sample there if there is one.
+    instants: Vec<(f64, Option<usize>)>,
     between: State,
 }
 
@@ -112,6 +119,8 @@ impl EventDetector {
             has_switches: false,
             switched_at_start: 0,
             values: Vec::new(),
+            samples: Default::default(),
+            instants: Vec::new(),
             between: start.clone(),
         }
     }
@@ -176,8 +185,9 @@ impl EventDetector {
 
     fn at(&mut self, system: &System, (from, to): (&State, &State), share: f64) {
         let (start, end) = (from.kinematics.time, to.kinematics.time);
-        if share == 1.0 {
-            return values_at(system, to, self.has_switches, &mut self.values);
+        if share == 0.0 || share == 1.0 {
+            let end = if share == 0.0 { from } else { to };
+            return values_at(system, end, self.has_switches, &mut self.values);
         } else if share < 1.0 {
             dense::interpolate(from, to, start + share * (end - start), &mut self.between);
         } else {
@@ -194,9 +204,18 @@ impl EventDetector {
         size: f64,
     ) -> Option<LocatedRoot> {
         let events = system.signals().events();
-        let mut before = 0.0;
-        for instant in INSTANTS {
+        for (index, instant) in INSTANTS.into_iter().enumerate() {
             self.at(system, step, instant);
+            self.samples[index].clone_from(&self.values);
+        }
+        let mut before = 0.0;
+        self.find_instants(events);
+        for index in 0..self.instants.len() {
+            let (instant, sample) = self.instants[index];
+            match sample {
+                Some(index) => self.values.clone_from(&self.samples[index]),
+                None => self.at(system, step, instant),
+            }
             if !self.any_has_passed(events) {
                 before = instant;
                 continue;
@@ -222,6 +241,34 @@ impl EventDetector {
             return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
+    }
+
+    /// Stores the step fractions at which signs are checked: those of samples after the start, and for each function that keeps
+    /// its side at all of them the minimum beyond zero of the polynomial through its samples, if it has one.
+    fn find_instants(&mut self, events: &[Event]) {
+        let mut instants = std::mem::take(&mut self.instants);
+        instants.clear();
+        instants.extend(INSTANTS.into_iter().enumerate().skip(1).map(|(index, at)| (at, Some(index))));
+        for k in 0..self.values.len() {
+            let side = self.known.sides[k];
+            if side == 0.0 || events.get(k).is_some_and(|event| !event.direction.allows(side < 0.0)) {
+                continue;
+            }
+            let samples: [f64; INSTANTS.len()] =
+                std::array::from_fn(|index| side.signum() * self.samples[index][k].number);
+            let [low, high] = hull(&samples);
+            // It would have to change by more between two samples than over the step.
+            if low < -NOISE * self.known.largest[k] || low > high - low {
+                continue;
+            }
+            let polynomial = |cell: usize| quartic(&samples, cell as f64 / GRID as f64);
+            let lowest = (1..GRID).min_by(|&a, &b| polynomial(a).total_cmp(&polynomial(b)));
+            if let Some(cell) = lowest.filter(|&cell| polynomial(cell) < 0.0) {
+                instants.push((cell as f64 / GRID as f64, None));
+            }
+        }
+        instants.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        self.instants = instants;
     }
 
     /// An event whose root is at the end of the step of `size` [s], or so shortly before it that its sign is not clear
@@ -404,6 +451,18 @@ impl EventDetector {
         values_at(system, state, self.has_switches, &mut self.values);
         self.note(self.of_switches(system, &state.kinematics), happened);
     }
+}
+
+/// The polynomial through values at the [`INSTANTS`], by Neville's scheme.
+fn quartic(values: &[f64; INSTANTS.len()], at: f64) -> f64 {
+    let mut values = *values;
+    for order in 1..INSTANTS.len() {
+        for k in 0..INSTANTS.len() - order {
+            let (from, to) = (INSTANTS[k], INSTANTS[k + order]);
+            values[k] += (at - from) / (to - from) * (values[k + 1] - values[k]);
+        }
+    }
+    values[0]
 }
 
 /// What is watched, at a state.

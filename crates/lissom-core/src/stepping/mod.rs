@@ -5,10 +5,10 @@ pub(crate) mod breakpoints;
 pub(crate) mod dense;
 mod event_detector;
 mod events;
+mod laws;
 mod samples;
 mod snapshot;
 mod stops;
-mod time_functions;
 
 pub(crate) use arc::ArcControl;
 pub(crate) use event_detector::{EventDetector, EventState};
@@ -20,7 +20,7 @@ use crate::analysis::{
 };
 use crate::control::Review;
 use crate::instants;
-use crate::judge::{EnergyBalance, MAX_TURN, warn};
+use crate::judge::{EnergyBalance, MAX_TURN, Warning, warn};
 use crate::system::State;
 use crate::tuning::TuningParameter;
 use breakpoints::StopTime;
@@ -110,7 +110,12 @@ impl Simulation {
     fn advance(&mut self, limit: f64, progress: &mut Progress<'_>) -> Result<(), StepError> {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
-        self.stops.look_ahead(Problem { system: &self.system, settings: &self.settings }, now, longest);
+        let size = self.control.by_error().unwrap_or(longest).min(limit - now);
+        self.stops.look_ahead(
+            Problem { system: &self.system, settings: &self.settings },
+            now,
+            [size, longest],
+        );
         let end = planned.map_or(limit, |size| self.now() + size);
         let same = instants::tolerance(self.now(), longest);
         let end = if (limit - end).abs() <= same { limit } else { end };
@@ -189,6 +194,7 @@ impl Simulation {
             report.stagnated |= outcome.stagnated;
             report.error = self.control.error();
             self.is_last_step_known = true;
+            self.report_unresolved_laws();
             let is_event = located.is_some();
             self.after_events(located.as_ref(), self.control.longest())?;
             if self.events.known.has_switched {
@@ -247,7 +253,20 @@ impl Simulation {
         if !self.control.review(review) {
             return Ok(Verdict::Shorten);
         }
-        self.end_at_event(size, progress.watch, progress.report)
+        let verdict = self.end_at_event(size, progress.watch, progress.report)?;
+        if let Verdict::Accept(_) = verdict
+            && self.control.by_error().is_some()
+        {
+            let step = (self.attempt.start(&self.state), &self.attempt.end);
+            let part = stops::allowed_departure(&self.settings);
+            let longest =
+                self.stops.laws.longest_resolved(&self.system, step, part, self.events.known.has_switched);
+            if longest < 1.0 {
+                self.control.limit(longest * self.attempt.size);
+                return Ok(Verdict::Shorten);
+            }
+        }
+        Ok(verdict)
     }
 
     /// Returns to the start of a step that failed; a first load step may be solved by relaxation.
@@ -271,12 +290,24 @@ impl Simulation {
     fn longest_resolved(&mut self, now: f64, distance: f64) -> f64 {
         let Some(size) = self.control.by_error() else { return f64::INFINITY };
         let problem = Problem { system: &self.system, settings: &self.settings };
-        let (size, longest) = (size.min(distance), self.control.longest());
-        let resolved = self.stops.longest_resolved(problem, (now, size), longest);
+        let resolved = self.stops.longest_resolved(problem, (now, size.min(distance)));
         let nodes = &self.state.kinematics.nodes;
         let fastest = nodes.iter().fold(0.0_f64, |most, node| most.max(node.twist.fixed_rows::<3>(3).norm()));
         let turn = self.settings.limits.tuning.of(TuningParameter::Safety) * MAX_TURN;
         if fastest > 0.0 { resolved.min(turn / fastest) } else { resolved }
+    }
+
+    /// Reports after a part of a planned step that it does not resolve a law of the motion.
+    fn report_unresolved_laws(&mut self) {
+        let Some(step) = self.control.planned().filter(|_| self.settings.scheme.dynamic) else { return };
+        if self.warnings.iter().any(|warning| matches!(warning, Warning::FunctionUnseen { .. })) {
+            return;
+        }
+        let (from, to) = (&self.previous, &self.state);
+        if let Some(index) = self.stops.laws.unresolved(&self.system, (from, to)) {
+            let function = self.system.name_of_law(index, &to.kinematics);
+            warn(&mut self.warnings, Warning::FunctionUnseen { time: from.kinematics.time, function, step });
+        }
     }
 
     /// At the start: accelerations are those after jumps of functions at that instant.
@@ -287,7 +318,7 @@ impl Simulation {
         let (now, longest) = (self.state.kinematics.time, self.control.longest());
         let behind = now + instants::SAME * longest;
         let problem = Problem { system: &self.system, settings: &self.settings };
-        let jumps = self.settings.scheme.dynamic && self.stops.jumps(problem, [now, behind], longest);
+        let jumps = self.settings.scheme.dynamic && self.stops.jumps(problem, [now, behind]);
         if jumps { self.jump_between(now, behind) } else { Ok(()) }
     }
 

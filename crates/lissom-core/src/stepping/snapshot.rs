@@ -10,6 +10,7 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use serde::{Deserialize, Serialize};
 
 use super::EventState;
+use super::laws::Magnitudes;
 use crate::analysis::snapshot_parts::Learned;
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::integrator::IntegratorHistory;
@@ -20,7 +21,7 @@ use crate::scaling::Scaled;
 use crate::system::State;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 16;
+const VERSION: u32 = 17;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,6 +41,8 @@ pub struct Snapshot {
     energy_balance: EnergyBalance,
     warnings: Vec<Warning>,
     event_state: EventState,
+    /// Magnitudes of scalar laws.
+    magnitudes: Magnitudes,
     /// By the name of the monitor.
     monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
@@ -175,6 +178,7 @@ impl Simulation {
             energy_balance: self.energy_balance,
             warnings: self.warnings.clone(),
             event_state: self.events.known.clone(),
+            magnitudes: self.stops.laws.magnitudes.clone(),
             monitors: self.monitors.save(),
             learned: self.integrator.work.learned(),
         }
@@ -205,7 +209,7 @@ impl Simulation {
         self.state = (&from.states[1]).into();
         self.origin.kinematics = State::from(&from.origin).kinematics;
         self.origin.velocity_correction = from.velocity_correction;
-        self.stops.restart(self.origin.kinematics.time);
+        self.stops.laws.magnitudes.clone_from(&from.magnitudes);
         self.settings.step_size = from.step_size;
         let integrator = &mut self.integrator;
         integrator.scaled = from.scaled;

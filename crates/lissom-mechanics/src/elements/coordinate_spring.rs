@@ -8,6 +8,7 @@ use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
+use crate::law::VisitLaw;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry of the spring on a rotation.
@@ -173,6 +174,12 @@ impl Element for CoordinateSpring {
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let [elongation, rate] = self.motion(at);
         self.law.switches(elongation, rate, self.switch_states.of(at), out);
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        if !self.law.is_linear() {
+            visit(&self.law, &self.motion(at));
+        }
     }
 
     fn is_load(&self) -> bool {

@@ -13,6 +13,7 @@
 
 use super::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
+use crate::law::{Interval, ScalarLaw, hull, scaled, sum};
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 
 /// On which side of the free length it acts, for lengths.
@@ -93,14 +94,34 @@ impl ForceLaw {
             is_active: false,
         };
         // The potential energy is zero at the free length; a law that is infinite there has none.
-        let is_finite = law.elastic.as_ref().is_none_or(|law| law.evaluate(0.0, 0.0)[0].is_finite());
-        law.is_active = !(is_finite && law.seems_passive());
+        let has_potential = law
+            .elastic
+            .as_ref()
+            .is_none_or(|law| law.evaluate(0.0, 0.0)[0].is_finite() && law.is_integrable());
+        law.is_active = !(has_potential && law.seems_passive());
         Ok(law)
     }
 
     /// Whether it may supply energy, so that its work is computed instead of its potential energy.
     pub(crate) fn is_active(&self) -> bool {
         self.is_active
+    }
+
+    /// Whether it is a linear spring with a linear damper.
+    pub(crate) fn is_linear(&self) -> bool {
+        let has_kinks =
+            self.side != Side::Both || self.play > 0.0 || self.limits.iter().any(|limit| is_passed(*limit));
+        !(has_kinks || self.elastic.is_some() || self.damper.is_some())
+    }
+
+    /// Elongation past the free play.
+    fn past(&self, elongation: f64) -> f64 {
+        let past = elongation - elongation.clamp(-self.play, self.play);
+        match self.side {
+            Side::Both => past,
+            Side::Positive => (elongation - self.play).max(0.0),
+            Side::Negative => (elongation + self.play).min(0.0),
+        }
     }
 
     /// Whether it is zero below an elongation, and above one.
@@ -193,7 +214,10 @@ impl ForceLaw {
             return 0.5 * self.stiffness * past * past;
         }
         let breakpoints = self.elastic.as_ref().map_or_else(Vec::new, |law| law.breakpoints());
-        integral(&|past| elastic(past).max(low).min(high), past, &breakpoints)
+        let bounds =
+            |interval: Interval| self.elastic.as_ref().and_then(|law| law.bounds(interval, [0.0; 2]));
+        let integrand = Integrand { value: &|past| elastic(past).max(low).min(high), bounds: &bounds };
+        integral(&integrand, past, &breakpoints)
     }
 
     /// Whether the rate-dependent part dissipates energy, as far as rates of all magnitudes show. A law that supplies
@@ -224,18 +248,66 @@ impl ForceLaw {
     }
 }
 
+impl ScalarLaw for ForceLaw {
+    fn value(&self, _: f64, arguments: &[f64]) -> f64 {
+        self.evaluate(arguments[0], arguments[1], &[]).force
+    }
+
+    fn is_smooth(&self) -> bool {
+        self.switch_count() == 0
+    }
+
+    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
+        let (past, rate) = (arguments[0].map(|elongation| self.past(elongation)), arguments[1]);
+        let is_off = |elongation: f64| self.past(elongation) == 0.0 && self.has_ends().contains(&true);
+        if arguments[0].iter().all(|elongation| is_off(*elongation))
+            && past[0] == past[1]
+            && self.side != Side::Both
+        {
+            return Some([0.0; 2]);
+        }
+        let of = |law: &Option<Force>, one: Interval, other: Interval| match law {
+            Some(law) => law.bounds(one, other),
+            None => Some([0.0; 2]),
+        };
+        let functions = sum(of(&self.elastic, past, rate)?, of(&self.damper, rate, past)?);
+        let linear = sum(scaled(self.stiffness, past), scaled(self.damping, rate));
+        let [low, high] = sum(linear, functions).map(|force| force.clamp(self.limits[0], self.limits[1]));
+        let may_be_off = arguments[0].iter().any(|elongation| is_off(*elongation));
+        Some(if may_be_off { [low.min(0.0), high.max(0.0)] } else { [low, high] })
+    }
+}
+
 /// Whether a limit is reached while the force acts: a limit of zero is where it begins.
 fn is_passed(limit: f64) -> bool {
     limit.is_finite() && limit != 0.0
 }
 
 /// Depth of bisection of an integral.
-const DEPTH: usize = 14;
+const DEPTH: usize = 20;
 /// Error of an integral, relative to its size.
 const ACCURACY: f64 = 1e-11;
 
+/// If the bounds of a law exceed the values at points of an interval by more than this fraction of its largest value, the interval
+/// is bisected.
+const NARROW: f64 = 0.1;
+
+/// A law that is integrated, with bounds of what is not linear in it; none if none are known.
+struct Integrand<'f> {
+    value: &'f dyn Fn(f64) -> f64,
+    bounds: &'f dyn Fn(Interval) -> Option<Interval>,
+}
+
+impl Integrand<'_> {
+    /// Width of the bounds between two points in any order.
+    fn width(&self, ends: [f64; 2]) -> f64 {
+        let width = (self.bounds)(hull(&ends)).map_or(0.0, |[low, high]| high - low);
+        if width.is_finite() { width } else { 0.0 }
+    }
+}
+
 /// ∫₀ᵉⁿᵈ f dx by Simpson's rule with bisection, in pieces between `breakpoints`.
-fn integral(function: &dyn Fn(f64) -> f64, end: f64, breakpoints: &[f64]) -> f64 {
+fn integral(law: &Integrand<'_>, end: f64, breakpoints: &[f64]) -> f64 {
     let mut places: Vec<f64> =
         breakpoints.iter().copied().filter(|kink| kink * end > 0.0 && kink.abs() < end.abs()).collect();
     places.extend([0.0, end]);
@@ -243,10 +315,11 @@ fn integral(function: &dyn Fn(f64) -> f64, end: f64, breakpoints: &[f64]) -> f64
     let mut sum = 0.0;
     for pair in places.windows(2) {
         let (a, b) = (pair[0], pair[1]);
-        let values = [function(a), function(0.5 * (a + b)), function(b)];
+        let values = [a, 0.5 * (a + b), b].map(law.value);
         let whole = simpson(b - a, values);
-        let size = (b - a).abs() * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        sum += bisected(function, (a, b), values, whole, (ACCURACY * size, DEPTH));
+        let size = (b - a).abs() * values.iter().fold(law.width([a, b]), |most, value| most.max(value.abs()));
+        let narrow = NARROW * law.width([a, b]);
+        sum += bisected(law, (a, b), values, whole, (ACCURACY * size, narrow, DEPTH));
     }
     sum
 }
@@ -256,23 +329,26 @@ fn simpson(width: f64, [first, middle, last]: [f64; 3]) -> f64 {
 }
 
 fn bisected(
-    function: &dyn Fn(f64) -> f64,
+    law: &Integrand<'_>,
     (a, b): (f64, f64),
     [first, middle, last]: [f64; 3],
     whole: f64,
-    (allowed, depth): (f64, usize),
+    (allowed, narrow, depth): (f64, f64, usize),
 ) -> f64 {
     let centre = 0.5 * (a + b);
-    let left = [first, function(0.5 * (a + centre)), middle];
-    let right = [middle, function(0.5 * (centre + b)), last];
+    let left = [first, (law.value)(0.5 * (a + centre)), middle];
+    let right = [middle, (law.value)(0.5 * (centre + b)), last];
     let halves = [simpson(centre - a, left), simpson(b - centre, right)];
     let error = (halves[0] + halves[1] - whole) / 15.0;
-    if depth == 0 || error.abs() <= allowed || !error.is_finite() {
+    let is_hidden = || {
+        let [low, high] = hull(&[left[0], left[1], left[2], right[1], right[2]]);
+        law.width([a, b]) > high - low + narrow
+    };
+    if depth == 0 || !error.is_finite() || (error.abs() <= allowed && !is_hidden()) {
         return halves[0] + halves[1] + error;
     }
-    let next = (0.5 * allowed, depth - 1);
-    bisected(function, (a, centre), left, halves[0], next)
-        + bisected(function, (centre, b), right, halves[1], next)
+    let next = (0.5 * allowed, narrow, depth - 1);
+    bisected(law, (a, centre), left, halves[0], next) + bisected(law, (centre, b), right, halves[1], next)
 }
 
 #[cfg(test)]
@@ -390,7 +466,7 @@ mod tests {
             (-0.2, -(0.2_f64.powi(3)) / 3.0),
             (-1.1, 3.5 * (other + 1.1).powi(2) - 1.1_f64.powi(3) / 3.0),
         ] {
-            let found = integral(&bent, end, &places);
+            let found = integral(&Integrand { value: &bent, bounds: &|_| None }, end, &places);
             assert!((found - wanted).abs() < 1e-14, "{end}: {found:e}, {wanted:e}");
         }
     }

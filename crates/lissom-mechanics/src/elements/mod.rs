@@ -40,6 +40,7 @@ pub use kinds::{LOADS, SPRINGS};
 
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Switch};
+use crate::law::VisitLaw;
 use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
@@ -296,6 +297,10 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
 
     /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
     fn switches(&self, _at: &Kinematics, _out: &mut Vec<Switch>) {}
+
+    /// Passes its scalar laws with their arguments to `visit`, always in the same order, except for linear ones. Default: it
+    /// has none.
+    fn laws(&self, _at: &Kinematics, _visit: &mut VisitLaw<'_>) {}
 
     /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
     /// nodes, for deformable elements. Default: none.

@@ -15,6 +15,7 @@ use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
+use crate::law::VisitLaw;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.
@@ -257,6 +258,13 @@ impl Element for PointSpring {
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let (_, length, rate, _) = self.tension(at, &self.points(at));
         self.law.switches(length - self.length, rate, self.switch_states.of(at), out);
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        if !self.law.is_linear() {
+            let (_, length, rate, _) = self.tension(at, &self.points(at));
+            visit(&self.law, &[length - self.length, rate]);
+        }
     }
 
     fn is_load(&self) -> bool {

@@ -21,6 +21,7 @@ use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, Switch};
+use crate::law::VisitLaw;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
 
 /// Registry entry.
@@ -414,6 +415,11 @@ impl Element for Rope {
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let shape = self.shape(at);
         self.law.switches(shape.elongation, shape.rate, self.switch_states.of(at), out);
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        let shape = self.shape(at);
+        visit(&self.law, &[shape.elongation, shape.rate]);
     }
 
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {

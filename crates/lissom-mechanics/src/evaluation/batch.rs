@@ -19,6 +19,7 @@ use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
+use crate::law::VisitLaw;
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -84,6 +85,10 @@ pub trait AnyBatch: Send + Sync {
     fn freeze_switches(&mut self, first: usize) -> usize;
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>);
+    /// Passes the scalar laws of all items to `visit`, with their arguments.
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>);
+    /// Appends where each law acts, in words.
+    fn name_laws(&self, at: &Kinematics, layout: &Layout, out: &mut Vec<Subject>);
     /// Appends where each switch acts, in words.
     fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>);
     /// The largest deformation rate of an element [1/s], with one of its nodes.
@@ -122,6 +127,15 @@ pub trait AnyElement: Send + Sync {
     fn join(self: Box<Self>, batches: &mut Vec<Box<dyn AnyBatch>>) -> ElementId;
     /// The same as a unit load, scaled by a signal.
     fn into_load(self: Box<Self>) -> Box<dyn Element>;
+}
+
+/// The force of an element, by where it acts.
+fn subject(item: &impl Element, layout: &Layout) -> Subject {
+    let coordinates = item.coordinates().iter().map(|&own| layout.coordinate_names[own].as_str());
+    let names: Vec<&str> =
+        coordinates.chain(item.nodes().iter().map(|&node| layout.name_of_node(node))).collect();
+    let words = format!("the force on `{}`", names.join("` and `"));
+    Subject::new("", names.first().copied().unwrap_or_default()).called(words)
 }
 
 impl<E: Element> AnyElement for E {
@@ -414,14 +428,19 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.iter().for_each(|item| item.switches(at, out));
     }
 
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        self.items.iter().for_each(|item| item.laws(at, visit));
+    }
+
+    fn name_laws(&self, at: &Kinematics, layout: &Layout, out: &mut Vec<Subject>) {
+        for item in &self.items {
+            item.laws(at, &mut |_, _| out.push(subject(item, layout)));
+        }
+    }
+
     fn name_switches(&self, layout: &Layout, out: &mut Vec<Subject>) {
         for item in &self.items {
-            let coordinates = item.coordinates().iter().map(|&own| layout.coordinate_names[own].as_str());
-            let places: Vec<&str> =
-                coordinates.chain(item.nodes().iter().map(|&node| layout.name_of_node(node))).collect();
-            let words = format!("the force on `{}`", places.join("` and `"));
-            let subject = Subject::new("", places.first().copied().unwrap_or_default()).called(words);
-            out.extend(std::iter::repeat_n(subject, item.switch_count()));
+            out.extend(std::iter::repeat_n(subject(item, layout), item.switch_count()));
         }
     }
 

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::coupling::{Relation, RelationPoint};
 use super::kind::{Build, Coupled, JointKind};
+use crate::law::{Interval, scaled, sum};
 use crate::registry::{
     Function, OTHER_COORDINATE, Parameter, ParameterError, ParameterType, WHICH_COORDINATE,
 };
@@ -51,5 +52,11 @@ impl Relation for Cam {
             v[1] - slope * v[0],
             -self.profile.second_derivative(q[0]) * v[0] * v[0],
         ]
+    }
+
+    fn bounds(&self, _: Interval, coordinates: &[Interval]) -> Option<Interval> {
+        let [from, to] = coordinates[0];
+        let profile = self.profile.bounds(from, to)?;
+        Some(sum(coordinates[1], scaled(-1.0, profile)))
     }
 }

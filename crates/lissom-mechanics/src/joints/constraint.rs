@@ -13,6 +13,7 @@
 use super::evaluation_point::Increments;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::law::VisitLaw;
 
 /// A port: a node or coordinate on which a constraint acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,6 +131,9 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     fn work(&self, _from: (&Kinematics, &[f64]), _to: (&Kinematics, &[f64])) -> f64 {
         0.0
     }
+
+    /// Passes its scalar laws with their arguments to `visit`, always in the same order. Default: it has none.
+    fn laws(&self, _at: &Kinematics, _visit: &mut VisitLaw<'_>) {}
 
     /// Known breakpoints of its functions of time [s].
     fn breakpoints(&self) -> Vec<f64> {

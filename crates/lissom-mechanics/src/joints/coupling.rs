@@ -14,6 +14,7 @@ use super::constraint::{Constraint, Port, Visit};
 use super::evaluation_point::Increments;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
+use crate::law::VisitLaw;
 pub use crate::relation::{Coupled, MAX_COUPLED, Relation, RelationPoint};
 use crate::round_off;
 
@@ -139,6 +140,14 @@ impl Constraint for Coupling {
 
     fn port(&self, _arrangement: usize, index: usize) -> Port {
         Port::Coordinate(self.coordinates[index])
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        let (values, count) = (self.values(at), self.count());
+        let here = values.map(|value| [value; 2]);
+        if self.relation.bounds([at.time; 2], &here[..count]).is_some() {
+            visit(&&*self.relation, &values[..count]);
+        }
     }
 
     fn violation(&self, at: &Kinematics, out: &mut [f64]) {

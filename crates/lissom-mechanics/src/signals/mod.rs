@@ -22,6 +22,7 @@ use std::sync::Arc;
 
 use crate::instants;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject, Switch};
+use crate::law::{Interval, ScalarLaw, VisitLaw};
 use measurement::Component;
 
 pub use moving_frame::MovingFrame;
@@ -51,9 +52,31 @@ pub trait SignalFunction: Send + Sync + fmt::Debug {
     /// Appends switching functions, which change their sign where the function has a kink or a jump; 0 at all times if
     /// these are among the known [`breakpoints`](Self::breakpoints).
     fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<Switch>) {}
+    /// Whether it is a polynomial of low degree, which has no feature that its values at a few points do not show.
+    fn is_polynomial(&self) -> bool {
+        false
+    }
+    /// Bounds of the value over intervals of time [s] and of the arguments. Default: none are known.
+    fn bounds(&self, _time: Interval, _arguments: &[Interval]) -> Option<Interval> {
+        None
+    }
     /// Known breakpoints [s], for all arguments. Default: none.
     fn breakpoints(&self) -> &[f64] {
         &[]
+    }
+}
+
+impl ScalarLaw for &(dyn SignalFunction + '_) {
+    fn value(&self, time: f64, arguments: &[f64]) -> f64 {
+        SignalFunction::value(*self, time, arguments, &[])
+    }
+
+    fn is_smooth(&self) -> bool {
+        self.switch_count() == 0
+    }
+
+    fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
+        SignalFunction::bounds(*self, time, arguments)
     }
 }
 
@@ -189,6 +212,30 @@ impl Graph {
     /// Value of one signal.
     pub fn value(&self, signal: SignalId, at: &Kinematics) -> f64 {
         self.evaluate(at, |values| values[signal])
+    }
+
+    /// Signals between samples that are no polynomials.
+    fn laws_of_signals(&self) -> impl Iterator<Item = &Signal> {
+        self.signals.iter().filter(|signal| signal.sampling.is_none() && !signal.function.is_polynomial())
+    }
+
+    /// Passes the laws of signals between samples to `visit`, with their arguments, except for polynomials.
+    pub fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        if self.laws_of_signals().next().is_none() {
+            return;
+        }
+        self.evaluate(at, |values| {
+            for signal in self.laws_of_signals() {
+                let mut arguments = [0.0; MAX_ARGUMENTS];
+                self.gather(signal, at, values, &mut arguments);
+                visit(&&*signal.function, &arguments[..signal.arguments.len()]);
+            }
+        });
+    }
+
+    /// Description of each of these laws.
+    pub fn names_of_laws(&self) -> Vec<Subject> {
+        self.laws_of_signals().map(Signal::in_words).collect()
     }
 
     /// Value of a measurement.

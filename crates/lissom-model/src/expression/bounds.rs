@@ -1,27 +1,25 @@
-//! Bounds of an expression over an interval of its variable, by interval arithmetic [Moore 1966]: never too narrow except for
-//! round-off, and wider than they need be where the variable stands in several places.
+//! Bounds of an expression over intervals of its variable and its arguments, by interval arithmetic [Moore 1966]: never too
+//! narrow except for round-off, and wider than necessary if one of them occurs more than once.
 
 use std::f64::consts::{PI, TAU};
 
+use lissom_core::law::{EVERYTHING, Interval, hull};
+
 use super::{Function, Jet, STACK, Step};
 
-/// Lower and upper bound.
-type Interval = [f64; 2];
-
-const ALL: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 const TRUTH: Interval = [0.0, 1.0];
 
-/// Bounds of the value that steps leave where the variable is between `from` and `to`.
-pub(super) fn of(steps: &[Step], from: f64, to: f64) -> Interval {
-    let mut stack = [ALL; STACK];
+/// Bounds of the value that steps leave over intervals of the variable and of the arguments.
+pub(super) fn of(steps: &[Step], variable: Interval, arguments: &[Interval]) -> Interval {
+    let mut stack = [EVERYTHING; STACK];
     let mut top = 0;
     for step in steps {
         let first = top - step.operands().min(top);
         let [u, v, w] = [0, 1, 2].map(|k| stack[(first + k).min(STACK - 1)]);
         let found = match *step {
             Step::Constant(value) => [value; 2],
-            Step::Variable => [from, to],
-            Step::Argument(_) => ALL,
+            Step::Variable => variable,
+            Step::Argument(index) => arguments.get(index).copied().unwrap_or(EVERYTHING),
             Step::Negate => [-u[1], -u[0]],
             Step::Add => [u[0] + v[0], u[1] + v[1]],
             Step::Subtract => [u[0] - v[1], u[1] - v[0]],
@@ -39,20 +37,10 @@ pub(super) fn of(steps: &[Step], from: f64, to: f64) -> Interval {
             }
         };
         // What is not a number bounds nothing.
-        stack[first] = if found[0] <= found[1] { found } else { ALL };
+        stack[first] = if found[0] <= found[1] { found } else { EVERYTHING };
         top = first + 1;
     }
     stack[0]
-}
-
-/// The narrowest interval with these values; all numbers if one is none.
-fn hull(values: &[f64]) -> Interval {
-    if values.iter().any(|value| value.is_nan()) {
-        return ALL;
-    }
-    values
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [low.min(value), high.max(value)])
 }
 
 fn product(u: Interval, v: Interval) -> Interval {
@@ -62,7 +50,7 @@ fn product(u: Interval, v: Interval) -> Interval {
 }
 
 fn inverse(u: Interval) -> Interval {
-    if u[0] > 0.0 || u[1] < 0.0 { [1.0 / u[1], 1.0 / u[0]] } else { ALL }
+    if u[0] > 0.0 || u[1] < 0.0 { [1.0 / u[1], 1.0 / u[0]] } else { EVERYTHING }
 }
 
 fn power(base: Interval, exponent: Interval) -> Interval {
@@ -94,7 +82,7 @@ fn of_one(function: Function, [low, high]: Interval) -> Interval {
         Function::Sin => wave([low, high]),
         Function::Cos => wave([low + 0.5 * PI, high + 0.5 * PI]),
         // Between two poles it ascends.
-        Function::Tan if ((low / PI + 0.5).floor() - (high / PI + 0.5).floor()).abs() > 0.0 => ALL,
+        Function::Tan if ((low / PI + 0.5).floor() - (high / PI + 0.5).floor()).abs() > 0.0 => EVERYTHING,
         Function::Abs | Function::Cosh if low < 0.0 && high > 0.0 => {
             [at(function, 0.0), ends[0].max(ends[1])]
         }
@@ -136,7 +124,7 @@ fn of_two(function: Function, u: Interval, v: Interval) -> Interval {
             hull(&u.map(|value| value.rem_euclid(v[0])))
         }
         Function::Mod => [0.0, v[0].abs().max(v[1].abs())],
-        _ => ALL,
+        _ => EVERYTHING,
     }
 }
 

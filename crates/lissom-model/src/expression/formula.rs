@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use lissom_core::kinematics::Switch;
+use lissom_core::law::Interval;
 use lissom_core::signals::SignalFunction;
 
 use super::breakpoints::{Course, Line};
 use super::compile::{compile, fold};
 use super::smoothness::{self, Kink};
-use super::{Expression, ExpressionError, Jet, Step, breakpoints, run, run_continued};
+use super::{Expression, ExpressionError, Function, Jet, Step, bounds, breakpoints, run, run_continued};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,6 +83,15 @@ impl Formula {
         breakpoints::of(&alone, &[]).breakpoints
     }
 
+    /// Whether it neither oscillates nor has kinks elsewhere than at its [`breakpoints_of`](Self::breakpoints_of) an argument.
+    pub(crate) fn is_integrable(&self, argument: usize) -> bool {
+        let oscillates =
+            |step: &Step| matches!(step, Step::Call(Function::Sin | Function::Cos | Function::Tan));
+        let mut lines: Vec<Line> = vec![None; self.arguments.len()];
+        lines[argument] = Some((0.0, 1.0));
+        !self.steps.iter().any(oscillates) && self.course(&lines).are_known.iter().all(|is_known| *is_known)
+    }
+
     /// Where value or gradient jump, if such an instant is found.
     pub(crate) fn first_kink(&self) -> Option<Kink> {
         smoothness::first_kink(&self.steps, self.arguments.len())
@@ -134,6 +144,20 @@ impl SignalFunction for Formula {
             };
             *derivative = run_continued(&self.steps, Jet::constant(time), of, sides, |_| ()).first;
         }
+    }
+
+    fn is_polynomial(&self) -> bool {
+        let is_number = |step: Option<&Step>| matches!(step, Some(Step::Constant(_)));
+        self.steps.iter().enumerate().all(|(k, step)| match step {
+            Step::Call(_) | Step::Call2(_) | Step::Call3(_) => false,
+            Step::Divide => is_number(self.steps.get(k.wrapping_sub(1))),
+            Step::Power => self.steps.get(k.wrapping_sub(1)) == Some(&Step::Constant(2.0)),
+            _ => true,
+        })
+    }
+
+    fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
+        Some(bounds::of(&self.steps, time, arguments))
     }
 
     fn switch_count(&self) -> usize {

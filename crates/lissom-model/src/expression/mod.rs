@@ -100,7 +100,7 @@ impl Expression {
 
     /// Bounds of the value where the variable is between `from` and `to`.
     pub fn bounds(&self, from: f64, to: f64) -> [f64; 2] {
-        bounds::of(&self.steps, from, to)
+        bounds::of(&self.steps, [from, to], &[])
     }
 
     /// Value and derivatives at `x`.

@@ -2,6 +2,7 @@
 //! depend on time alone.
 
 use lissom_core::kinematics::Switch;
+use lissom_core::law::Interval;
 use lissom_core::signals::SignalFunction;
 
 use super::Formula;
@@ -34,6 +35,14 @@ impl SignalFunction for OverTime {
 
     fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]) {
         self.formula.gradient(time, arguments, sides, out);
+    }
+
+    fn is_polynomial(&self) -> bool {
+        self.formula.is_polynomial()
+    }
+
+    fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
+        self.formula.bounds(time, arguments)
     }
 
     fn switch_count(&self) -> usize {

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use lissom_core::joints::Constraint as _;
 use lissom_core::joints::JointKind;
 use lissom_core::kinematics::{CoordinateId, Quantity};
+use lissom_core::law::Interval;
 use lissom_core::registry::Value;
 use lissom_core::relation::{MAX_COUPLED, Relation, RelationPoint};
+use lissom_core::signals::SignalFunction as _;
 use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{Builder, State, System};
 
@@ -34,6 +36,17 @@ impl Relation for Equation {
             let coordinate = self.arguments[argument];
             (values[coordinate], direction[coordinate])
         })
+    }
+
+    fn bounds(&self, time: Interval, coordinates: &[Interval]) -> Option<Interval> {
+        if self.formula.is_polynomial() {
+            return None;
+        }
+        let mut arguments = [[0.0; 2]; MAX_COUPLED];
+        for (argument, &coordinate) in arguments.iter_mut().zip(&self.arguments) {
+            *argument = coordinates[coordinate];
+        }
+        self.formula.bounds(time, &arguments[..self.arguments.len()])
     }
 }
 

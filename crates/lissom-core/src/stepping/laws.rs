@@ -1,0 +1,516 @@
+//! Whether steps resolve scalar laws. A pulse between the stages of a step, or an oscillation with the step as its period,
+//! appears in no residual and in no error estimate: it would be ignored or misinterpreted without notice. The same applies to
+//! jumps that are neither known in advance nor switches.
+//!
+//! Legend: f law, t time, x its arguments, σ = 0 … 1 step fraction, H cubic through values and slopes at both ends.
+//!
+//! ```text
+//! f(σ) = f(t(σ), x(σ)),      x(σ) cubic on the dense output,      |f - H| ≤ part · max |f|
+//! ```
+//!
+//! The law is sampled by bisection of the step, as long as the bounds of its values over the range of its arguments allow more
+//! than the samples show. A feature that the ends of no interval determine, however short, is a jump. Functions of time are
+//! laws without arguments: they are examined before a step, which ends at their jumps; laws of the motion afterwards.
+
+use serde::{Deserialize, Serialize};
+
+use super::dense;
+use crate::law::{EVERYTHING, Interval, ScalarLaw, hull};
+use crate::registry::{Function, TimeFunction};
+use crate::round_off;
+use crate::signals::MAX_ARGUMENTS;
+use crate::system::{State, System};
+
+/// A law that deviates by more than this fraction of its largest value from the interpolation of a step's ends is not
+/// resolved: a sine with 4.4 steps a period.
+pub(super) const DEPARTURE: f64 = 0.01;
+/// If bounds are narrower than this fraction of the largest value, nothing is missed between the samples.
+const NARROW: f64 = 0.1;
+/// Maximum number of intervals within one step.
+pub(super) const MAX_INTERVALS: usize = 256;
+/// Maximum number of pending intervals, which limits the bisections of an interval.
+const MAX_PENDING: usize = 64;
+/// Bisections of an interval after which the remaining feature is a jump.
+const MAX_HALVINGS: usize = 30;
+/// Values at the ends of an interval are evaluated by this fraction inside: a jump at an end belongs to the neighbour.
+const INSIDE: f64 = 1e-6;
+/// Distance of the values that determine the slope at an end, as a fraction of the interval.
+const BESIDE: f64 = 1e-3;
+/// Values beyond those at the ends of a planned step by more than this fraction of the law's magnitude are reported: a sine with
+/// five steps a period.
+const EXCESS: f64 = 0.2;
+/// A jump before this step fraction in a step that was to end at its switch has been passed over.
+const NEAR_END: f64 = 0.9;
+/// Arguments that depart by more than this fraction of their range from a cubic are not smooth.
+const ARGUMENT: f64 = 0.05;
+/// Step fractions at which arguments are evaluated.
+const SAMPLES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
+
+/// Coefficients of a polynomial of the step fraction, the constant one first.
+type Cubic = [f64; 4];
+
+/// A function of time is a law without arguments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfTime<'f>(pub(super) &'f dyn TimeFunction);
+
+impl ScalarLaw for OfTime<'_> {
+    fn value(&self, time: f64, _: &[f64]) -> f64 {
+        self.0.value(time)
+    }
+
+    fn bounds(&self, [from, to]: Interval, _: &[Interval]) -> Option<Interval> {
+        self.0.bounds(from, to)
+    }
+}
+
+/// A law over an interval of a parameter σ.
+#[derive(Clone, Copy)]
+pub(super) struct Course<'l> {
+    law: &'l dyn ScalarLaw,
+    /// Time at σ = 0, and duration over a unit of σ [s].
+    time: [f64; 2],
+    arguments: &'l [Cubic],
+}
+
+/// Result for an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Found {
+    /// No feature except those that its ends determine.
+    Nothing,
+    /// A feature that the ends of shorter intervals determine.
+    Hidden,
+    /// A jump, at the first number after it.
+    Jump(f64),
+}
+
+impl<'l> Course<'l> {
+    /// A function of time; the parameter is the time [s].
+    pub(super) fn of_time(law: &'l OfTime<'l>) -> Self {
+        Self { law, time: [0.0, 1.0], arguments: &[] }
+    }
+
+    fn time(&self, share: f64) -> f64 {
+        self.time[0] + share * self.time[1]
+    }
+
+    /// Value at a parameter.
+    pub(super) fn value(&self, share: f64) -> f64 {
+        let mut arguments = [0.0; MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = at(cubic, share);
+        }
+        self.law.value(self.time(share), &arguments[..self.arguments.len()])
+    }
+
+    /// Bounds over an interval.
+    fn bounds(&self, [from, to]: Interval) -> Option<Interval> {
+        let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = range(cubic, [from, to]);
+        }
+        self.law.bounds([self.time(from), self.time(to)], &arguments[..self.arguments.len()])
+    }
+
+    /// The largest magnitude at the ends, or anywhere if the law is bounded: for all times and arguments, or where one of them takes
+    /// all values and the others those of the interval.
+    fn magnitude(&self) -> f64 {
+        let count = self.arguments.len();
+        let ends = largest([self.value(0.0), self.value(1.0)]);
+        let of =
+            |time: Interval, arguments: &[Interval]| self.law.bounds(time, arguments).map_or(0.0, largest);
+        let everywhere = of(EVERYTHING, &[EVERYTHING; MAX_ARGUMENTS][..count]);
+        if everywhere > 0.0 {
+            return ends.max(everywhere);
+        }
+        let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = range(cubic, [0.0, 1.0]);
+        }
+        let time = [self.time(0.0), self.time(1.0)];
+        let mut magnitude = ends.max(of(EVERYTHING, &arguments[..count]));
+        for k in 0..count {
+            let own = std::mem::replace(&mut arguments[k], EVERYTHING);
+            magnitude = magnitude.max(of(time, &arguments[..count]));
+            arguments[k] = own;
+        }
+        magnitude
+    }
+
+    /// Width of the bounds within an interval; zero if none are known.
+    fn width(&self, [from, to]: Interval) -> f64 {
+        let inside = INSIDE * (to - from);
+        self.bounds([from + inside, to - inside]).map_or(0.0, |[low, high]| high - low)
+    }
+
+    /// Whether values within an interval are beyond those at its ends by more than [`EXCESS`] of the `magnitude`, as far as bounds
+    /// and samples show.
+    fn exceeds_its_ends(&self, whole: Interval, magnitude: f64) -> bool {
+        let inside = INSIDE * (whole[1] - whole[0]);
+        let [low, high] = hull(&[self.value(whole[0] + inside), self.value(whole[1] - inside)]);
+        let allowed = [low - EXCESS * magnitude, high + EXCESS * magnitude];
+        let is_allowed = |value: f64| !value.is_finite() || (allowed[0]..=allowed[1]).contains(&value);
+        let mut open = [whole; MAX_PENDING];
+        let (mut last, mut looks) = (1, 0);
+        while last > 0 && looks < MAX_INTERVALS {
+            last -= 1;
+            looks += 1;
+            let [from, to] = open[last];
+            let middle = 0.5 * (from + to);
+            if !is_allowed(self.value(middle)) {
+                return true;
+            }
+            let bounds = self.bounds([from + inside, to - inside]);
+            let is_clear = bounds.is_none_or(|[low, high]| low >= allowed[0] && high <= allowed[1]);
+            if !is_clear && last + 2 <= MAX_PENDING {
+                (open[last], open[last + 1]) = ([middle, to], [from, middle]);
+                last += 2;
+            }
+        }
+        false
+    }
+
+    /// Features within an interval that its values and slopes there do not determine to `part` of its `magnitude`.
+    pub(super) fn found(&self, whole: Interval, magnitude: f64, part: f64) -> Found {
+        if magnitude == 0.0 {
+            return Found::Nothing;
+        }
+        let mut open = [whole; MAX_PENDING];
+        let (mut last, mut looks) = (1, 0);
+        while last > 0 {
+            last -= 1;
+            let within = open[last];
+            let width = self.width(within);
+            // Without bounds the samples decide.
+            if width <= part * magnitude && (looks > 0 || self.bounds(within).is_some()) {
+                continue;
+            }
+            looks += 1;
+            if self.departure(whole, within) > part * magnitude {
+                return self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump);
+            }
+            if looks < MAX_INTERVALS && last + 2 <= MAX_PENDING && width > NARROW * magnitude {
+                let middle = 0.5 * (within[0] + within[1]);
+                (open[last], open[last + 1]) = ([middle, within[1]], [within[0], middle]);
+                last += 2;
+            }
+        }
+        Found::Nothing
+    }
+
+    /// The first number after a jump: where part of an interval is determined by the ends of no interval, however short.
+    fn jump(&self, [mut from, mut to]: Interval, magnitude: f64) -> Option<f64> {
+        for _ in 0..MAX_HALVINGS {
+            let middle = 0.5 * (from + to);
+            let is_resolved = |half: Interval| self.departure(half, half) <= DEPARTURE * magnitude;
+            if !is_resolved([from, middle]) {
+                to = middle;
+            } else if !is_resolved([middle, to]) {
+                from = middle;
+            } else {
+                return None;
+            }
+        }
+        while from.next_up() < to {
+            let middle = 0.5 * (from + to);
+            if (self.value(middle) - self.value(from)).abs() > (self.value(to) - self.value(middle)).abs() {
+                to = middle;
+            } else {
+                from = middle;
+            }
+        }
+        Some(to)
+    }
+
+    /// Deviation, at three points of `part`, from the cubic through values and slopes at the ends of `whole`.
+    fn departure(&self, [from, to]: Interval, part: Interval) -> f64 {
+        let inside = INSIDE * (to - from);
+        let (from, to) = (from + inside, to - inside);
+        let length = to - from;
+        // The slope of the parabola through three values, times the length.
+        let end = |at: f64, towards: f64| {
+            let [value, near, next] =
+                [0.0, BESIDE, 2.0 * BESIDE].map(|share| self.value(at + towards * share * length));
+            (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * BESIDE))
+        };
+        let (one, other) = (end(from, 1.0), end(to, -1.0));
+        let departure = |share: f64| {
+            let at = part[0] + share * (part[1] - part[0]);
+            let x = ((at - from) / length).clamp(0.0, 1.0);
+            let y = 1.0 - x;
+            let cubic = y * y * (1.0 + 2.0 * x) * one.0
+                + x * x * (1.0 + 2.0 * y) * other.0
+                + x * y * (y * one.1 - x * other.1);
+            (self.value(at) - cubic).abs()
+        };
+        // A value that is not finite is reported elsewhere.
+        [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
+    }
+
+    /// The longest interval from `from` on of `size` or, obtained by halving, less, that is resolved, except for jumps.
+    pub(super) fn longest(&self, [from, mut size]: [f64; 2], magnitude: f64, part: f64) -> f64 {
+        for _ in 0..MAX_HALVINGS {
+            if self.found([from, from + size], magnitude, part) != Found::Hidden {
+                break;
+            }
+            size *= 0.5;
+        }
+        size
+    }
+}
+
+/// Largest magnitudes of laws so far, or possible ones if they are bounded.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Magnitudes {
+    functions: Vec<f64>,
+    laws: Vec<f64>,
+}
+
+/// The scalar laws of a system along its steps.
+pub(crate) struct Laws {
+    pub(crate) magnitudes: Magnitudes,
+    between: State,
+    /// Arguments of all laws at each of the samples, one sample after the other, and at the middle of the step.
+    arguments: Vec<f64>,
+    middle: Vec<f64>,
+    cubics: Vec<Cubic>,
+}
+
+impl Laws {
+    pub(super) fn new(system: &System, start: &State) -> Self {
+        let functions = system.functions.iter().map(|(_, function)| {
+            let bounds = function.bounds(start.kinematics.time, f64::INFINITY);
+            bounds.filter(|_| !function.is_constant()).map_or(0.0, largest)
+        });
+        let magnitudes = Magnitudes { functions: functions.collect(), laws: Vec::new() };
+        let (between, arguments, middle, cubics) = (start.clone(), Vec::new(), Vec::new(), Vec::new());
+        Self { magnitudes, between, arguments, middle, cubics }
+    }
+
+    /// The magnitude of a function of time, including its values at the ends of a step [s].
+    pub(super) fn magnitude_of_function(&mut self, index: usize, function: &Function, ends: Interval) -> f64 {
+        let magnitude = &mut self.magnitudes.functions[index];
+        *magnitude = magnitude.max(largest(ends.map(|time| function.value(time))));
+        *magnitude
+    }
+
+    /// The longest part of a solved step in which its ends determine all laws of the motion, as a step fraction: 1, or less by
+    /// halving, or up to a jump. A jump at its start may belong to a switch there if one `has_switched`.
+    pub(super) fn longest_resolved(
+        &mut self,
+        system: &System,
+        step: (&State, &State),
+        part: f64,
+        has_switched: bool,
+    ) -> f64 {
+        let begin = if has_switched { BESIDE } else { 0.0 };
+        let find = |course: &Course<'_>, magnitude| {
+            let longest = match course.found([begin, 1.0], magnitude, part) {
+                Found::Nothing => 1.0,
+                Found::Hidden => begin + course.longest([begin, 0.5], magnitude, part),
+                // Switches before it were passed and returned to. Close to the end the next attempt will find it.
+                Found::Jump(share) if share < NEAR_END && !course.law.is_smooth() => share / NEAR_END,
+                Found::Jump(_) => 1.0,
+            };
+            (longest < 1.0).then_some(longest)
+        };
+        self.examine(system, step, find).map_or(1.0, |(_, longest)| longest)
+    }
+
+    /// The index of a law of the motion that a solved step of planned size does not resolve: a smooth one that its ends do not
+    /// determine, or another one with values far beyond those at the ends.
+    pub(super) fn unresolved(&mut self, system: &System, step: (&State, &State)) -> Option<usize> {
+        let find = |course: &Course<'_>, magnitude| {
+            let is_found = if course.law.is_smooth() {
+                course.found([0.0, 1.0], magnitude, DEPARTURE) == Found::Hidden
+            } else {
+                // A kink or a jump alone is an error of the order of a planned step.
+                course.exceeds_its_ends([0.0, 1.0], magnitude)
+            };
+            is_found.then_some(0.0)
+        };
+        self.examine(system, step, find).map(|(index, _)| index)
+    }
+
+    /// Determines the cubics of all arguments of laws of the motion over a solved step. Whether there are any.
+    fn sample(&mut self, system: &System, (from, to): (&State, &State)) -> bool {
+        self.arguments.clear();
+        for share in SAMPLES {
+            let arguments = &mut self.arguments;
+            let mut gather = |_: &dyn ScalarLaw, values: &[f64]| arguments.extend_from_slice(values);
+            if share == 0.0 || share == 1.0 {
+                system.laws(if share == 0.0 { &from.kinematics } else { &to.kinematics }, &mut gather);
+            } else {
+                dense::at_share(from, to, share, &mut self.between);
+                system.laws(&self.between.kinematics, &mut gather);
+            }
+            if share == 0.0 && arguments.is_empty() {
+                // Laws without arguments are functions of time.
+                return false;
+            }
+        }
+        let count = self.arguments.len() / SAMPLES.len();
+        self.cubics.clear();
+        for k in 0..count {
+            let values: [f64; SAMPLES.len()] =
+                std::array::from_fn(|sample| self.arguments[sample * count + k]);
+            self.cubics.push(through(values));
+        }
+        true
+    }
+
+    /// The law of the motion with the smallest step fraction that `find` returns for its course and its magnitude, with its index.
+    /// Where it returns one, arguments are verified: those that jump, such as angles at half a turn, are no cubics, and their laws
+    /// are not examined.
+    fn examine(
+        &mut self,
+        system: &System,
+        (from, to): (&State, &State),
+        find: impl Fn(&Course<'_>, f64) -> Option<f64>,
+    ) -> Option<(usize, f64)> {
+        if !self.sample(system, (from, to)) {
+            return None;
+        }
+        let Self { magnitudes, between, middle, cubics, .. } = self;
+        let time = [from.kinematics.time, to.kinematics.time - from.kinematics.time];
+        let (mut next, mut index, mut first) = (0, 0, None);
+        middle.clear();
+        system.laws(&to.kinematics, &mut |law, values| {
+            let own = next..next + values.len();
+            let course = Course { law, time, arguments: &cubics[own.clone()] };
+            (next, index) = (own.end, index + 1);
+            if magnitudes.laws.len() < index {
+                magnitudes.laws.push(0.0);
+            }
+            let magnitude = &mut magnitudes.laws[index - 1];
+            *magnitude = magnitude.max(course.magnitude());
+            let Some(share) = find(&course, *magnitude) else { return };
+            if middle.is_empty() {
+                dense::at_share(from, to, 0.5, between);
+                system.laws(&between.kinematics, &mut |_, values| middle.extend_from_slice(values));
+            }
+            let are_smooth = cubics[own.clone()]
+                .iter()
+                .zip(&middle[own])
+                .all(|(cubic, value)| passes_through(cubic, *value));
+            if are_smooth && first.is_none_or(|(_, known)| share < known) {
+                first = Some((index - 1, share));
+            }
+        });
+        first
+    }
+}
+
+/// Whether a cubic has about this value in its middle.
+fn passes_through(cubic: &Cubic, value: f64) -> bool {
+    let [low, high] = range(cubic, [0.0, 1.0]);
+    let allowed = ARGUMENT * (high - low) + round_off::FUNCTION * high.abs().max(low.abs());
+    (at(cubic, 0.5) - value).abs() <= allowed
+}
+
+/// The largest magnitude within an interval; zero if it is infinite.
+fn largest(interval: Interval) -> f64 {
+    let largest = interval[0].abs().max(interval[1].abs());
+    if largest.is_finite() { largest } else { 0.0 }
+}
+
+fn at([a, b, c, d]: &Cubic, share: f64) -> f64 {
+    a + share * (b + share * (c + share * d))
+}
+
+/// Range of a cubic over an interval: that of its Bézier points.
+fn range(cubic: &Cubic, [from, to]: Interval) -> Interval {
+    let [_, b, c, d] = cubic;
+    let third = |x: f64| (b + x * (2.0 * c + x * 3.0 * d)) * (to - from) / 3.0;
+    let (start, end) = (at(cubic, from), at(cubic, to));
+    hull(&[start, start + third(from), end - third(to), end])
+}
+
+/// The cubic through values at the [`SAMPLES`].
+fn through(values: [f64; 4]) -> Cubic {
+    let first: [f64; 3] =
+        std::array::from_fn(|k| (values[k + 1] - values[k]) / (SAMPLES[k + 1] - SAMPLES[k]));
+    let second: [f64; 2] = std::array::from_fn(|k| (first[k + 1] - first[k]) / (SAMPLES[k + 2] - SAMPLES[k]));
+    let third = (second[1] - second[0]) / (SAMPLES[3] - SAMPLES[0]);
+    let [x, y] = [SAMPLES[1], SAMPLES[2]];
+    [values[0], first[0] - x * second[0] + x * y * third, second[0] - (x + y) * third, third]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A law of time and one argument, with bounds.
+    struct Law(fn(f64, f64) -> f64, fn(Interval, Interval) -> Interval);
+
+    impl ScalarLaw for Law {
+        fn value(&self, time: f64, arguments: &[f64]) -> f64 {
+            (self.0)(time, arguments[0])
+        }
+
+        fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
+            Some((self.1)(time, arguments[0]))
+        }
+    }
+
+    fn peak(distance: f64) -> f64 {
+        (-(distance / 1e-4).powi(2)).exp()
+    }
+
+    fn peak_over([from, to]: Interval) -> Interval {
+        let [one, other] = [from, to].map(peak);
+        [one.min(other), if from < 0.0 && to > 0.0 { 1.0 } else { one.max(other) }]
+    }
+
+    /// exp(-((x - 1)/1e-4)²), and the same over time.
+    const BY_MOTION: Law = Law(|_, x| peak(x - 1.0), |_, x| peak_over(x.map(|x| x - 1.0)));
+    const BY_TIME: Law = Law(|t, _| peak(t - 1.0), |t, _| peak_over(t.map(|t| t - 1.0)));
+    const JUMP: Law =
+        Law(|_, x| f64::from(u8::from(x > 0.3)), |_, x| x.map(|x| f64::from(u8::from(x > 0.3))));
+
+    fn course<'l>(law: &'l Law, cubic: &'l [Cubic; 1]) -> Course<'l> {
+        Course { law, time: [0.0, 1.0], arguments: cubic }
+    }
+
+    #[test]
+    fn peaks_in_time_or_motion_are_found() {
+        // x = 2 σ: the peak is at σ = 0.5.
+        let moving = [[0.0, 2.0, 0.0, 0.0]];
+        let by_motion = course(&BY_MOTION, &moving);
+        assert_eq!(by_motion.magnitude(), 1.0);
+        assert_eq!(by_motion.found([0.0, 1.0], 1.0, DEPARTURE), Found::Hidden);
+        assert_eq!(by_motion.found([0.0, 0.4995], 1.0, DEPARTURE), Found::Nothing);
+        assert_eq!(by_motion.found([0.499_99, 0.500_005], 1.0, DEPARTURE), Found::Nothing);
+        assert_eq!(by_motion.longest([0.0, 1.0], 1.0, DEPARTURE), 0.25);
+        assert!(by_motion.exceeds_its_ends([0.0, 1.0], 1.0) && !by_motion.exceeds_its_ends([0.0, 0.5], 1.0));
+        let by_time = course(&BY_TIME, &moving);
+        assert_eq!(by_time.found([0.0, 1.7], 1.0, DEPARTURE), Found::Hidden);
+        assert_eq!(by_time.found([0.0, 0.999], 1.0, DEPARTURE), Found::Nothing);
+        // At rest there is nothing to be found.
+        assert_eq!(
+            course(&BY_MOTION, &[[0.2, 0.0, 0.0, 0.0]]).found([0.0, 1.0], 1.0, DEPARTURE),
+            Found::Nothing
+        );
+    }
+
+    #[test]
+    fn jumps_are_found_to_the_last_bit() {
+        let unit = [[0.0, 1.0, 0.0, 0.0]];
+        assert_eq!(course(&JUMP, &unit).found([0.0, 1.0], 1.0, DEPARTURE), Found::Jump(0.3_f64.next_up()));
+    }
+
+    #[test]
+    fn cubics_pass_through_their_samples_within_their_range() {
+        let cubic = through(SAMPLES.map(|x| 1.0 - 2.0 * x + 5.0 * x * x - 4.0 * x * x * x));
+        for (found, wanted) in cubic.iter().zip([1.0, -2.0, 5.0, -4.0]) {
+            assert!((found - wanted).abs() < 1e-13, "{cubic:?}");
+        }
+        for [from, to] in [[0.0, 1.0], [0.2, 0.3], [0.6, 0.61]] {
+            let [low, high] = range(&cubic, [from, to]);
+            for k in 0..=20 {
+                let value = at(&cubic, from + f64::from(k) / 20.0 * (to - from));
+                assert!((low - 1e-12..=high + 1e-12).contains(&value));
+            }
+            assert!(high - low < 4.0 * (to - from), "{low} {high}");
+        }
+    }
+}
