@@ -13,6 +13,7 @@ mod digits;
 mod formula;
 mod fuzz;
 mod invariants;
+mod laws;
 mod mutants;
 mod outcome;
 mod peers;
@@ -75,6 +76,8 @@ enum Chore {
     },
     /// Try random mechanisms with several schemes and steps against each other
     Random(random::RandomArguments),
+    /// Try random laws with narrow features, jumps and kinks against references that resolve them
+    Laws(laws::LawsArguments),
     /// Read model files and expressions that are damaged by chance: each is read or rejected with its position
     Fuzz(fuzz::FuzzArguments),
     /// Mutation tests: change the code in one position at a time and report the changes that no test notices
@@ -214,6 +217,7 @@ fn main() -> ExitCode {
         Chore::Defaults(arguments) => defaults::defaults(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
+        Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
