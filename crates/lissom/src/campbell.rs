@@ -140,7 +140,7 @@ pub struct CampbellReport {
     pub crossings: Vec<Crossing>,
     /// The multiples of the rotation.
     pub rays: Vec<u32>,
-    /// Warnings about it.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Wall-clock time.
     pub wall: Duration,
@@ -240,7 +240,7 @@ impl Search<'_> {
         let point = point.ok_or_else(|| CampbellError::Unlike(path.clone()))?;
         for of in point.modes.iter().filter(|of| of.assurance.is_some_and(|alike| alike < DOUBTFUL)) {
             self.warnings.push(format!(
-                "line {} is followed to `{path}` = {value} with shapes that are little alike ({:.2}): take more values",
+                "line {} is continued to `{path}` = {value} between shapes with a correlation of only {:.2}: use more values",
                 of.line + 1,
                 of.assurance.unwrap_or(0.0)
             ));

@@ -436,10 +436,10 @@ pub(crate) const ENTRIES: &[Entry] = &[
         code: "gradient-unconfirmed",
         variant: "Confirmation",
         severity: Severity::Warning,
-        message: "runs of the model with numbers changed a little neither confirm nor deny the derivatives",
-        meaning: "The finite-difference check, which runs the model with slightly changed parameters, neither confirms nor refutes the derivatives of \
+        message: "runs of the model with perturbed numbers neither confirm nor refute the derivatives",
+        meaning: "The finite-difference check, which runs the model with perturbed parameters, neither confirms nor refutes the derivatives of \
         `lissom gradient`.",
-        advice: "The output changes by less than the error of a run, or not smoothly: use another output, or another time.",
+        advice: "The output changes by less than the error of a run, or is not smooth: use another output, or another time.",
     },
     Entry {
         code: REFUTED,
@@ -470,11 +470,11 @@ impl GradientReport {
         match self.confirmation {
             Some(Confirmation::Confirmed { .. }) => None,
             Some(Confirmation::Untold { .. }) => Some(
-                "gradient-unconfirmed: runs of the model with numbers changed a little neither confirm nor deny the derivatives: the output changes by \
-                 less than is left of a run, or not smoothly",
+                "gradient-unconfirmed: runs of the model with perturbed numbers neither confirm nor refute the derivatives: the output changes by \
+                 less than the error of a run, or is not smooth",
             ),
             None => Some(
-                "gradient-unconfirmed: the derivatives were not compared with runs of the model with numbers changed a little",
+                "gradient-unconfirmed: the derivatives were not compared with runs of the model with perturbed numbers",
             ),
         }
     }

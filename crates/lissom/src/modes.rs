@@ -169,7 +169,7 @@ pub struct ModeReport {
     pub time: f64,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
-    /// Warnings about them.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Wall-clock time.
     pub wall: Duration,
@@ -211,9 +211,12 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     })?;
     let number = report.modes.len();
     if is_asked && number < count {
-        let few =
-            if report.completeness == Completeness::Counted { "there are only" } else { "found are only" };
-        report.warnings.push(format!("{count} modes are asked for, and {few} {number}"));
+        let few = if report.completeness == Completeness::Counted {
+            "the model has only"
+        } else {
+            "the search found only"
+        };
+        report.warnings.push(format!("{count} modes were requested, and {few} {number}"));
     }
     report.about = about.name();
     report.wall = began.elapsed();
@@ -224,12 +227,12 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
 }
 
 /// Note about modes in axes at rest.
-pub(crate) const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
-    from there, shapes those of this instant";
+pub(crate) const AT_REST: &str = "the coefficients are constant only in axes at rest, with multi-blade coordinates: frequencies are those in these \
+    axes, shapes those at this instant";
 
 /// Note about modes in axes of wheels.
-const ROLLING: &str = "the coefficients are constant in axes alone that do not spin with the wheels: frequencies are those seen from there, \
-    shapes those of this instant";
+const ROLLING: &str = "the coefficients are constant only in axes that do not spin with the wheels: frequencies are those in these axes, \
+    shapes those at this instant";
 
 /// Modes whose coefficients are constant while the model rotates.
 pub(crate) struct Reliable<'a> {
@@ -268,9 +271,9 @@ pub(crate) fn reliable<'a>(
     }
     let (mut chosen, mut left_out) = (Reliable { found, at_rest: None, warnings: Vec::new() }, inconstant);
     let (mut reason, warning, other) = if model.rolls_on() {
-        ("they change in axes that do not spin with the wheels, too", ROLLING, Ok(model.in_rolling_axes()))
+        ("they also change in axes that do not spin with the wheels", ROLLING, Ok(model.in_rolling_axes()))
     } else {
-        ("they change in the multi-blade coordinates of its rotor, too", AT_REST, model.in_axes_at_rest())
+        ("they also change in multi-blade coordinates of its rotor", AT_REST, model.in_axes_at_rest())
     };
     match other {
         Err(no) => reason = no.words(),
@@ -290,8 +293,8 @@ pub(crate) fn reliable<'a>(
     }
     let names: Vec<String> = left_out.iter().map(|mode| format!("{:.4e} Hz", mode.frequency)).collect();
     chosen.warnings.push(format!(
-        "{} of {} modes are omitted ({}): their coefficients change as the model turns, because parts that turn and parts that do \
-         not are coupled across the axis, and {reason}; such modes need Floquet's theory, which is not there",
+        "{} of {} modes are omitted ({}): their coefficients change as the model rotates, because rotating and non-rotating parts \
+         are coupled across the axis, and {reason}; such modes require Floquet theory, which is not implemented",
         left_out.len(),
         left_out.len() + chosen.found.modes.len(),
         names.join(", ")
@@ -325,11 +328,11 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
     let unstable = found.modes.iter().filter(|mode| mode.kind.is_unstable()).count();
     if unstable > 0 {
         let words = if unstable == 1 { "1 mode grows".to_owned() } else { format!("{unstable} modes grow") };
-        warnings.push(format!("the state is not stable: {words}"));
+        warnings.push(format!("the state is unstable: {words}"));
     }
     match found.completeness {
         Completeness::Unknown => warnings.push(
-            "whether modes were missed is not known: the matrices of the count could not be factored, or contradict each other"
+            "it is unknown whether modes were missed: the matrices of the count could not be factored, or their counts are inconsistent"
                 .to_owned(),
         ),
         Completeness::NotCounted | Completeness::Counted | Completeness::Missing(_) => {}

@@ -51,7 +51,7 @@ pub enum PortError {
     Model(#[from] ModesError),
 }
 
-/// An input: the change of the right-hand sides for a unit of it, by row.
+/// An input: the change of the right-hand sides for its unit, by row.
 pub(crate) struct Input {
     pub(crate) name: String,
     pub(crate) right: Vec<f64>,

@@ -176,7 +176,7 @@ fn of_state(
     }
     if !model.is_at_rest() {
         warnings.push(
-            "the model moves: outputs in global axes are those of the instant of linearisation".to_owned(),
+            "the model moves: outputs in global axes are those at the instant of linearisation".to_owned(),
         );
     }
     let natural = natural_frequencies(model, request, &mut warnings);
@@ -186,8 +186,9 @@ fn of_state(
     first.dedup();
     table.fill(&first)?;
     if table.rows.len() >= MAX_FREQUENCIES {
-        warnings
-            .push(format!("more than {MAX_FREQUENCIES} frequencies would be needed to resolve every change"));
+        warnings.push(format!(
+            "more than {MAX_FREQUENCIES} frequencies would be required to resolve every change"
+        ));
     }
     let layout = model.system().layout();
     let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
@@ -219,7 +220,7 @@ fn natural_frequencies(
         Ok(found) => found.modes,
         Err(error) => {
             warnings.push(format!(
-                "narrow peaks may be passed over, because natural frequencies are not known: {error}"
+                "narrow peaks may be missed, because natural frequencies could not be computed: {error}"
             ));
             return Vec::new();
         }
@@ -227,14 +228,14 @@ fn natural_frequencies(
     let growing = found.iter().filter(|mode| mode.kind.is_unstable()).count();
     if growing > 0 {
         warnings.push(format!(
-            "the state is not stable ({growing} modes grow): no motion settles to this response, it is that of the linear equations alone"
+            "the state is unstable ({growing} modes grow): the response is that of the linear equations, but no motion converges to it"
         ));
     }
     let last = found.last().map_or(0.0, |mode| mode.frequency);
     if found.len() >= MODES && last < request.to {
         warnings.push(format!(
-            "natural frequencies are known up to {last:.4e} Hz: above, peaks narrower than the distance of two frequencies may be \
-             passed over"
+            "natural frequencies were computed up to {last:.4e} Hz: above, peaks narrower than the spacing of frequencies may be \
+             missed"
         ));
     }
     let inside = |mode: &&Mode| {

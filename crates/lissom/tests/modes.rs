@@ -548,7 +548,7 @@ fn fewer_modes_than_asked_for_are_reported() {
         let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
         (report.modes.len(), report.warnings)
     };
-    assert_eq!(reported(Some(50)), (6, vec!["50 modes are asked for, and there are only 6".to_owned()]));
+    assert_eq!(reported(Some(50)), (6, vec!["50 modes were requested, and the model has only 6".to_owned()]));
     assert_eq!(reported(Some(6)), (6, Vec::new()));
     assert_eq!(reported(None), (6, Vec::new()));
 }

@@ -11,7 +11,7 @@ use serde_json::json;
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Differentiate an output with respect to numbers of the model file, along the steps of a run.
+/// Compute derivatives of an output with respect to numbers of the model file.
 ///
 /// The results go to a folder: `gradient.csv` (path, number, derivative) and `summary.json`.
 #[derive(Args)]
@@ -25,7 +25,7 @@ pub(super) struct Gradient {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Output column, and the scalar of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
+    /// Output column, and a scalar derived from it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
     #[arg(long, value_name = "OUTPUT[@TIME|max|rms]")]
     of: String,
 
@@ -37,7 +37,7 @@ pub(super) struct Gradient {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Skip the run of a neighbouring model that verifies the derivatives.
+    /// Skip the run with perturbed numbers that verifies the derivatives.
     #[arg(long)]
     unconfirmed: bool,
 
@@ -84,7 +84,7 @@ impl Gradient {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let time = found.time.map_or_else(String::new, |time| format!(" at t = {time} s"));
@@ -102,7 +102,7 @@ fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> Str
             writeln!(text, "  by {} = {:.6e}: {:.9e}", derivative.path, derivative.number, derivative.value);
     }
     if let Some(Confirmation::Confirmed { missed, runs }) = &found.confirmation {
-        let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers changed");
+        let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers perturbed");
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

@@ -49,7 +49,7 @@ pub(super) fn run(
     }
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
     let mut session = if wanted.plots {
-        // With both files the path can be displayed even if the program is killed.
+        // With both files the path can be displayed even after the program was killed.
         folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
         session.with_motion(Box::new(folder.motion().map_err(|error| unwritable(error.into()))?))
     } else {
@@ -86,7 +86,7 @@ pub(super) fn run(
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.

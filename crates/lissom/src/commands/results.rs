@@ -1,4 +1,4 @@
-//! Results of analyses: their folder, and its contents after a failure of one without time steps.
+//! Folders for the results of analyses, and their contents after the failure of an analysis without time steps.
 
 use std::fmt::Display;
 use std::path::Path;

@@ -319,7 +319,7 @@ fn a_failed_start_leaves_former_results_and_two_runs_do_not_share_a_folder() {
     let former = std::fs::read(&history).unwrap();
     let failed = run("contradicting-drives", &folder);
     assert_eq!(failed.code, 3);
-    assert!(failed.errors.contains("are left as they were"), "{}", failed.errors);
+    assert!(failed.errors.contains("are unchanged"), "{}", failed.errors);
     assert_eq!(std::fs::read(&history).unwrap(), former);
     assert_eq!(summary(&folder.path().join("out"))["stopped"], "end");
 

@@ -189,7 +189,7 @@ fn what_cannot_be_drawn_is_refused() {
         (vec!["snapshot", "out", "--strip", "2", "--at", "1"], "cannot be used with"),
         (vec!["snapshot", "out", "--initial"], "folder of results"),
         (vec!["snapshot", "modes", "--strip", "3"], "natural modes"),
-        (vec!["snapshot", "out", "--mode", "1"], "holds no natural modes"),
+        (vec!["snapshot", "out", "--mode", "1"], "contains no natural modes"),
         (vec!["snapshot", "plain"], "--no-plots"),
         (vec!["snapshot", "nowhere"], "there is no such file"),
     ] {

@@ -320,7 +320,7 @@ fn what_cannot_be_said_is_reported() {
     let mass = "<geom size='0.1'/>";
     for (text, words) in [
         ("<sdf/>".to_owned(), "neither URDF nor MJCF"),
-        (body("<joint/>"), "link `b` moves and has no mass"),
+        (body("<joint/>"), "link `b` moves, but neither it"),
         (body("<joint/><geom type='mesh' mesh='a'/>"), "mass of a mesh"),
         (body(&format!("<joint type='hing'/>{mass}")), "`hing`"),
         (body(&format!("<joint axis='0 0 0'/>{mass}")), "no direction"),

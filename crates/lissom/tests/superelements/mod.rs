@@ -364,10 +364,10 @@ fn what_is_no_elastic_assembly_is_refused() {
         |text: &str, interfaces: &[&str]| try_reduce(text, interfaces, 0).expect_err("wrong").to_string();
     let held = beam(&format!("{}{MODES}", clamp("bar@0.5")));
     for (text, interfaces, words) in [
-        (beam(MODES), vec!["bar.middle"], "there is no node `bar.middle`"),
+        (beam(MODES), vec!["bar.middle"], "have no node `bar.middle`"),
         (beam(MODES), vec!["bar@0.51"], "has no node at `bar@0.51`"),
-        (beam(MODES), vec!["bar.start", "bar@0"], "is named twice"),
-        (held, vec!["bar.start"], "`root` leads from outside to a node between the interfaces"),
+        (beam(MODES), vec!["bar.start", "bar@0"], "is specified twice"),
+        (held, vec!["bar.start"], "`root` connects a part that is not reduced"),
         (
             beam(&format!(
                 "{}[loads.push]\nkind = \"force\"\non = \"bar@0.5\"\nvector = [0, 0, 1]\n{MODES}",
