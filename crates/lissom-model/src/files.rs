@@ -75,7 +75,7 @@ fn check_regular(path: &Path) -> io::Result<()> {
     match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => Err(io::Error::new(IsADirectory, "it is a folder")),
         Ok(metadata) if !metadata.is_file() => {
-            Err(io::Error::new(InvalidInput, "it is no regular file, but a pipe, a socket or a device"))
+            Err(io::Error::new(InvalidInput, "it is not a regular file, but a pipe, a socket or a device"))
         }
         _ => Ok(()),
     }
@@ -129,8 +129,8 @@ fn text_of(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<String, FileError>
         let (reason, help) = match source.kind() {
             io::ErrorKind::NotFound => ("there is no such file".to_owned(), similar_file(path)),
             io::ErrorKind::InvalidData => {
-                let help = "a model file is a text in UTF-8; save it as such in your editor";
-                ("it is no text".to_owned(), Some(help.to_owned()))
+                let help = "a model file must be text in UTF-8: save it as such in the editor";
+                ("it is not a text file".to_owned(), Some(help.to_owned()))
             }
             io::ErrorKind::IsADirectory => {
                 ("it is a folder".to_owned(), Some("name a file in it".to_owned()))

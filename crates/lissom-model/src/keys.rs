@@ -235,12 +235,7 @@ impl Shape {
 
     /// Keys of a mass that is given by a density.
     pub(crate) fn density_keys() -> Vec<Key> {
-        vec![required(
-            "density",
-            Self::Positive,
-            "kg/m³",
-            "mass per volume of the solid that `inertia` names",
-        )]
+        vec![required("density", Self::Positive, "kg/m³", "mass density of the solid that `inertia` names")]
     }
 
     /// Keys of an inertia that is given by a solid.

@@ -21,11 +21,11 @@ const FILES: [(&str, &str, &[&str]); 9] = [
     ),
     ("joints", "What holds nodes together, one class per kind.", &["joints"]),
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),
-    ("loads", "Forces and moments from outside, and of actuators.", &["loads"]),
+    ("loads", "Applied forces and moments, and those of actuators.", &["loads"]),
     ("feedback", "First-order states and events.", &["states", "events"]),
     ("motions", "How the parts are and move at the start.", &["initial"]),
     ("outputs", "What is recorded, one class per kind.", &["outputs"]),
-    ("analyses", "What is computed, and how.", &["analysis"]),
+    ("analyses", "Kind of analysis and its settings.", &["analysis"]),
 ];
 /// Words that mean something else in Python; they get a line below.
 const RESERVED: [&str; 10] = ["as", "from", "global", "if", "import", "in", "is", "lambda", "not", "with"];

@@ -177,12 +177,16 @@ impl<'c, 'a> Reader<'c, 'a> {
             };
             if !known.contains(&word.as_str()) {
                 let help = suggest::help(word, known.iter().copied());
-                let problem = Problem::error(entry.span, format!("{words} cannot hold `{word}`"));
+                let problem = Problem::error(entry.span, format!("{words} cannot contain `{word}`"));
                 context.report(problem.maybe_help(help));
                 return None;
             }
             if chosen.contains(word) {
-                return context.fail(entry.span, format!("{words} holds `{word}` twice"), "name it once");
+                return context.fail(
+                    entry.span,
+                    format!("{words} contains `{word}` twice"),
+                    "remove one of them",
+                );
             }
             chosen.push(word.clone());
         }

@@ -58,9 +58,9 @@ pub(crate) fn known_for<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
 pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     let is_known = |name: &str| known.contains(&name);
     match word.to_lowercase().as_str() {
-        "diameter" if is_known("radius") => Some("give `radius`, half of the diameter".to_owned()),
+        "diameter" if is_known("radius") => Some("write `radius`, half of the diameter".to_owned()),
         "units" | "unit" if is_known("lissom") => Some(
-            "there are no words for units: leave it out, and write lengths in m, masses in kg, times in s, forces in N and angles \
+            "units cannot be specified: remove it, and write lengths in m, masses in kg, times in s, forces in N and angles \
              in rad"
                 .to_owned(),
         ),
@@ -73,7 +73,7 @@ pub(crate) fn instead_of_unit(word: &str) -> Option<&'static str> {
     Some(match word {
         "deg" | "degree" | "degrees" => "angles are in radians: write `30*pi/180` for 30 degrees",
         "rpm" => "angular velocities are in rad/s: write `40*2*pi/60` for 40 turns per minute",
-        "rad" => "angles are in radians: leave the unit out",
+        "rad" => "angles are in radians: remove the unit",
         "kg" | "g" | "m" | "cm" | "mm" | "km" | "s" | "ms" | "N" | "kN" | "Nm" | "Pa" | "kPa" | "MPa"
         | "GPa" | "Hz" | "lb" | "ft" => {
             "numbers have no units in words: write them in kg, m, s, N and rad, such as `210e9` for 210 GPa"
@@ -96,7 +96,7 @@ mod tests {
         assert_eq!(known_for("hinge", &["axial"]), None);
         assert_eq!(
             suggest::help("diameter", ["radius"]).as_deref(),
-            Some("give `radius`, half of the diameter")
+            Some("write `radius`, half of the diameter")
         );
         assert_eq!(suggest::help("fixed", joints).as_deref(), Some("did you mean `clamp`?"));
     }

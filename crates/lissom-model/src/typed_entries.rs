@@ -25,13 +25,17 @@ const FILES: [(&str, &str, &[TableAndId]); 9] = [
             ("superelements", "SuperelementId"),
         ],
     ),
-    ("joints", "What holds nodes together, one type per kind.", &[("joints", "JointId")]),
+    (
+        "joints",
+        "Constraints between nodes, or between coordinates of joints, one type per kind.",
+        &[("joints", "JointId")],
+    ),
     ("springs", "What pulls nodes or joints back, one type per kind.", &[("springs", "SpringId")]),
-    ("loads", "Forces and moments from outside, and of actuators.", &[("loads", "LoadId")]),
+    ("loads", "Applied forces and moments, and those of actuators.", &[("loads", "LoadId")]),
     ("feedback", "First-order states and events.", &[("states", "StateId"), ("events", "EventId")]),
     ("motions", "How the parts are and move at the start.", &[("initial", "InitialId")]),
     ("outputs", "What is recorded, one type per kind.", &[("outputs", "OutputId")]),
-    ("analyses", "What is computed, and how.", &[("analysis", "AnalysisId")]),
+    ("analyses", "Kind of analysis and its settings.", &[("analysis", "AnalysisId")]),
 ];
 
 /// Words that a key chooses among, by the name of their type.
@@ -303,7 +307,7 @@ fn summary_of(table: &str) -> &'static str {
         "bodies" => "A rigid body.",
         "point_masses" => "A mass without extension.",
         "superelements" => "A linear elastic part that is given by reduced matrices.",
-        "states" => "A first-order state: a number whose derivative by time is an expression.",
+        "states" => "A first-order state: a number whose time derivative is an expression.",
         "events" => "What happens when an expression passes through zero.",
         "initial" => "A rigid motion of all parts at the start, or static equilibrium.",
         _ => "An entry.",

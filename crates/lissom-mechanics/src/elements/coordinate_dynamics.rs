@@ -50,7 +50,7 @@ pub const KIND: ElementKind = ElementKind {
             "rest",
             ParameterType::Numbers,
             "m or rad",
-            "Values of the coordinates at which `stiffness` is free of force; default zeros.",
+            "Values of the coordinates without force of `stiffness`; default zeros.",
         ),
     ],
     attachment: Attachment::Coordinates,

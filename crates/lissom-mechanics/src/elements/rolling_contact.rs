@@ -28,14 +28,14 @@ const STILL: f64 = 1e-9;
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "rolling_contact",
-    summary: "A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.",
+    summary: "A wheel, disc or ball on a compliant plane with friction: it may lift off and slide.",
     sample: "normal = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]\nradius = 0.3\nstiffness = 1e6\nfriction_coefficient = 0.8",
     parameters: &[
         Parameter::required(
             "normal",
             ParameterType::Direction,
             "",
-            "Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane.",
+            "Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane.",
         ),
         Parameter::required(
             "wheel_axis",
@@ -47,39 +47,33 @@ pub const KIND: ElementKind = ElementKind {
             "radius",
             ParameterType::NotNegative,
             "m",
-            "Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 \
-             makes a ball of radius `rim`.",
+            "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim`.",
         ),
-        Parameter::optional(
-            "rim",
-            ParameterType::NotNegative,
-            "m",
-            "Radius of the rounding of the rim; default 0.",
-        ),
+        Parameter::optional("rim", ParameterType::NotNegative, "m", "Rounding radius of the rim; default 0."),
         Parameter::required("stiffness", ParameterType::Positive, "N/m", "Normal force per penetration."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
             "s/m",
-            "Increase of the normal force per velocity of penetration, relative to it; default 0.",
+            "Relative increase of the normal force per penetration velocity; default 0.",
         ),
         Parameter::optional(
             "friction_coefficient",
             ParameterType::NotNegative,
             "",
-            "Friction over normal force of a wheel that slides; default 0.",
+            "Coefficient of sliding friction; default 0.",
         ),
         Parameter::optional(
             "slip_velocity",
             ParameterType::Positive,
             "m/s",
-            "Velocity v_s of the law μ tanh(v/v_s): below it the wheel creeps; default 0.01.",
+            "Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps; default 0.01.",
         ),
         Parameter::optional(
             "traction",
             ParameterType::FunctionOf("slip"),
             "",
-            "Coefficient of friction over the sliding velocity `slip` [m/s], in place of the law of `friction_coefficient`.",
+            "Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`.",
         ),
     ],
     attachment: Attachment::TwoNodes,

@@ -33,7 +33,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "range",
             ParameterType::Range,
             "rad",
-            "Rotations between the stops; an end that is infinite has none.",
+            "Rotations of the two stops; none at an infinite end.",
         ),
         Parameter::required(
             "stiffness",
@@ -41,7 +41,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "N m/rad^n",
             "Moment at a penetration of 1 rad.",
         ),
-        Parameter::optional("exponent", ParameterType::Positive, "", "n, from 1 on; default 1."),
+        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1; default 1."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
@@ -71,10 +71,10 @@ pub const AXIAL: ElementKind = ElementKind {
             "range",
             ParameterType::Range,
             "m",
-            "Displacements between the stops; an end that is infinite has none.",
+            "Displacements of the two stops; none at an infinite end.",
         ),
         Parameter::required("stiffness", ParameterType::Positive, "N/m^n", "Force at a penetration of 1 m."),
-        Parameter::optional("exponent", ParameterType::Positive, "", "n, from 1 on; default 1."),
+        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1; default 1."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,

@@ -11,7 +11,7 @@ use crate::registry::{
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "cam",
-    summary: "A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.",
+    summary: "A coordinate of `other` is a function of a coordinate of `joint`, such as the profile of a cam.",
     sample: "profile = \"0.02*(1 - cos(x))\"",
     parameters: &[
         Parameter::required(

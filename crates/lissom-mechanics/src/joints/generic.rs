@@ -34,7 +34,7 @@ pub const KIND: JointKind = JointKind {
         "locked",
         ParameterType::Choices(&WORDS),
         "",
-        "What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them.",
+        "Locked motions: x along `axis`, y along `second_axis`, z perpendicular to both; rx, ry, rz about them.",
     )],
     build: Build::Relative(Frames::GivenOrGlobalAxes, |parameters, _| {
         let words = parameters.words("locked")?;

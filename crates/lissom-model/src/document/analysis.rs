@@ -39,7 +39,7 @@ pub enum AnalysisKind {
         /// The bifurcation at which it goes over to the branch, counted from 1, negative for the other sense; 0 for none.
         branch: i32,
     },
-    /// Load factors of buckling, by a linear estimate.
+    /// Buckling load factors, by a linear estimate.
     Buckling {
         /// How many.
         count: usize,
@@ -113,7 +113,7 @@ pub enum Scaling {
     None,
 }
 
-/// What is computed, and how.
+/// Kind of analysis and its settings.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the model file")]
 pub struct Analysis {
@@ -262,7 +262,7 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
         return reader.context.fail(
             reader.name,
             "the path along a number lacks `end`".to_owned(),
-            "give the value of the number at which the path ends",
+            "specify the value of the number at which the path ends",
         );
     }
     let end = if reader.has("end") { reader.number("end")? } else { Located::new(1.0, reader.name) };
@@ -283,7 +283,7 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
         return reader.context.fail(
             reader.node("branch")?.span,
             format!("`branch` must be a whole number, not {branch}"),
-            "1 is the first bifurcation of the path, -1 its branch in the other sense, 0 stays on the path",
+            "1 is the first bifurcation of the path, -1 its branch in the opposite direction; 0 continues the path",
         );
     }
     Some(AnalysisKind::Path { first, end: end.value, most_steps, branch: branch as i32 })
@@ -296,8 +296,8 @@ fn load_steps(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
     if let (Some(node), Some(_)) = (tolerance, steps) {
         return reader.context.fail(
             node.span,
-            "this is for load steps that are chosen, but `steps` gives their number".to_owned(),
-            "leave out one of them",
+            "this is for adaptive load steps, but `steps` specifies their number".to_owned(),
+            "remove one of them",
         );
     }
     let relative_tolerance = match tolerance {
@@ -327,8 +327,8 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     {
         return reader.context.fail(
             stray.span,
-            "this is for steps that are chosen by their error, but `step` is given alone".to_owned(),
-            "add `relative_tolerance`, or leave this out; `output_every` counts steps of one size",
+            "this is for adaptive steps, but only `step` is specified".to_owned(),
+            "add `relative_tolerance`, or remove this; `output_every` is for steps of equal size",
         );
     }
     if tolerance.is_none()
@@ -368,7 +368,7 @@ fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
     let Some(node) = reader.node("frames_per_second") else { return };
     let duration = analysis.end - analysis.start;
     if rate * duration > MAX_FRAMES {
-        let message = format!("`frames_per_second` asks for {:.0} frames of motion", rate * duration);
+        let message = format!("`frames_per_second` requires {:.0} frames of motion", rate * duration);
         let help = format!("at most {MAX_FRAMES} are recorded: choose at most {:e}", MAX_FRAMES / duration);
         reader.context.fail::<()>(node.span, message, help);
     }
@@ -408,10 +408,8 @@ fn scheme_parameters(
                 .map(|entry| entry.name);
             let message = format!("the scheme `{}` has no parameter `{}`", scheme.value, parameter.name);
             let problem = Problem::error(node.span, message).also(scheme.span, "this scheme");
-            let help = format!(
-                "it belongs to {}: leave it out, or choose that scheme",
-                crate::suggest::list(owners)
-            );
+            let help =
+                format!("it belongs to {}: remove it, or choose that scheme", crate::suggest::list(owners));
             reader.context.report(problem.help(help));
         }
     }

@@ -41,13 +41,13 @@ pub(super) fn keys() -> Vec<Key> {
             "fixed",
             Shape::Names,
             "",
-            "bodies, point masses, beams, superelements and entries of [parts] that do not move",
+            "bodies, point masses, beams, superelements and entries of [parts] that are not moved",
         ),
         optional(
             "tolerance",
             Shape::Positive,
             "",
-            "gap that counts as closed, relative to the size of the model; for angles [rad]; default 1e-10",
+            "tolerance of closed joints, relative to the size of the model; for angles [rad]; default 1e-10",
         ),
     ]
 }
@@ -58,14 +58,16 @@ pub(super) fn keys_on_tip(rule: FrameRule) -> Vec<Key> {
         "at_tip",
         Shape::Place,
         "m",
-        "location on the tip as it is placed, if elsewhere than `at`; needs [assembly]",
+        "location on the tip in its approximate position, if different from `at`; requires [assembly]",
     )];
     if rule != FrameRule::None {
-        let words = "direction of `axis` on the tip as it is placed, if another; needs `at_tip`";
+        let words =
+            "direction of `axis` on the tip in its approximate position, if different; requires `at_tip`";
         keys.push(optional("axis_at_tip", Shape::Direction, "", words));
     }
     if matches!(rule, FrameRule::TwoAxes | FrameRule::GivenOrGlobal) {
-        let words = "direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`";
+        let words =
+            "direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`";
         keys.push(optional("second_axis_at_tip", Shape::Direction, "", words));
     }
     keys
@@ -95,7 +97,7 @@ pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located
     let (axis, second_axis) = (direction("axis_at_tip"), direction("second_axis_at_tip"));
     let needs = |key: &str, other: &str, span| {
         let message = format!("{} has `{key}`, but not `{other}`", reader.what);
-        context.fail::<()>(span, message, format!("give `{other}`, too"));
+        context.fail::<()>(span, message, format!("also specify `{other}`"));
     };
     if let (Some(second), None) = (&second_axis, &axis) {
         needs("second_axis_at_tip", "axis_at_tip", second.span);

@@ -94,7 +94,11 @@ fn friction(reader: &Reader<'_, '_>) -> Option<Located<Parameters>> {
     if let Some(at_rest) = own.number("static") {
         if at_rest.value < coulomb {
             let message = format!("`static` of {} is below `coulomb`", own.what);
-            return context.fail(at_rest.span, message, "friction at rest is not smaller than in motion");
+            return context.fail(
+                at_rest.span,
+                message,
+                "static friction must not be smaller than sliding friction",
+            );
         }
         if at_rest.value > coulomb {
             parameters.insert("breakaway", Held::Number(at_rest.value - coulomb));
@@ -140,7 +144,7 @@ fn attachment(
             let on = reader.node("on").and_then(|node| reader.context.node(node, &reader.words("on")))?;
             if on.value == NodeReference::Ground {
                 let message = format!("{} acts on the ground, which does not move", reader.what);
-                return reader.context.fail(on.span, message, "name the node of a body or beam");
+                return reader.context.fail(on.span, message, "specify the node of a body or beam");
             }
             Some(Attachment::OneNode { at: at("at", &on)?, on })
         }
@@ -232,7 +236,7 @@ fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Ve
         return context.fail(
             node.span,
             format!("{what} is empty"),
-            "name coordinates, such as \"arm.angle\"",
+            "list coordinates, such as \"arm.angle\"",
         );
     }
     let all: Vec<_> = list.iter().map(read).collect();
@@ -258,7 +262,7 @@ fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located
     let (base, tip) = (node("base"), node("tip"));
     let (base, tip) = (base?, tip?);
     if base.value == tip.value {
-        let message = format!("{} leads from a node to the same node", reader.what);
+        let message = format!("{} connects a node to itself", reader.what);
         let problem = Problem::error(tip.span, message).label("the same").also(base.span, "base");
         context.report(problem.help("`base` and `tip` must be different nodes"));
         return None;
@@ -282,7 +286,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                     (rule, reader.node(key), reader.node(other))
                 {
                     let message = format!("{} has `{other}`, but not `{key}`", reader.what);
-                    return reader.context.fail(given.span, message, "give both axes, or none");
+                    return reader.context.fail(given.span, message, "specify both axes, or none");
                 }
             }
             let (first, second) = (reader.vector("axis"), reader.vector("second_axis"));
@@ -291,7 +295,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                 let message = format!("the two axes of {} are parallel", reader.what);
                 let problem =
                     Problem::error(second.span, message).label("parallel").also(first.span, "first axis");
-                reader.context.report(problem.help("give two directions that differ"));
+                reader.context.report(problem.help("specify two different directions"));
                 return None;
             }
             let cosine = first.value.normalize().dot(&second.value.normalize());
@@ -324,7 +328,7 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let is_joint = context.names("joints").contains(&(name, reader.name));
     if is_joint && joint.value == name {
         let message = format!("{} acts on itself", reader.what);
-        return context.fail(joint.span, message, "name the joint whose coordinate it prescribes");
+        return context.fail(joint.span, message, "specify the joint whose coordinate it prescribes");
     }
     let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
     let Value::Text(kind) = &word.value else { return None };
@@ -338,6 +342,6 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);
     let problem = Problem::error(joint.span, message).label("no coordinate");
     let problem = problem.also(word.span, format!("a {kind} joint"));
-    context.report(problem.help("name a joint with an axis, such as a revolute one"));
+    context.report(problem.help("specify a joint with an axis, such as a revolute joint"));
     None
 }

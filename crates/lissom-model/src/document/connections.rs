@@ -87,7 +87,7 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
             slider.name.value
         );
         let problem = Problem::warning(node.span, message).also(slider.name.span, "the slider");
-        context.report(problem.help("read them farther away, or take more elements"));
+        context.report(problem.help("evaluate them farther away, or use more elements"));
     }
 }
 
@@ -99,15 +99,16 @@ fn at_rest(context: &Context<'_>, document: &Document) {
     }
     let what = if statics { "statics" } else { "a start from equilibrium" };
     for state in &document.states {
-        let message = format!("{what} knows no rates, so the state `{}` has no meaning", state.name.value);
-        context.fail::<()>(state.name.span, message, "remove it, or start a dynamic analysis as it is");
+        let message = format!("{what} has no rates, so the state `{}` is undefined", state.name.value);
+        context.fail::<()>(state.name.span, message, "remove it, or use an analysis of kind `dynamics`");
     }
     for signal in document.signals.iter().filter(|signal| signal.sampling.is_some()) {
-        let message = format!("{what} knows no samples, so the signal `{}` has no value", signal.name.value);
+        let message =
+            format!("{what} has no sampling times, so the signal `{}` has no value", signal.name.value);
         context.fail::<()>(
             signal.name.span,
             message,
-            "leave out `sample`, or start a dynamic analysis as it is",
+            "remove `sample`, or use an analysis of kind `dynamics`",
         );
     }
 }
@@ -234,7 +235,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         let free = root != ground;
         if free && statics {
             let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
-            context.fail::<()>(part.span, message, "add a joint or spring that leads to \"ground\"");
+            context.fail::<()>(part.span, message, "add a joint or spring that connects it to \"ground\"");
         } else if free && sizes.get(&root) == Some(&1) && parts.len() > 1 {
             let problem =
                 Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));

@@ -106,7 +106,7 @@ pub struct Document {
     pub signals: Vec<SignalEntry>,
     /// First-order states.
     pub states: Vec<StateEntry>,
-    /// What happens when expressions pass through zero.
+    /// Actions when expressions cross zero.
     pub events: Vec<EventEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
@@ -114,7 +114,7 @@ pub struct Document {
     pub initial_of_parts: BTreeMap<String, InitialMotion>,
     /// What to do about parts that are placed approximately; none where all joints must fit.
     pub assembly: Option<AssemblyRequest>,
-    /// What is recorded.
+    /// Quantities to be recorded.
     pub outputs: Vec<Output>,
     /// What is computed.
     pub analysis: Analysis,

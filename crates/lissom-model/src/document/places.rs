@@ -110,7 +110,7 @@ impl Context<'_> {
         }
         if self.has("joints", text) {
             let message = format!("{what} names the joint `{text}`, which is not a node");
-            let help = "name one of the nodes that it joins; what a joint does is recorded by outputs of the kinds `relative` and \
+            let help = "use one of the nodes that it connects; quantities of a joint are recorded by outputs of the kinds `relative` and \
                         `reaction`";
             return self.fail(span, message, help);
         }
@@ -130,8 +130,8 @@ impl Context<'_> {
                 Some(NodeReference::Beam { beam: beam.to_owned(), fraction })
             }
             None if self.has("beams", beam) => {
-                let message = format!("{what} names `{text}`, which is no position on the beam `{beam}`");
-                self.fail(span, message, "the fraction after `@` goes from 0 (start) to 1 (end)")
+                let message = format!("{what} names `{text}`, which is not a position on the beam `{beam}`");
+                self.fail(span, message, "the fraction after `@` must be from 0 (start) to 1 (end)")
             }
             _ => {
                 let known = self.node_names();
@@ -191,7 +191,7 @@ impl Context<'_> {
         let message = if interface.is_empty() {
             format!("{what} names the superelement `{element}`, not one of its interfaces")
         } else {
-            format!("{what} names `{interface}`, which is no interface of the superelement `{element}`")
+            format!("{what} names `{interface}`, which is not an interface of the superelement `{element}`")
         };
         let known: Vec<String> =
             self.interface_names(element).map(|known| format!("\"{element}.{known}\"")).collect();

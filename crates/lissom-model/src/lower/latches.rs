@@ -47,7 +47,7 @@ pub(super) fn add(
     let coordinates = names.coordinates.get(name).map_or(&[][..], Vec::as_slice);
     let &[coordinate] = coordinates else {
         let message = match coordinates.len() {
-            0 => format!("joint `{name}` has no relative coordinate for a latch to hold"),
+            0 => format!("joint `{name}` has no relative coordinate for a latch"),
             count => format!("joint `{name}` has {count} coordinates: which is latched?"),
         };
         let help = "add springs of the kinds torsional_latch and axial_latch on its coordinates, and events that set their inputs";

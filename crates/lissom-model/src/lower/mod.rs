@@ -55,7 +55,7 @@ pub struct Lowered {
     pub settings: Settings,
     /// From when to when, in how many steps.
     pub plan: Plan,
-    /// What is recorded.
+    /// Quantities to be recorded.
     pub channels: Vec<Channel>,
     /// What channels need added up along the steps.
     pub accumulated: Vec<Arc<dyn Accumulated>>,

@@ -47,7 +47,7 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     }
     let Some(largest) = document.beams.iter().max_by(|a, b| nodes(a).total_cmp(&nodes(b))) else { return };
     let message = format!(
-        "the model needs about {} of memory, most of it for the {} elements of beam `{}`; there are {}",
+        "the model requires about {} of memory, most of it for the {} elements of beam `{}`; available are {}",
         size(memory),
         largest.elements.value,
         largest.name.value,
@@ -69,12 +69,12 @@ fn steps(document: &Document, problems: &mut Vec<Problem>) {
     let columns = 1.0 + 3.0 * document.outputs.len() as f64;
     let table = PER_NUMBER * rows * columns;
     if steps > MAX_STEPS {
-        let message = format!("the analysis asks for {steps:.1e} steps: at 10 µs each they take {} hours", {
+        let message = format!("the analysis requires {steps:.1e} steps: at 10 µs each they take {} hours", {
             (steps * 1e-5 / 3600.0).round()
         });
         problems.push(Problem::error(span, message).help("choose a larger `step` or an earlier `end`"));
     } else if table > MAX_TABLE {
-        let message = format!("{rows:.1e} rows of results would take about {} on the disk", size(table));
+        let message = format!("{rows:.1e} rows of results would require about {} of disk space", size(table));
         let help = "record fewer of them with `output_every`, or choose a larger `step` or an earlier `end`";
         problems.push(Problem::error(span, message).help(help));
     }

@@ -248,7 +248,7 @@ fn resolve(
         let is_owner =
             owners.chain(names.coordinates.keys().map(String::as_str)).any(|owner| owner == name.text);
         let help = if is_owner {
-            Some(format!("name a component, as in `{}.rate` or `{}.u1`", name.text, name.text))
+            Some(format!("write a component, such as `{}.rate` or `{}.u1`", name.text, name.text))
         } else {
             suggest::help(&name.text, known)
         };
@@ -262,7 +262,7 @@ fn resolve(
         }
         if names.open_expressions.contains(output) {
             return Err(problem(format!("the output `{output}` is an expression of itself"))
-                .help("leave one of these names out"));
+                .help("remove one of these names"));
         }
         names.open_expressions.push(output.clone());
         let found = output_value(document, builder, names, of, is_sampled);

@@ -511,7 +511,7 @@ fn wrong_word(word: &str, node: &Node) -> Option<(String, String)> {
         word => {
             let help = suggest::help(word, tables::tops().map(|top| top.name))
                 .unwrap_or_else(|| "leave it out".to_owned());
-            Some((format!("`{word}` is not a word of a model file"), help))
+            Some((format!("`{word}` is not a key of a model file"), help))
         }
     }
 }

@@ -94,7 +94,7 @@ pub struct Anchor {
     pub position: [f64; 3],
 }
 
-/// What is recorded.
+/// Quantities to be recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
     /// Name; its columns in the table begin with it.
@@ -177,9 +177,9 @@ impl Scene {
     /// As a JSON text.
     ///
     /// # Panics
-    /// Never: plain numbers and texts can always be said in JSON.
+    /// Never: plain numbers and texts can always be written as JSON.
     pub fn to_json(&self) -> String {
-        serde_json::to_string(self).expect("plain numbers and texts can always be said in JSON")
+        serde_json::to_string(self).expect("plain numbers and texts can always be written as JSON")
     }
 }
 

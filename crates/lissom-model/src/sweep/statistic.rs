@@ -48,7 +48,7 @@ pub static STATISTICS: [Statistic; 11] = [
     Statistic { name: "final", summary: "Last recorded value.", of: |history| history.last.1 },
     Statistic {
         name: OF_FATIGUE,
-        summary: "Range of equal cycles that damage as much, by rainflow counting, of outputs with `woehler_exponent`.",
+        summary: "Damage equivalent range, by rainflow counting, of outputs with `woehler_exponent`.",
         of: Accumulator::damage_equivalent,
     },
     Statistic {
