@@ -43,11 +43,11 @@ pub fn manual(registry: &Registry) -> String {
     text
 }
 
-/// Words besides those of the tables that [`topic`] knows.
+/// Words that [`topic`] accepts in addition to those of the tables.
 const FUNCTION_WORDS: [&str; 2] = ["function", "expression"];
 
-/// What can be under a word at the top of a model file, such as `outputs` or `output`, as Markdown; also what a
-/// `function` is. None where there is no such word.
+/// Contents of a key at the top level of a model file, such as `outputs` or `output`, as Markdown; also the description of a
+/// `function`. None if there is no such word.
 pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     let mut text = String::new();
     if FUNCTION_WORDS.contains(&word)
@@ -70,7 +70,7 @@ pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     Some(text.trim_start().to_owned())
 }
 
-/// The words that [`topic`] knows.
+/// The words that [`topic`] accepts.
 pub fn topics() -> Vec<&'static str> {
     let tables = tops().filter(|top| !matches!(top.holds, Holds::Value(_)));
     let name = |top: &'static Top| if singular(top.name) == "entry" { top.name } else { singular(top.name) };
@@ -166,7 +166,7 @@ fn keys<'k>(text: &mut String, keys: impl Iterator<Item = &'k Key>) {
     }
 }
 
-/// What a shape holds, in words.
+/// Description of a shape.
 pub(crate) fn words(shape: &Shape) -> String {
     let fixed = match shape {
         Shape::Text => "a text",

@@ -1,4 +1,4 @@
-//! What other programs and textbooks call the words of a model file.
+//! Synonyms of the words of a model file in other programs and textbooks.
 
 /// A word of the model file, and other words for it in small letters.
 const OTHERS: &[(&str, &[&str])] = &[
@@ -54,7 +54,7 @@ pub(crate) fn known_for<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .find_map(|(own, _)| known.iter().find(|known| *known == own).copied())
 }
 
-/// What to write instead of a word that no single one represents.
+/// Replacement of a word without a single synonym.
 pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     let is_known = |name: &str| known.contains(&name);
     match word.to_lowercase().as_str() {
@@ -68,7 +68,7 @@ pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     }
 }
 
-/// What to write instead of a unit in an expression.
+/// Replacement of a unit in an expression.
 pub(crate) fn instead_of_unit(word: &str) -> Option<&'static str> {
     Some(match word {
         "deg" | "degree" | "degrees" => "angles are in radians: write `30*pi/180` for 30 degrees",

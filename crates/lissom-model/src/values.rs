@@ -1,4 +1,4 @@
-//! From TOML values to numbers, vectors, matrices and expressions, each with an error that says what was
+//! Conversion of TOML values to numbers, vectors, matrices and expressions, with errors that state what was
 //! expected. A number may also be a text: an expression of the parameters.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6};
@@ -22,7 +22,7 @@ pub(crate) fn type_of(node: &Node) -> &'static str {
 }
 
 impl Context<'_> {
-    /// Notes that `what` must be `wanted` but is of another type.
+    /// Reports that `what` must be `wanted` but is of another type.
     pub(crate) fn wrong_type<T>(&self, node: &Node, what: &str, wanted: &str) -> Option<T> {
         let found = type_of(node);
         let problem = Problem::error(node.span, format!("{what} must be {wanted}, not {found}"));

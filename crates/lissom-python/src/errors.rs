@@ -121,7 +121,7 @@ pub(crate) fn of_sweep(error: &SweepError) -> PyErr {
     }
 }
 
-/// A folder that cannot take a sweep.
+/// A folder that cannot be used for a sweep.
 pub(crate) fn of_sweep_folder(error: &SweepFolderError) -> PyErr {
     match error {
         SweepFolderError::File(error) => of_file(error),

@@ -384,7 +384,7 @@ fn mistakes_are_reported_with_their_place() {
             load("2*comand") + "[signals]\ncommand = \"t\"\n",
             &["unknown name `comand`", "did you mean `command`"],
         ),
-        (load("arm"), &["unknown name `arm`", "name a component"]),
+        (load("arm"), &["unknown name `arm`", "write a component"]),
         (load("sin(t"), &["closing parenthesis"]),
         (
             "[signals]\na = \"2*b\"\nb = \"c + 1\"\nc = \"a*t\"\n".to_owned(),
@@ -415,7 +415,7 @@ fn mistakes_are_reported_with_their_place() {
         }
     }
     let statics = arm("[states]\na = { derivative = \"1\" }\n", "").replace("\"dynamics\"", "\"statics\"");
-    assert!(refused(&statics).contains("knows no rates"));
+    assert!(refused(&statics).contains("has no rates"));
 }
 
 #[test]

@@ -336,7 +336,7 @@ fn wrong_locks_are_reported() {
         ("locked = [\"x\", \"x\"]", "twice"),
         ("locked = [\"rw\"]", "cannot hold `rw`"),
         ("locked = \"x\"", "list of words"),
-        ("locked = [\"x\"]\naxis = [1, 0, 0]", "give both axes"),
+        ("locked = [\"x\"]\naxis = [1, 0, 0]", "specify both axes"),
         ("locked = [\"x\"]\naxis = [1, 0, 0]\nsecond_axis = [1, 1, 0]", "not at 90"),
     ] {
         let error = told_of(lines);

@@ -204,7 +204,7 @@ fn numbers_that_cannot_be_varied_are_refused() {
     let words = refuse(&[("analysis.vary", "parameters.heigt")]);
     assert!(words.contains("says nothing at `parameters.heigt`"), "{words}");
     let words = refuse(&[("analysis.vary", "analysis.steps")]);
-    assert!(words.contains("of the analysis"), "{words}");
+    assert!(words.contains("belongs to the analysis"), "{words}");
     let words = refuse(&[("analysis.end", "0")]);
     assert!(words.contains("already"), "{words}");
     let words = refuse(&[("analysis.vary", "point_masses.top.mass"), ("parameters.force", "5")]);

@@ -1,4 +1,4 @@
-//! What a model file wants computed, and how.
+//! The analysis that a model file requests, with its settings.
 
 use lissom_core::registry::{Parameter, Parameters};
 use lissom_core::solver_features::DisabledFeatures;
@@ -11,7 +11,7 @@ use crate::registry::{ChoiceEntry, Registry};
 use crate::report::{Located, Problem, Span};
 use crate::text::Node;
 
-/// What is computed.
+/// Kind of analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnalysisKind {
     /// Motion in time.
@@ -36,7 +36,7 @@ pub enum AnalysisKind {
         end: f64,
         /// Most steps.
         most_steps: usize,
-        /// The bifurcation at which it goes over to the branch, counted from 1, negative for the other sense; 0 for none.
+        /// Number of the bifurcation at which it continues on the branch, from 1, negative for the opposite direction; 0 for none.
         branch: i32,
     },
     /// Buckling load factors, by a linear estimate.
@@ -76,7 +76,7 @@ pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 /// Most steps of a path where they are not given.
 const MAX_STEPS_OF_PATH: usize = 1000;
 
-/// Part of its work that a load step of chosen size may leave unexplained where nothing says otherwise.
+/// Default tolerance of the relative work error of adaptive load steps.
 const TOLERANCE_OF_WORK: f64 = 0.01;
 
 /// How steps are chosen.
@@ -90,10 +90,10 @@ pub struct StepChoice {
     pub output_step: Option<f64>,
 }
 
-/// Error allowed per step where a model names neither step nor tolerance.
+/// Tolerance of the local error if a model specifies neither step nor tolerance.
 const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-5;
-/// Tolerance of Newton's iterations where neither model nor scheme names one, and with chosen steps its part of what these
-/// may err. With a tenth steps of 1e-3 err eight times as much, with a ten-thousandth iterations are a quarter more.
+/// Default tolerance of Newton's iterations. With adaptive steps it is a fraction of their tolerance: with a tenth of that, steps
+/// of 1e-3 have eight times the error; with a ten-thousandth, iterations increase by a quarter.
 const DEFAULT_TOLERANCE: f64 = 1e-8;
 const NEWTON_PART: f64 = 1e-2;
 /// Scheme where steps are chosen and none is named.
@@ -141,7 +141,7 @@ pub struct Analysis {
     pub tolerance: f64,
     /// Most iterations of a step.
     pub max_iterations: usize,
-    /// What is omitted from the search for a step's solution, for studies.
+    /// Disabled features of the nonlinear solver, for studies.
     pub disabled: DisabledFeatures,
     /// Steps from one record to the next.
     pub output_every: usize,
@@ -149,7 +149,7 @@ pub struct Analysis {
     pub frames_per_second: Option<f64>,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
-    /// Path in the model file to the number along which a path of equilibria goes; none for the load factor.
+    /// Path in the model file of the number varied along an equilibrium path; none for the load factor.
     pub vary: Option<Located<String>>,
     /// Whether constant loads of statics grow from nothing over the load steps.
     pub ramp: bool,
@@ -178,7 +178,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     let is_run = matches!(word, "dynamics" | "statics");
     let start = number("start", 0.0);
     let end = match (is_run, &start) {
-        // Loads are those of an instant; functions of time are tried a little beyond it.
+        // Loads are those of an instant; functions of time are also evaluated slightly after it.
         (false, Some(start)) => Some(Located::new(start.value + 1.0, name)),
         _ if reader.has("end") => reader.number("end"),
         _ => Some(Located::new(1.0, name)),

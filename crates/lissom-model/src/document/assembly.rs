@@ -1,4 +1,4 @@
-//! Parts that are placed approximately: the table `[assembly]`, and where joints lie on their tips.
+//! Approximate positions of parts: the table `[assembly]`, and the positions of joints on their tips.
 
 use lissom_motion::Vector3;
 
@@ -12,18 +12,18 @@ use crate::report::{Located, Problem, Span};
 /// Gap that counts as closed, relative to the size of the model.
 pub const DEFAULT_ASSEMBLY_TOLERANCE: f64 = 1e-10;
 
-/// What an assembly shall keep to.
+/// Settings of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssemblyRequest {
     /// Bodies, point masses and beams that stay where they are.
     pub fixed: Vec<(String, Span)>,
     /// Gap that counts as closed, relative to the size of the model; for angles [rad].
     pub tolerance: f64,
-    /// Where it is asked for.
+    /// Position of the request in the text.
     pub span: Span,
 }
 
-/// Where a joint lies on its tip, in global axes, with the tip as it is placed.
+/// Position of a joint on its tip, in global axes, for the approximate position of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnTip {
     /// Location [m].
@@ -52,7 +52,7 @@ pub(super) fn keys() -> Vec<Key> {
     ]
 }
 
-/// Keys of joints between two nodes that lie apart.
+/// Keys of joints whose positions on both nodes differ.
 pub(super) fn keys_on_tip(rule: FrameRule) -> Vec<Key> {
     let mut keys = vec![optional(
         "at_tip",
@@ -86,7 +86,7 @@ pub(super) fn assembly(context: &Context<'_>) -> Option<AssemblyRequest> {
     Some(AssemblyRequest { fixed, tolerance, span })
 }
 
-/// Where a joint lies on its tip.
+/// Position of a joint on its tip.
 pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located<OnTip>> {
     let context = reader.context;
     let known: Vec<&str> = keys_on_tip(rule).iter().map(|key| key.name).collect();

@@ -1,4 +1,4 @@
-//! Beams of a model file: their lines, which may hang on each other, and the sections along them.
+//! Beams of a model file: their lines, which may depend on each other, and the sections along them.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
-/// A beam whose ends are not placed yet.
+/// A beam whose ends have no positions yet.
 struct Draft {
     name: Located<String>,
     form: Form,
@@ -187,7 +187,7 @@ impl Context<'_> {
     }
 }
 
-/// Places beams whose ends are known, until nothing moves any more: then the rest hangs on itself.
+/// Determines the lines of beams whose ends are known, until none is left. The remaining ones depend on each other in a cycle.
 fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String, Vector3>) -> Vec<Beam> {
     let order: BTreeMap<String, usize> =
         drafts.iter().enumerate().map(|(index, draft)| (draft.name.value.clone(), index)).collect();

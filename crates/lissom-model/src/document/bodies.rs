@@ -71,7 +71,7 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
     Some((mass?, inertia?))
 }
 
-/// What is drawn, if it is given; the outer none reports a mistake.
+/// Shape for drawings, if it is specified; the outer `None` stands for an error.
 #[expect(clippy::option_option, reason = "a mistake, or nothing given")]
 fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surface>>> {
     let context = reader.context;
@@ -158,12 +158,12 @@ pub(super) fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })
 }
 
-/// Degrees show as a rotation by more than a turn, which brings axes nowhere that a smaller one does not.
+/// A rotation by more than one revolution indicates degrees, because a smaller one would have the same result.
 fn warn_of_degrees(reader: &Reader<'_, '_>, node: &Node) {
     let what = reader.words("rotation");
     let Some(angle) = reader.context.vector(node, &what).map(|vector| vector.norm()) else { return };
     if angle > TAU * (1.0 + 1e-9) {
-        let message = format!("{what} rotates by {:.1} revolutions", angle / TAU);
+        let message = format!("{what} is {:.1} revolutions", angle / TAU);
         let help = "angles are in radians: write \"pi/2\" for 90 degrees";
         reader.context.report(Problem::warning(node.span, message).help(help));
     }

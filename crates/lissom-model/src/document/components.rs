@@ -1,4 +1,4 @@
-//! Joints, springs and loads of a model file: what they are attached to, and the parameters of their kind.
+//! Joints, springs and loads of a model file: their attachment, and the parameters of their kind.
 
 use lissom_core::registry::{Parameters, Value as Held};
 use lissom_motion::Vector3;
@@ -60,8 +60,8 @@ pub(super) fn read(
     })
 }
 
-/// The kinds that entries of `table` name, alone: the forms of all take longer to make than the entries to read, which counts in
-/// sweeps. None where an entry names no kind or an unknown one, so that the complaint can name all.
+/// The kinds in use in `table`: building the forms of all kinds takes longer than reading the entries, which is significant in
+/// sweeps. None if the kind of an entry is missing or unknown, so that the error message can list all of them.
 fn named(context: &Context<'_>, table: &str, kinds: &[KindEntry]) -> Option<Registry> {
     let mut named: Vec<KindEntry> = Vec::new();
     for (_, _, node) in context.entries(table) {
@@ -131,7 +131,7 @@ fn attachment(
             let nodes = two_nodes(reader);
             let (axis, second_axis) = axes(reader, rule)?;
             let (base, tip) = nodes?;
-            // The ground has no position of its own: where it is the tip, the base node's position is meant.
+            // The ground has no position: if it is the tip, the position is that of the base node.
             let place = if tip.value == NodeReference::Ground { at("at", &base) } else { at("at", &tip) };
             Some(Attachment::TwoNodes { at: place?, base, tip, axis, second_axis })
         }
@@ -275,7 +275,7 @@ type Axes = (Option<Located<Vector3>>, Option<Located<Vector3>>);
 /// Cosine between axes that count as perpendicular: digits of a text.
 const PERPENDICULAR: f64 = 1e-5;
 
-/// The directions the frame rule asks for; `None` where one of them is wrong or missing.
+/// The directions required by the frame rule; `None` if one of them is invalid or missing.
 fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
     match rule {
         FrameRule::None => Some((None, None)),

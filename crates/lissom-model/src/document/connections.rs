@@ -1,4 +1,4 @@
-//! Checks across tables: where nodes are, what hangs on what, and functions that fail during the analysis.
+//! Checks across tables: positions of nodes, connectivity, and functions that fail during the analysis.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -50,7 +50,7 @@ impl Places {
     }
 }
 
-/// What can only be seen with the whole model at hand.
+/// Checks that require the whole model.
 pub(super) fn check(context: &Context<'_>, document: &Document) {
     free_parts(context, document);
     functions(context, document);
@@ -60,9 +60,9 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     under_sliders(context, document);
 }
 
-/// A slider hands its force to the nodes about it: sections between them do not know where it is. Within one element it
-/// leaves out up to half of its force of the shear, and of the moment the parts of force times length of an element that
-/// `order` says; farther away both are right.
+/// The force of a slider acts on the nodes around it, so sections between them do not depend on its position. Within one element
+/// the shear force lacks up to half of the slider's force, and the moment a fraction of force times element length that depends
+/// on `order`; farther away both are correct.
 fn under_sliders(context: &Context<'_>, document: &Document) {
     for output in &document.outputs {
         let OutputSource::Node { node, .. } = &output.source else { continue };
@@ -91,7 +91,7 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// Statics knows no rates and no samples.
+/// Rejects states and sampled signals in statics.
 fn at_rest(context: &Context<'_>, document: &Document) {
     let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     if !statics && !document.starts_in_equilibrium() {
@@ -113,7 +113,7 @@ fn at_rest(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// A part that was dropped without a word would change the model: whatever else is overlooked, this is reported.
+/// A part that is omitted without a message would change the model, so it is always reported.
 fn complete(context: &Context<'_>, document: &Document) {
     let read = [
         ("materials", document.materials.len()),
@@ -141,7 +141,7 @@ fn complete(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// Groups of parts that hang together; the ground is a part.
+/// Groups of connected parts; the ground is a part.
 #[derive(Default)]
 struct Groups<'d> {
     numbers: HashMap<&'d str, usize>,
@@ -158,7 +158,7 @@ impl<'d> Groups<'d> {
         number
     }
 
-    /// The number that represents a part's group. Halves the way there for those who come later.
+    /// Number that represents a part's group. Halves the path to it for later queries.
     fn root(&mut self, part: &'d str) -> usize {
         let mut number = self.number(part);
         while self.parents[number] != number {

@@ -35,7 +35,7 @@ impl Document {
     /// `("analysis.step", "1e-4")`; a value that is no TOML counts as a text.
     ///
     /// # Errors
-    /// As [`Document::parse`]; also for overrides whose path leads nowhere.
+    /// As [`Document::parse`]; also if the path of an override does not exist.
     pub fn parse_with(
         text: &str,
         file_name: &str,
@@ -151,7 +151,7 @@ fn version(context: &Context<'_>) -> Option<()> {
     context.fail(node.span, message, help)
 }
 
-/// Words at the top, and whether each holds a table or a value as it must.
+/// Checks the keys at the top level and whether each is a table or a value as required.
 fn check_words(context: &Context<'_>) {
     for (word, span, node) in context.tops() {
         let Some(top) = tables::tops().find(|top| top.name == word) else {
@@ -243,7 +243,7 @@ fn title(context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// A parameter may name those above it; one of a part also those around it, if it is not of a file of its own.
+/// A parameter may refer to those above it; one of a part in the same file also to those of enclosing parts.
 fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
     for (scope, own) in context.scopes.iter().enumerate() {
         if let (Some(parent), parts::Outside::All) = (own.parent, &own.outside) {
@@ -311,7 +311,7 @@ where
     if entries.is_empty() {
         return all;
     }
-    // All forms of a table are made once for its entries: they take longer than an entry.
+    // All forms of a table are built once for its entries: they take longer than an entry.
     let forms = variants(table, registry);
     for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));

@@ -22,7 +22,7 @@ pub struct EventEntry {
     pub direction: Direction,
     /// Whether the run ends there.
     pub stop: bool,
-    /// Inputs that change there, and what they become.
+    /// Inputs changed by the event, with their new values.
     pub set: Vec<(Located<String>, Located<Formula>)>,
 }
 

@@ -1,6 +1,6 @@
-//! The kinds of recorded quantities: what a model file calls them, what they refer to and which keys they accept.
+//! The kinds of recorded quantities: their names in a model file, the parts to which they refer and their keys.
 
-/// What an output refers to.
+/// Part to which an output refers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Subject {
     /// Any node.
@@ -83,11 +83,11 @@ pub enum OutputKind {
     SectionForce,
     /// Torsion and bending moments in a beam [N m], local axes.
     SectionMoment,
-    /// Places of all nodes of a beam [m].
+    /// Positions of all nodes of a beam [m].
     Line,
     /// Modal coordinates of a superelement and their rates.
     Modal,
-    /// What the recovery matrix of a superelement makes of its deformation.
+    /// Product of a superelement's recovery matrix and its deformation.
     Recovered,
     /// Force and moment of a joint on its tip [N, N m], global axes.
     Reaction,
@@ -97,7 +97,7 @@ pub enum OutputKind {
     RelativeAcceleration,
     /// Place [m] and rotation vector [rad] of a joint's tip frame in its base frame.
     RelativeMotion,
-    /// Where a wheel touches its rail, and what acts there.
+    /// Contact position of a wheel on its rail, and the forces there.
     Contact,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
@@ -118,7 +118,7 @@ pub enum OutputKind {
 /// Name and unit of a component.
 pub(crate) type OutputComponent = (&'static str, &'static str);
 
-/// A kind of output: what the model file calls it, what it refers to, and its components.
+/// A kind of output: its name in the model file, the part to which it refers, and its components.
 ///
 /// Components that depend on the subject are in `channel_components.rs`.
 struct Declaration {
@@ -414,8 +414,7 @@ impl OutputKind {
     pub fn summary(self) -> &'static str {
         self.declaration().summary
     }
-
-    /// What it refers to.
+    /// Part to which it refers.
     pub(crate) fn subject(self) -> Subject {
         self.declaration().subject
     }

@@ -1,4 +1,4 @@
-//! What a model file wants recorded.
+//! The outputs of a model file.
 
 use lissom_motion::Vector3;
 
@@ -80,7 +80,7 @@ pub struct Output {
     pub axes: ReactionAxes,
     /// The node in whose axes its vectors are reported; global axes, or those of the observer, where there is none.
     pub seen_in: Option<Located<NodeReference>>,
-    /// The node as seen from which it is; the ground where there is none.
+    /// The node relative to which it is measured; the ground if there is none.
     pub relative_to: Option<Located<NodeReference>>,
     /// The axis of an angle, at the start, global axes.
     pub axis: Option<Vector3>,

@@ -3,7 +3,7 @@
 use super::tables::{TOP, has_named_entries};
 use crate::keys::{Key, Shape, optional, required};
 
-/// The key that names the part in whose frame an entry is placed.
+/// Key of the part in whose frame an entry is placed.
 pub(super) fn placed_in() -> Key {
     optional(
         "in",

@@ -1,4 +1,4 @@
-//! Positions and nodes as they are named in a model file.
+//! References to positions and nodes in a model file.
 
 use lissom_motion::Vector3;
 
@@ -76,8 +76,7 @@ impl Context<'_> {
         let text = full.as_deref().unwrap_or(&written);
         self.node_named(text, node.span, what).map(|found| Located::new(found, node.span))
     }
-
-    /// The name in the whole model of a node, or of a part without a node of its own.
+    /// Name in the whole model of a node, or of a part that is not a node.
     fn node_resolved(&self, text: &str, scope: ScopeId) -> Option<String> {
         self.resolve(text, scope, &|full| {
             let is_there = |name: &str| PARTS.iter().any(|table| self.has(table, name));
@@ -159,8 +158,7 @@ impl Context<'_> {
         }
         names
     }
-
-    /// The superelement and the interface of a name that is like one.
+    /// The superelement and the interface of a name of this form.
     fn interface_in<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
         if self.has("superelements", text) {
             return Some((text, ""));
@@ -168,7 +166,7 @@ impl Context<'_> {
         text.rsplit_once('.').filter(|(element, _)| self.has("superelements", element))
     }
 
-    /// Names of the interfaces of a superelement, as far as they can be read.
+    /// Names of the interfaces of a superelement, if they can be read.
     fn interface_names(&self, element: &str) -> impl Iterator<Item = &str> {
         let table = self.entry("superelements", element).and_then(Node::table);
         let list = table.and_then(|table| match &table.get("interfaces")?.node.value {

@@ -1,4 +1,4 @@
-//! The tables of a model file and their keys, in one place: what the decoder asks for, what the schema says.
+//! The tables of a model file and their keys, for the decoder, the schema and the reference.
 
 use std::borrow::Cow;
 
@@ -12,7 +12,7 @@ use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
 use crate::sections::{GENERAL, KINDS, NAMES};
 
-/// What is at the top of a model file under one word.
+/// Contents of a key at the top level of a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Holds {
     /// A value.
@@ -106,7 +106,7 @@ pub(crate) static TOP: [Top; 22] = [
     top("outputs", Holds::Entries, false, "Quantities to be recorded."),
 ];
 
-/// The table of the analysis, apart because the model is useless without it.
+/// The table of the analysis, separate because it is required.
 pub(crate) static ANALYSIS: Top = top("analysis", Holds::Table, true, "Kind of analysis and its settings.");
 
 /// Every word at the top, the analysis last.
@@ -455,7 +455,7 @@ fn outputs() -> Vec<Variant> {
     OutputKind::all().map(variant).collect()
 }
 
-/// The key that names what an output refers to; none for the whole model.
+/// Key with the part to which an output refers; none for the whole model.
 fn output_subject(subject: Subject) -> Option<Key> {
     Some(match subject {
         Subject::Node | Subject::Section => required("of", Shape::Node, "", "the node, such as \"beam@0.5\""),

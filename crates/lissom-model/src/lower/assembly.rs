@@ -1,4 +1,4 @@
-//! Moves parts that are placed approximately until all joints close, and reports what has moved.
+//! Corrects approximate positions of parts until all joints close, and reports the displacements.
 
 use lissom_core::analysis::assembly::{AssemblyError, Gap, Request, assemble};
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};

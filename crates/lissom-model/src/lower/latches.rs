@@ -1,4 +1,4 @@
-//! The short form of a latch: an input that is its own, an event that sets it, and one that lets go.
+//! The short form of a latch: expands to an input, an event that sets it, and one that releases it.
 
 use std::sync::Arc;
 
@@ -64,7 +64,7 @@ pub(super) fn add(
     let fault = |error| Problem::error(span, format!("latch of joint `{name}`: {error}"));
     let parameters = Parameters::new().with("engaged", Value::Input(engaged));
     builder.add_of_kind(kind, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
-    // A latch that has let go does not engage again: its coordinate leaves the position from where it was held.
+    // A released latch does not engage again, although its coordinate starts from the position at which it was locked.
     let released = builder.add_held(&format!("{name}, released"), 0.0);
     let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {
         let signal = Signal {

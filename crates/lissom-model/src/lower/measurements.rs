@@ -126,7 +126,7 @@ impl From<Problem> for Fault {
     }
 }
 
-/// A fault of what sampled signals can depend on.
+/// An error for a quantity on which only sampled signals can depend.
 fn of_solution<T>(message: String) -> Result<T, Fault> {
     let help =
         "add `sample` to the signal, or use a joint or an output at a node, such as its position or velocity";

@@ -8,7 +8,7 @@ use super::{Names, parameter_problem};
 use crate::document::{Beam, Component, Document, NodeReference};
 use crate::report::{Located, Problem};
 
-/// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: a smooth line goes through their nodes.
+/// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: the line through their nodes is smooth.
 const SMOOTH: f64 = 0.999_39;
 
 /// Adds a slider.

@@ -15,7 +15,7 @@ use crate::suggest;
 use crate::text::{self, Node, Value, in_order};
 use crate::toml_text::{inline, key};
 
-/// Columns of the table besides the varied paths and what is collected.
+/// Columns of the table in addition to the varied paths and the collected scalars.
 const OTHER_COLUMNS: [&str; 6] =
     ["member", "state", "time", "steps", "max_constraint_violation", "diagnosis"];
 
@@ -103,7 +103,7 @@ fn version(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<()> {
     context.fail(node.span, "this version of the format of sweep files is not supported", help)
 }
 
-/// Leaves of nested tables with the paths that lead to them. `is_leaf` says where a table is one itself.
+/// Leaves of nested tables with their paths. `is_leaf` states whether a table itself is a leaf.
 fn leaves<'n>(
     node: &'n Node,
     path: &str,
@@ -339,7 +339,7 @@ fn histories(context: &Context<'_>, reader: &Reader<'_, '_>) -> Vec<String> {
     all
 }
 
-/// Every column of the table needs a name of its own, and a path has either one value or several.
+/// Every column of the table requires a distinct name, and a path has either one value or several.
 fn check_columns(
     context: &Context<'_>,
     vary: &[(Varied, Span)],
@@ -471,20 +471,20 @@ mod tests {
         let cases = [
             ("vary.a = 3", "must be a list of values or a table"),
             ("vary.a = []", "has no values"),
-            ("vary.a = { from = 1, to = 2 }", "needs to know how many values"),
+            ("vary.a = { from = 1, to = 2 }", "requires the number of values"),
             ("vary.a = { from = 1, to = 1, count = 3 }", "ends where it begins"),
             ("vary.a = { from = 0, to = 1, count = 3, spacing = \"logarithmic\" }", "greater than zero"),
             ("vary.a = { from = 1, too = 2, count = 3 }", "unknown key `too`"),
             ("sampling = \"gird\"\nvary.a = [1]", "did you mean `grid`"),
-            ("sampling = \"sobol\"\nvary.a = { from = 0, to = 1 }", "needs the number of members"),
-            ("sampling = \"list\"\nvary.a = [1, 2]\nvary.b = [1]", "as many values"),
-            ("members = 4\nvary.a = [1, 2]", "has no meaning"),
+            ("sampling = \"sobol\"\nvary.a = { from = 0, to = 1 }", "requires the number of members"),
+            ("sampling = \"list\"\nvary.a = [1, 2]\nvary.b = [1]", "the same number of values"),
+            ("members = 4\nvary.a = [1, 2]", "has no effect"),
             ("vary.a = [1, 2]\nset.a = 1", "is set and varied"),
             ("vary.member = [1, 2]", "two columns `member`"),
-            ("collect.b = \"maximum(b.x)\"\nvary.a = [1]", "is no statistic"),
+            ("collect.b = \"maximum(b.x)\"\nvary.a = [1]", "is not a statistic"),
             ("collect.b = \"b.x\"\nvary.a = [1]", "cannot be read"),
             ("vary.a = [1]\nworkers = 3", "unknown key `workers`"),
-            ("[vary]", "varies nothing"),
+            ("[vary]", "varies no values"),
         ];
         for (text, words) in cases {
             let text = format!("{head}{text}\n");

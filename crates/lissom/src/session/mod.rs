@@ -263,7 +263,7 @@ impl Session {
         self.simulation.set_input(name, value)
     }
 
-    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the state remains
+    /// Performs one step: the next planned one, or one whose size is limited by its error. On failure the state remains
     /// unchanged.
     ///
     /// # Errors

@@ -246,7 +246,7 @@ fn wrong_descriptions_are_reported() {
         ("<robot", "no XML"),
         ("<sdf/>", "no URDF"),
         ("<robot><link name='a'/><link name='a'/></robot>", "two links"),
-        ("<robot><link name='a'/><link name='b'/></robot>", "hang on none"),
+        ("<robot><link name='a'/><link name='b'/></robot>", "have no parent"),
         (
             "<robot><link name='a'><inertial><mass value='one'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link></robot>",
             "line 1",

@@ -335,7 +335,7 @@ fn what_makes_no_sense_is_refused() {
     refused("tip = \"bead\"", "tip = \"bead\"\norientation = \"along\"", "orientation");
     refused("beams = [\"bar\"]", "beams = [\"bat\"]", "which does not exist");
     refused("beams = [\"bar\"]", "beams = []", "is empty");
-    refused("beams = [\"bar\"]", "beams = [\"bar\", \"bar\"]", "does not begin where");
+    refused("beams = [\"bar\"]", "beams = [\"bar\", \"bar\"]", "does not start at the end of");
 }
 
 /// Section forces under a slider that is between nodes: what the warning says of them. Its deflection is right.

@@ -195,7 +195,7 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
     assert!(message(&more, none).contains("needs 14 columns and 306 rows"), "{}", message(&more, none));
     let floating = ("geometric =", "floating = \"bar_end\"\ngeometric =");
     assert!(
-        message(&report, floating).contains("hold for the first interface"),
+        message(&report, floating).contains("are valid for the first interface"),
         "{}",
         message(&report, floating)
     );

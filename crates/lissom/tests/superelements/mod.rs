@@ -422,7 +422,7 @@ fn files_are_read_as_they_were_written() {
     assert_eq!(one.superelements[0].matrices, again.superelements[0].matrices);
     for (from, to, words) in [
         ("part.npz", "none.npz", "cannot be read"),
-        ("part.npz", "part-mass.mtx", "it is no NPZ archive"),
+        ("part.npz", "part-mass.mtx", "it is not an NPZ archive"),
         ("matrices = \"part.npz\"", "", "lacks `mass`"),
         ("matrices =", "floating = \"tip\"\nmatrices =", "which is none of its interfaces"),
         ("matrices =", "modal_damping = 0.1\nstiffness_damping = 1\nmatrices =", "has both `modal_damping`"),
