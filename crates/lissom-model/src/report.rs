@@ -1,6 +1,8 @@
 //! Problems of a model file with the positions that they underline, collected in a report.
 //! Independent of the meaning of keys.
 
+use lissom_core::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
+use lissom_core::kinematics::Subject;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
@@ -476,6 +478,35 @@ impl fmt::Display for Report {
 }
 
 impl std::error::Error for Report {}
+
+/// Entry of the catalogue for errors of a model file.
+pub const MODEL_FILE: Entry = Entry {
+    code: "model-file",
+    variant: "Report",
+    severity: diagnostics::Severity::Failure,
+    message: "{name}: {errors} errors",
+    meaning: "The model file has errors: TOML syntax, unknown keys, missing or invalid values, names that do not exist, or parts that \
+              are not connected. Nothing was computed.",
+    advice: "Correct the underlined positions; each error states a remedy. `lissom check MODEL.toml` reports all errors, \
+             `lissom kinds NAME` the keys of a table.",
+};
+
+impl Diagnose for Report {
+    fn diagnostic(&self) -> Diagnostic {
+        let errors = self.problems().filter(|problem| problem.severity == Severity::Error).count();
+        let first = self.to_value().get(0).cloned().unwrap_or_default();
+        let part = first["part"].as_str().filter(|part| !part.is_empty());
+        Diagnostic {
+            code: Some(MODEL_FILE.code),
+            severity: MODEL_FILE.severity,
+            time: None,
+            subject: part.map(|part| Subject::new("", part).called(format!("`{part}`"))),
+            values: vec![("errors", Value::Count(errors))],
+            cause: self.to_string(),
+            remedy: first["help"].as_str().unwrap_or_default().to_owned(),
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

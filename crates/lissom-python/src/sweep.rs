@@ -55,7 +55,8 @@ impl NativeSweep {
     /// The varied paths.
     fn paths(&self) -> Vec<String> {
         self.sweep.file().vary.iter().map(|varied| varied.path.clone()).collect()
-    }    /// Names of the collected scalars.
+    }
+    /// Names of the collected scalars.
     fn collected(&self) -> Vec<String> {
         self.sweep.file().collect.iter().map(|collected| collected.name.clone()).collect()
     }

@@ -1,6 +1,7 @@
 //! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness,
 //! interpolated and extrapolated from them, is singular.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -32,10 +33,7 @@ pub enum BucklingRunError {
     #[error(transparent)]
     Path(#[from] PathError),
     /// The loads are larger than a critical load.
-    #[error(
-        "the loads of the model are critical already at load factor {0:.6e}; make them smaller, or follow the path by an \
-         analysis of kind `path`"
-    )]
+    #[error("{}", self.diagnostic())]
     AlreadyCritical(f64),
     /// There is no linear model.
     #[error(transparent)]
@@ -44,9 +42,7 @@ pub enum BucklingRunError {
     #[error(transparent)]
     Buckling(#[from] BucklingError),
     /// Some modes were not found.
-    #[error(
-        "{0} of the load factors below the last one were missed, as negative pivots show; ask for another `count`"
-    )]
+    #[error("{}", self.diagnostic())]
     Missing(usize),
 }
 

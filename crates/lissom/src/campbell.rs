@@ -1,5 +1,6 @@
 //! Campbell diagram: natural frequencies and damping over a parameter, with modes tracked by their shapes.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -46,7 +47,7 @@ pub enum CampbellError {
     #[error(transparent)]
     Model(Report),
     /// The values are not a range.
-    #[error("`{path}` from {from} to {to}: both must be numbers, and different")]
+    #[error("{}", self.diagnostic())]
     Range {
         /// The path.
         path: String,
@@ -56,7 +57,7 @@ pub enum CampbellError {
         to: f64,
     },
     /// There are no modes at a value.
-    #[error("at `{path}` = {value}: {error}")]
+    #[error("{}", self.diagnostic())]
     Modes {
         /// The path.
         path: String,
@@ -66,7 +67,7 @@ pub enum CampbellError {
         error: Box<ModesError>,
     },
     /// The unknowns depend on the value.
-    #[error("another value at `{0}` changes the unknowns of the model: modes cannot be followed")]
+    #[error("{}", self.diagnostic())]
     Unlike(String),
 }
 

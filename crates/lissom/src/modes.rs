@@ -1,5 +1,6 @@
 //! Natural modes of a model about a state: computes the state, linearises there, and reports the modes in tables.
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -51,7 +52,7 @@ pub enum ModesError {
     #[error(transparent)]
     Model(#[from] Report),
     /// The time is outside the analysis.
-    #[error("modes about t = {time} s: {reason}")]
+    #[error("{}", self.diagnostic())]
     Time {
         /// The time [s].
         time: f64,
@@ -59,7 +60,7 @@ pub enum ModesError {
         reason: String,
     },
     /// An invalid frequency.
-    #[error("modes near {0} Hz: the frequency must be a number that is not negative")]
+    #[error("{}", self.diagnostic())]
     Shift(f64),
     /// The analysis that computes the state has no consistent initial values.
     #[error(transparent)]
@@ -68,10 +69,7 @@ pub enum ModesError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// The state is not in equilibrium.
-    #[error(
-        "the {state} is not in equilibrium: unbalanced forces would move it by {imbalance:.1e} of the model's length, and modes \
-         about it mean nothing; {hint}"
-    )]
+    #[error("{}", self.diagnostic())]
     NotInEquilibrium {
         /// The state, in words.
         state: &'static str,
@@ -84,24 +82,13 @@ pub enum ModesError {
     #[error(transparent)]
     Steady(#[from] SteadyError),
     /// The rotation is not steady.
-    #[error(
-        "the velocities at the start are no steady rotation: in the axes of the nodes they change by {0:.1e} of their squares; \
-         gravity across the axis, loads at rest in space and other motions are not steady in rotating axes"
-    )]
+    #[error("{}", self.diagnostic())]
     Unsteady(f64),
     /// The rotation is steady only at the azimuth of the start.
-    #[error(
-        "the rotation is not steady: a part of a turn after the start the twists of nodes change by {0:.1e} of their squares, as \
-         under gravity across the axis or other loads at rest in space; leave them out (`--unset gravity`), or let gravity act \
-         along the axis"
-    )]
+    #[error("{}", self.diagnostic())]
     SteadyHereAlone(f64),
     /// Coefficients change as the model rotates.
-    #[error(
-        "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model turns ({departure:.1e}): parts that \
-         turn and parts that do not are coupled across the axis, as by a support that yields; there are no multi-blade coordinates \
-         in which they are constant, because {reason}; such modes need Floquet's theory, which is not there"
-    )]
+    #[error("{}", self.diagnostic())]
     Periodic {
         /// Number of the mode, from 1.
         number: usize,
@@ -119,11 +106,7 @@ pub enum ModesError {
     #[error(transparent)]
     Mode(#[from] ModeError),
     /// Some modes were not found.
-    #[error(
-        "{0} of the modes between the first and the last one were missed, as negative pivots show; ask for another `count`; where \
-         very light parts make some frequencies thousands of times higher than others, for fewer modes, or for those near a \
-         frequency by `shift`"
-    )]
+    #[error("{}", self.diagnostic())]
     Missing(usize),
 }
 
@@ -132,10 +115,9 @@ impl From<SessionError> for ModesError {
         match error {
             SessionError::Model(report) => Self::Model(report),
             SessionError::Initial(error) => Self::Initial(error),
-            SessionError::NotInTime(kind) => Self::Time {
-                time: 0.0,
-                reason: format!("an analysis of kind `{kind}` has no course in time"),
-            },
+            SessionError::NotInTime(kind) => {
+                Self::Time { time: 0.0, reason: format!("an analysis of kind `{kind}` has no time steps") }
+            }
         }
     }
 }

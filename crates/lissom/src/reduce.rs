@@ -1,6 +1,7 @@
 //! Reduction of a flexible assembly to the matrices of a superelement: selection of the parts, their state, and the files
 //! that describe the superelement.
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -77,16 +78,16 @@ pub enum ReduceError {
     #[error(transparent)]
     State(#[from] ModesError),
     /// The request is invalid for the model.
-    #[error("{0}")]
+    #[error("{}", self.diagnostic())]
     Question(String),
     /// The reduction cannot be computed.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
     /// The matrices are not those of a free part.
-    #[error("the reduced {0}; this is no reduction to be used")]
+    #[error("{}", self.diagnostic())]
     Matrices(#[from] ParameterError),
     /// The archive could not be packed.
-    #[error("the archive of matrices cannot be packed: {0}")]
+    #[error("{}", self.diagnostic())]
     Archive(#[from] std::io::Error),
 }
 

@@ -1,5 +1,6 @@
 //! Frequency response: amplitudes of outputs for harmonic inputs of unit amplitude, without time integration.
 
+use lissom_core::diagnostics::Diagnose;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -65,7 +66,7 @@ pub enum FrequencyError {
     #[error(transparent)]
     Port(#[from] PortError),
     /// The frequencies are not a range.
-    #[error("frequencies from {from} to {to} Hz: both must be above zero, and the first below the last")]
+    #[error("{}", self.diagnostic())]
     Range {
         /// First frequency [Hz].
         from: f64,
@@ -73,13 +74,10 @@ pub enum FrequencyError {
         to: f64,
     },
     /// Wheels are rolling.
-    #[error(
-        "wheels roll on at that instant: their contacts move through the axes of the parts, in which responses are found; take a \
-         state in which they are, or `lissom modes`, which knows axes that do not spin with the wheels"
-    )]
+    #[error("{}", self.diagnostic())]
     RollsOn,
     /// A solve failed.
-    #[error("at {frequency} Hz: {error}")]
+    #[error("{}", self.diagnostic())]
     Response {
         /// The frequency [Hz].
         frequency: f64,

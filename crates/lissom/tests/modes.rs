@@ -222,7 +222,7 @@ fn an_unstable_equilibrium_is_reported() {
     let report = find(&pendulum(REVOLUTE, "position = [0, 0, 0.7]", MODES), OperatingPoint::Static, 1);
     assert_eq!((report.modes[0].kind, report.modes[0].damping), (ModeKind::Divergence, -1.0));
     near(report.modes[0].frequency, (2.0_f64 * 9.81 * 0.7 / 1.08).sqrt() / TAU, 1e-10);
-    assert!(report.warnings[0].contains("not stable"), "{:?}", report.warnings);
+    assert!(report.warnings[0].contains("unstable"), "{:?}", report.warnings);
 }
 
 /// Two masses on a line, springs from the ground to the first and from there to the second.

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lissom::gradient::{Confirmation, GradientError, GradientReport, Target, gradient};
 use lissom::{FolderError, ResultFolder, summary};
-use serde_json::json;
 
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
@@ -64,8 +63,7 @@ impl Gradient {
             Ok(found) => found,
             Err(error) => {
                 let mut summary = summary::of_request("gradient", model.name(), &self.model.set, &document);
-                // A string is valid JSON.
-                let _ = summary.insert("error", json!(error.to_string()));
+                summary::of_failure(&mut summary, &error);
                 folder.write_summary(&summary).map_err(unwritable)?;
                 return Err(Failure::new(Exit::Failed, error));
             }

@@ -7,7 +7,6 @@ use std::path::Path;
 use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
 use lissom::{Document, FolderError, Model, Override, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
-use serde_json::json;
 
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Interrupt};
@@ -37,8 +36,7 @@ pub(super) fn run(
         Ok(session) => session,
         Err(error) => {
             if !folder.has_results() {
-                // A string is valid JSON.
-                let _ = summary.insert("error", json!(error.to_string()));
+                lissom::summary::of_failure(&mut summary, &error);
                 folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
             }
             return Err(Failure::new(Exit::Failed, error));

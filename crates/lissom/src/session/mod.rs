@@ -5,6 +5,7 @@ mod handles;
 mod observed;
 mod snapshot;
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
@@ -50,7 +51,7 @@ pub enum SessionError {
     #[error(transparent)]
     Initial(#[from] InitialError),
     /// The analysis has no time history.
-    #[error("an analysis of kind `{0}` has no steps to be taken")]
+    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
 }
 
