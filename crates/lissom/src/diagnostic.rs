@@ -53,7 +53,7 @@ mod tests {
             value: 3.0,
             error: Box::new(ModesError::Step(step)),
         });
-        let remedy = "take a smaller step, or set `relative_tolerance`";
+        let remedy = "use a smaller step, or set `relative_tolerance`";
         let values = json!({ "node": "a`; b = c", "angle": 2.0 });
         let expected = json!({
             "code": "rotation-per-step", "time": 0.5, "part": "a`; b = c", "kind": "node", "values": values, "remedy": remedy,

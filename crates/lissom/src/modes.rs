@@ -209,7 +209,8 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
 }
 
 /// Note about modes in axes at rest.
-pub(crate) const AT_REST: &str = "the coefficients are constant only in axes at rest, with multi-blade coordinates: frequencies are those in these \
+pub(crate) const AT_REST: &str = "the coefficients are constant only in axes at rest, with multi-blade coordinates: frequencies are \
+those in these \
     axes, shapes those at this instant";
 
 /// Note about modes in axes of wheels.

@@ -353,7 +353,8 @@ impl Chosen {
             return Ok(Touches::Interfaces);
         }
         question(format!(
-            "`{}` connects a part that is not reduced to a node that is not an interface: make that node an interface, or remove `{0}` by `--unset`",
+            "`{}` connects a part that is not reduced to a node that is not an interface: make that node an interface, or remove `{0}` \
+            by `--unset`",
             component.name.value
         ))
     }

@@ -412,7 +412,7 @@ fn solids_have_their_mass_and_inertia() {
 #[test]
 fn mistakes_of_stops_and_friction_are_reported() {
     for (law, words) in [
-        ("stiffness = 1e6\nrestitution = 0.5", "needs `impact_velocity`"),
+        ("stiffness = 1e6\nrestitution = 0.5", "requires `impact_velocity`"),
         ("stiffness = 1e6\nrestitution = 1.5\nimpact_velocity = 1", "must be from 0.01 to 1"),
         ("stiffness = 1e6\nrestitution = 0.5\nimpact_velocity = 1\ndissipation = 1", "remove one of them"),
         ("stiffness = 1e6\nimpact_velocity = 1", "no meaning without `restitution`"),

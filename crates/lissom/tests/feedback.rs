@@ -561,5 +561,5 @@ fn friction_has_no_equation_in_statics() {
     let tables = "[springs.friction]\nkind = \"axial_friction\"\njoint = \"slide\"\ncoulomb = 1\n";
     let statics =
         slider(tables, "").replace("\"dynamics\"", "\"statics\"").replace("velocity = [0.5, 0, 0]\n", "");
-    assert!(refused(&statics).contains("know no rates"));
+    assert!(refused(&statics).contains("have no rates"));
 }

@@ -287,5 +287,5 @@ kind = "statics"
 "#;
     let (_, report) = Model::from_text("model.toml", text).session(&[]).unwrap().record();
     let words = format!("{report:?}");
-    assert!(words.contains("nothing holds or carries it") && !words.contains("wheel"), "{words}");
+    assert!(words.contains("it has no resistance") && !words.contains("wheel"), "{words}");
 }

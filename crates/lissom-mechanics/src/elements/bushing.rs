@@ -81,7 +81,7 @@ fn build(
     let first = parameters.vector_or("axis", ModelAxis::X.direction())?;
     let second = parameters.vector_or("second_axis", ModelAxis::Y.direction())?;
     let axes = Rotation::from_axis_and_reference(&first, &second).ok_or_else(|| {
-        ParameterError::new("axis", "is parallel to `second_axis`: give both `axis` and `second_axis`")
+        ParameterError::new("axis", "is parallel to `second_axis`: specify both `axis` and `second_axis`")
     })?;
     let frames = [0, 1].map(|side| model.frame(nodes[side]));
     let places = [0, 1].map(|side| Motion::new(axes, frames[side].transform_point(&points[side])));

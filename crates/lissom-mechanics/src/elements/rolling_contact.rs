@@ -47,7 +47,8 @@ pub const KIND: ElementKind = ElementKind {
             "radius",
             ParameterType::NotNegative,
             "m",
-            "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim`.",
+            "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for \
+            a ball of radius `rim`.",
         ),
         Parameter::optional("rim", ParameterType::NotNegative, "m", "Rounding radius of the rim; default 0."),
         Parameter::required("stiffness", ParameterType::Positive, "N/m", "Normal force per penetration."),
@@ -130,13 +131,13 @@ fn build(
     let [plane, centre] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
     let height = axes.apply_inverse(&(centre - plane)).z;
     if height.abs() <= 0.0 {
-        return Err(ParameterError::new("at_tip", "lies in the plane: it must be the centre of the wheel"));
+        return Err(ParameterError::new("at_tip", "is in the plane: it must be the centre of the wheel"));
     }
     let axis = axes.apply_inverse(&parameters.vector("wheel_axis")?);
     let axis =
         axis.try_normalize(0.0).ok_or_else(|| ParameterError::new("wheel_axis", "has no direction"))?;
     if axis.z.abs() > 1.0 - 1e-6 {
-        let problem = "is across the plane: the wheel lies flat on it, and cannot roll";
+        let problem = "is perpendicular to the plane: the wheel is flat on it and cannot roll";
         return Err(ParameterError::new("wheel_axis", problem));
     }
     let rim = parameters.number_or("rim", 0.0)?;
@@ -178,7 +179,7 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
     }
     for other in ["friction_coefficient", "slip_velocity"] {
         if parameters.has(other) {
-            return wrong(format!("replaces the law with `{other}`: leave one of them out"));
+            return wrong(format!("replaces the law with `{other}`: remove one of them"));
         }
     }
     let function = parameters.function("traction")?;

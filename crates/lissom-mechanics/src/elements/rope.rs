@@ -115,7 +115,7 @@ fn drums(
         return fault("belong to more than two drums: a rope has two ends".to_owned());
     }
     if radii.contains(&0.0) {
-        return fault("must not be zero: such a drum pays nothing out".to_owned());
+        return fault("must not be zero: such a drum pays out no rope".to_owned());
     }
     Ok(radii.iter().zip(drums).map(|(radius, drum)| [*radius, model.coordinate_value(*drum)]).collect())
 }
@@ -163,7 +163,7 @@ fn build(
         1..=MAX_NODES => {}
         _ => {
             return fault(
-                "leads over more than four parts besides the ground: tie two ropes to a part between",
+                "passes over more than four parts in addition to the ground: connect two ropes at an intermediate part",
             );
         }
     }

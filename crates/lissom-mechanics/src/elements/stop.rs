@@ -138,14 +138,17 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
         return parameters.number_or("dissipation", 0.0);
     }
     if parameters.has("dissipation") {
-        return Err(ParameterError::new("dissipation", "and `restitution` say the same: leave one out"));
+        return Err(ParameterError::new(
+            "dissipation",
+            "and `restitution` are alternatives: remove one of them",
+        ));
     }
     let restitution = parameters.number("restitution")?;
     if !(MIN_RESTITUTION..=1.0).contains(&restitution) {
         return Err(ParameterError::new("restitution", format!("must be from {MIN_RESTITUTION} to 1")));
     }
     if !parameters.has("impact_velocity") {
-        let problem = "needs `impact_velocity`, at which it holds: slower impacts lose less";
+        let problem = "requires `impact_velocity`, for which it is valid: slower impacts lose less";
         return Err(ParameterError::new("restitution", problem));
     }
     Ok(relative_dissipation(restitution) / parameters.number("impact_velocity")?)

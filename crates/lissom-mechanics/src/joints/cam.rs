@@ -28,7 +28,7 @@ pub const KIND: JointKind = JointKind {
         if let Some(kink) = profile.first_kink() {
             let at = if kink.is_nan() { String::new() } else { format!(" at x = {kink:.6}") };
             let problem = format!(
-                "has a kink{at}: the follower would jump in speed there; give a table `interpolation = \
+                "has a kink{at}: the speed of the follower would jump there; specify a table `interpolation = \
                  \"spline\"`, or another function"
             );
             return Err(ParameterError::new("profile", problem));

@@ -38,7 +38,7 @@ pub const KIND: JointKind = JointKind {
         if tip.z.abs() < 1e-6 {
             return Err(ParameterError::new(
                 "tip_axis",
-                "is perpendicular to `axis`: no such joint can turn",
+                "is perpendicular to `axis`: such a joint cannot rotate",
             ));
         }
         Ok(Box::new(ConstantVelocity { tip }))

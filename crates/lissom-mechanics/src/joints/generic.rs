@@ -39,7 +39,7 @@ pub const KIND: JointKind = JointKind {
     build: Build::Relative(Frames::GivenOrGlobalAxes, |parameters, _| {
         let words = parameters.words("locked")?;
         if words.is_empty() {
-            return Err(ParameterError::new("locked", "is empty: the joint would hold nothing"));
+            return Err(ParameterError::new("locked", "is empty: the joint would have no effect"));
         }
         Ok(locking(WORDS.map(|word| words.iter().any(|given| given == word))))
     }),

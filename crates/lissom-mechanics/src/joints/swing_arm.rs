@@ -28,7 +28,7 @@ pub const KIND: JointKind = JointKind {
         let angle = parameters.number_or("angle", 0.0)?;
         let arm = elementary(2, angle).tr_mul(&geometry.span);
         if arm.x.hypot(arm.y) == 0.0 {
-            return Err(ParameterError::new("tip", "lies on the hinge's axis: the arm has no length"));
+            return Err(ParameterError::new("tip", "is on the hinge's axis: the link has no length"));
         }
         Ok(Box::new(SwingArm { arm, angle, equations: if geometry.planar { 2 } else { 3 } }))
     }),

@@ -55,7 +55,8 @@ pub const KIND: JointKind = JointKind {
             "offset",
             ParameterType::Number,
             "m",
-            "Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the rail's point `at` at the start.",
+            "Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the \
+            rail's point `at` at the start.",
         ),
         Parameter::optional(
             "cone_angle",
@@ -67,13 +68,15 @@ pub const KIND: JointKind = JointKind {
             "wheel_profile",
             ParameterType::FunctionOf("y"),
             "m",
-            "Instead of `cone_angle`: deviation from the nominal radius over the position `y` along the axis, outwards from the nominal circle; requires `tread`.",
+            "Instead of `cone_angle`: deviation from the nominal radius over the position `y` along the axis, outwards from the nominal \
+            circle; requires `tread`.",
         ),
         Parameter::optional(
             "tread",
             ParameterType::Range,
             "m",
-            "Range of positions `y` at which the wheel may touch the rail; a warning reports contact outside; default: half the radius in both directions.",
+            "Range of positions `y` at which the wheel may touch the rail; a warning reports contact outside; default: half the radius \
+            in both directions.",
         ),
         Parameter::optional(
             "head_radius",
@@ -121,7 +124,8 @@ pub const KIND: JointKind = JointKind {
             "ellipse",
             ParameterType::Numbers,
             "",
-            "Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the nominal curvatures.",
+            "Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the \
+            nominal curvatures.",
         ),
         Parameter::optional(
             "velocity",
@@ -162,7 +166,7 @@ fn smooth(parameters: &Parameters, name: &str) -> Result<Function, ParameterErro
         Some(kink) => {
             let at = if kink.is_nan() { String::new() } else { format!(" at y = {kink:.6}") };
             let problem = format!(
-                "has a kink{at}: the normal would jump there; give a table `interpolation = \"spline\"`, or another function"
+                "has a kink{at}: the normal would jump there; specify a table `interpolation = \"spline\"`, or another function"
             );
             Err(ParameterError::new(name, problem))
         }
@@ -174,7 +178,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
         geometry.axes.apply_inverse(&parameters.vector_or("axle", geometry.axes.apply(&Vector3::x()))?);
     let given = given.try_normalize(0.0).ok_or_else(|| ParameterError::new("axle", "has no direction"))?;
     if given.x.abs() < 0.5 {
-        let problem = "must be within 60 degrees of `axis`, which goes across the rail";
+        let problem = "must be within 60 degrees of `axis`, which is across the rail";
         return Err(ParameterError::new("axle", problem));
     }
     let outwards = given.x.signum();
@@ -186,7 +190,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     }
     let exclusive = |one: &str, other: &str| {
         if parameters.has(one) && parameters.has(other) {
-            return Err(ParameterError::new(one, format!("replaces `{other}`: leave one of them out")));
+            return Err(ParameterError::new(one, format!("replaces `{other}`: remove one of them")));
         }
         Ok(())
     };
@@ -200,7 +204,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     let nominal = parameters.number_or("radius", height.abs())?;
     let tread = parameters.range("tread")?.unwrap_or([-TREAD * nominal, TREAD * nominal]);
     if !(tread[0].is_finite() && tread[1].is_finite() && tread[0] <= 0.0 && tread[1] >= 0.0) {
-        return Err(ParameterError::new("tread", "must be finite and hold the nominal circle, y = 0"));
+        return Err(ParameterError::new("tread", "must be finite and contain the nominal circle, y = 0"));
     }
     let wheel = if parameters.has("wheel_profile") {
         if !parameters.has("tread") {

@@ -171,7 +171,8 @@ fn name_of_one(reader: &Reader<'_, '_>, tables: &[&str], what: &str) -> Option<L
     if let Some(full) = reader.context.resolve(name.value, scope, &exists) {
         return Some(Located::new(full, name.span));
     }
-    let message = format!("{} names `{}`, which is not a {what}", reader.words("of"), name.value);
+    let message =
+        format!("{} names `{}`, but there is no {what} of this name", reader.words("of"), name.value);
     let help = suggest::help(name.value, known()).unwrap_or_else(|| format!("add it to [{}]", tables[0]));
     reader.context.fail(name.span, message, help)
 }

@@ -274,7 +274,7 @@ fn wrong_sweeps_end_with_2() {
     assert!(ended.code == 2 && ended.errors.contains("has no history"), "{}", ended.errors);
     assert!(!folder.path().join("bad").exists(), "a wrong sweep leaves no results");
     folder.write("sweep.toml", &format!("lissom_sweep = 1\n{good}"));
-    assert!(sweep(&folder, "bad", &[]).errors.contains("names no model"));
+    assert!(sweep(&folder, "bad", &[]).errors.contains("specifies no model"));
     folder.write("sweep.toml", &format!("lissom_sweep = 1\nmodel = \"none.toml\"\n{good}"));
     assert_eq!(sweep(&folder, "bad", &[]).code, 2);
 
