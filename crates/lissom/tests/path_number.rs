@@ -202,7 +202,7 @@ fn the_range_that_a_drive_can_reach_ends_at_limit_points() {
 fn numbers_that_cannot_be_varied_are_refused() {
     let refuse = |set: &[(&str, &str)]| start(&given_truss(), set).err().unwrap_or_default();
     let words = refuse(&[("analysis.vary", "parameters.heigt")]);
-    assert!(words.contains("says nothing at `parameters.heigt`"), "{words}");
+    assert!(words.contains("has no number at `parameters.heigt`"), "{words}");
     let words = refuse(&[("analysis.vary", "analysis.steps")]);
     assert!(words.contains("belongs to the analysis"), "{words}");
     let words = refuse(&[("analysis.end", "0")]);
