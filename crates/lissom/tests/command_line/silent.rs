@@ -127,7 +127,7 @@ fn given_velocities_that_are_replaced_are_reported() {
 fn beams_that_turn_too_far_within_an_element_fail() {
     fails(
         "twist-wraps",
-        &["beam element between `c.start` and `c@0.2500`", "half a turn", "use more elements"],
+        &["beam element between `c.start` and `c@0.2500`", "half a revolution", "use more elements"],
     );
 }
 
@@ -356,7 +356,7 @@ fn constraints_that_yield_are_reported() {
 #[test]
 fn steps_too_long_for_the_motion_are_reported_and_short_ones_are_not() {
     for name in ["unresolved-universal", "unresolved-vibration", "unresolved-spin"] {
-        warned(name, "unresolved-motion", &["the steps are too long", "% in the end", "node `b"]);
+        warned(name, "unresolved-motion", &["the steps are too long", "% at the end", "node `b"]);
         let folder = Folder::new(&format!("{name}-fine"));
         for sets in [
             ["analysis.step=1e-4", "analysis.output_every=200"],
