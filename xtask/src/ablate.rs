@@ -65,7 +65,7 @@ pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
     Ok(true)
 }
 
-/// What is changed in a run.
+/// Change in a run.
 enum Change {
     /// Nothing.
     None,
@@ -75,7 +75,7 @@ enum Change {
     Parameter(&'static str, f64),
 }
 
-/// What is changed in turn, with the title of its row.
+/// Changes in sequence, with the titles of their rows.
 fn changes(of_numbers: bool) -> Vec<(String, Change)> {
     if of_numbers {
         let halved_and_doubled = TUNING_PARAMETERS.iter().flat_map(|&(_, word, ..)| {

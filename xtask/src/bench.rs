@@ -1,4 +1,4 @@
-//! `cargo xtask bench`: runs scenes without outputs and prints where their time goes. Knows no mechanics.
+//! `cargo xtask bench`: runs scenes without outputs and prints their time by function. Independent of mechanics.
 
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -32,7 +32,7 @@ pub(crate) enum BenchError {
     File {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: std::io::Error,
     },
 }
@@ -44,11 +44,11 @@ struct Measured {
     report: RunReport,
     /// Processor time of the steps [s].
     steps: f64,
-    /// Bytes that the process holds more than before, by the largest it ever held.
+    /// Increase of the peak memory of the process in bytes.
     bytes: Option<u64>,
 }
 
-/// Writes the scenes that are kept, and the large ones where asked for.
+/// Writes the stored scenes, and the large ones if requested.
 pub(crate) fn write(root: &Path, large: bool) -> Result<(), BenchError> {
     let folder = root.join("benches/scenes");
     let file = |path: &Path| {

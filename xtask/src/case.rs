@@ -1,4 +1,4 @@
-//! What a `case.toml` says: models to run, what is compared with what, and how close it has to be. Runs
+//! Contents of a `case.toml`: models to run, comparisons, and their tolerances. Runs
 //! nothing.
 
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ pub(crate) enum CaseError {
     Wrong {
         /// Name of the case.
         case: String,
-        /// What is wrong.
+        /// The error.
         reason: String,
     },
 }
@@ -42,7 +42,7 @@ pub(crate) struct Case {
     pub(crate) title: String,
     /// Rigid, statics, dynamics or invariants: where it is in the report.
     pub(crate) group: String,
-    /// Whose problem it is and where the reference digits come from.
+    /// Source of the problem and of the reference digits.
     pub(crate) source: String,
     /// Whether it is part of `--quick`.
     #[serde(default)]
@@ -51,14 +51,14 @@ pub(crate) struct Case {
     pub(crate) needs: Option<String>,
     /// How good the reference is, relative to the scale of its comparisons.
     pub(crate) uncertainty: Option<f64>,
-    /// What others take for it, in a sentence with the source of the figure.
+    /// Times of other programs, in a sentence with their source.
     pub(crate) times: Option<String>,
     /// Why the whole case cannot be run yet.
     pub(crate) open: Option<String>,
-    /// What was learnt: differences to a reference, and who is right.
+    /// Findings: differences from a reference, and which one is correct.
     #[serde(default)]
     pub(crate) findings: Vec<String>,
-    /// Model files with what is changed in them, by name; `main` if none is named.
+    /// Model files with their changes, by name; `main` if none is named.
     #[serde(default)]
     pub(crate) runs: BTreeMap<String, Run>,
     /// Values compared.
@@ -88,7 +88,7 @@ pub(crate) struct Expected {
     pub(crate) because: String,
 }
 
-/// A model and what is changed in it.
+/// A model and its changes.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Run {
@@ -96,7 +96,7 @@ pub(crate) struct Run {
     pub(crate) model: Option<String>,
     /// Elements of the blade in the file that the case `needs`; the model is its tables and this file together.
     pub(crate) blade: Option<usize>,
-    /// Paths into the model and what is put there.
+    /// Paths in the model and their new values.
     #[serde(default)]
     pub(crate) set: BTreeMap<String, toml::Value>,
 }
@@ -115,8 +115,7 @@ impl Run {
             reason: error.to_string(),
         })
     }
-
-    /// What is changed, and further changes after it.
+    /// Changes, and further changes after them.
     pub(crate) fn overrides(&self, further: &BTreeMap<String, toml::Value>) -> Vec<Override> {
         let mut all = self.set.clone();
         all.extend(further.iter().map(|(path, value)| (path.clone(), value.clone())));
@@ -171,14 +170,14 @@ pub(crate) struct Quantity {
     pub(crate) at: Option<f64>,
     /// From when on, for measures over a stretch of time.
     pub(crate) from: Option<f64>,
-    /// What it should be.
+    /// Expected value.
     pub(crate) reference: Option<f64>,
     /// Several, instead of `at`, `value` and `reference`: time, formula, reference.
     #[serde(default)]
     pub(crate) entries: Vec<(f64, String, f64)>,
     /// Allowed difference over `scale`.
     pub(crate) tolerance: f64,
-    /// What differences are divided by; the largest reference if it is not given.
+    /// Divisor of differences; default: the largest reference.
     pub(crate) scale: Option<f64>,
     /// Why the tolerance is wider than the reference's uncertainty.
     pub(crate) because: Option<String>,
@@ -200,7 +199,7 @@ pub(crate) struct Curve {
     pub(crate) run: Option<String>,
     /// Formulas over columns.
     pub(crate) values: Vec<String>,
-    /// What each is called in the plot.
+    /// Names in the plot.
     pub(crate) labels: Vec<String>,
     /// Unit of all.
     #[serde(default)]
@@ -214,7 +213,7 @@ pub(crate) struct Curve {
     pub(crate) until: Option<f64>,
     /// Allowed difference over `scale`.
     pub(crate) tolerance: Option<f64>,
-    /// What differences are divided by; the largest reference value if it is not given.
+    /// Divisor of differences; default: the largest reference value.
     pub(crate) scale: Option<f64>,
     /// Why the tolerance is wider than the reference's uncertainty.
     pub(crate) because: Option<String>,
@@ -226,7 +225,7 @@ pub(crate) struct Curve {
     pub(crate) uncertainty: Option<f64>,
 }
 
-/// A family of meshes or steps of one run, each half as fine as the next unless `ratio` says otherwise.
+/// A family of meshes or steps of one run, each half as fine as the next unless `ratio` is given.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Refinement {
@@ -243,10 +242,10 @@ pub(crate) struct Refinement {
     pub(crate) values: Vec<String>,
     /// When; the end if it is not given.
     pub(crate) at: Option<f64>,
-    /// Exact values; without them the finest level stands in.
+    /// Exact values; default: those of the finest level.
     #[serde(default)]
     pub(crate) reference: Vec<f64>,
-    /// The least order that must be seen.
+    /// Minimum observed order.
     pub(crate) order: f64,
     /// Errors below this, relative to the largest value, are round-off.
     #[serde(default = "round_off")]
@@ -255,7 +254,7 @@ pub(crate) struct Refinement {
     pub(crate) open: Option<String>,
 }
 
-/// What must not change a result.
+/// Changes that must not affect a result.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Change {
@@ -275,7 +274,7 @@ pub(crate) enum Change {
 pub(crate) struct Invariant {
     /// File in the folder of examples, without its ending, or the name of a case, as in `case/heavy-top`.
     pub(crate) example: String,
-    /// What is changed.
+    /// Kind of change.
     pub(crate) change: Change,
     /// Compared up to here [s].
     pub(crate) end: f64,
@@ -351,7 +350,7 @@ impl Case {
         Ok(())
     }
 
-    /// Every comparison says how good its reference is, and every tolerance wider than that says why.
+    /// Every comparison states the accuracy of its reference, and every larger tolerance its reason.
     fn check_tolerances(&self) -> Result<(), CaseError> {
         let quantities = self
             .quantity

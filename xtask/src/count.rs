@@ -1,5 +1,5 @@
 //! `cargo xtask count`: instructions of the inner loops, counted by valgrind's callgrind and compared with those
-//! kept in benches/instructions.toml. A slow-down is seen without timing noise. Knows no mechanics.
+//! kept in benches/instructions.toml. A slow-down is detected without timing noise. Independent of mechanics.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -29,12 +29,12 @@ pub(crate) enum CountError {
     /// A scene is wrong or has no solution.
     #[error("{0}")]
     Failed(String),
-    /// A program cannot be run, or says something else than expected.
+    /// A program cannot be run, or its output is unexpected.
     #[error("{program}: {message}")]
     Program {
         /// The program.
         program: &'static str,
-        /// What went wrong.
+        /// The error.
         message: String,
     },
     /// A file cannot be read or written.
@@ -42,12 +42,12 @@ pub(crate) enum CountError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         message: String,
     },
 }
 
-/// What is kept.
+/// Stored counts.
 #[derive(Debug, Default, Serialize, Deserialize, PartialEq, Eq)]
 struct Kept {
     /// The compiler the counts were made with.
@@ -154,7 +154,7 @@ pub(crate) fn steps(name: &str) -> Result<(), CountError> {
     counted_steps(&mut simulation, counted)
 }
 
-/// What callgrind counts, found by its name.
+/// Function counted by callgrind, by name.
 #[inline(never)]
 fn counted_steps(simulation: &mut Simulation, count: usize) -> Result<(), CountError> {
     for _ in 0..count {

@@ -13,7 +13,7 @@ use crate::verify::VerifyError;
 const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha", "hht"];
 /// Tolerances that are tried.
 const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
-/// What costs are compared with: what a model gets that names nothing.
+/// Reference of costs: a model with default settings.
 const DEFAULT: (usize, usize) = (0, 2);
 /// Tolerances of the two runs that the others are compared with.
 const FINE: [f64; 2] = [1e-7, 1e-8];
@@ -26,7 +26,7 @@ const MIN_DISPLACEMENT: f64 = 1e-4;
 /// Records of a run.
 const RECORDS: f64 = 20.0;
 
-/// What is run.
+/// Runs to perform.
 #[derive(clap::Args)]
 pub(crate) struct DefaultsArguments {
     /// Parts of the names of models to run; all if none is given

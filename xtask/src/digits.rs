@@ -1,4 +1,4 @@
-//! Whether the cases hold what independent programs computed: `verification/references/` writes values and errors to
+//! Checks whether the cases contain the results of independent programs: `verification/references/` writes values and errors to
 //! `digits.toml`, and every entry of a case that is called independent has to be one of them.
 
 use std::path::Path;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::case::{Case, CaseError};
 
-/// What the programs wrote.
+/// Output of the programs.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Digits {
@@ -25,7 +25,7 @@ struct Computed {
     errors: Vec<f64>,
 }
 
-/// What the cases hold that was computed otherwise, and rows of the programs that no case has; in words.
+/// Messages about values of the cases that differ from the programs, and rows of the programs without a case.
 pub(crate) fn differences(folder: &Path, cases: &[Case]) -> Result<Vec<String>, CaseError> {
     let path = folder.join("references/digits.toml");
     let unreadable = |reason: String| CaseError::Unreadable { path: path.display().to_string(), reason };
@@ -42,7 +42,7 @@ pub(crate) fn differences(folder: &Path, cases: &[Case]) -> Result<Vec<String>, 
     Ok(cases.iter().flat_map(of_case).collect())
 }
 
-/// Why a row of the case does not agree with what was computed for it.
+/// Why a row of the case does not agree with the computed value.
 fn difference(case: &Case, computed: &Computed) -> Option<String> {
     let finding = |words: String| Some(format!("{}, `{}`: {words}", case.name, computed.row));
     let Some((held, scale, uncertainty)) = held(case, &computed.row) else {

@@ -1,4 +1,4 @@
-//! Formulas over the columns of a record, such as `hypot(tip_x, tip_y)`. Knows no cases.
+//! Formulas over the columns of a record, such as `hypot(tip_x, tip_y)`. Independent of the cases.
 
 use std::collections::BTreeMap;
 

@@ -26,14 +26,14 @@ use answers::Answer;
 use damage::{Damage, STRANGERS, tokens};
 use damaged_expressions::{damaged_expression, expression_words};
 
-/// Cases that a thread takes at once.
+/// Cases per batch of a thread.
 const BLOCK: u64 = 64;
 /// Texts answered badly that are kept.
 const MAX_KEPT: usize = 20;
-/// What expressions of time and of names have in common with those of the examples.
+/// Words that expressions of time and of names share with those of the examples.
 const SIGNS: [char; 8] = ['+', '-', '*', '/', '^', '(', '<', '>'];
 
-/// What is tried.
+/// Options of the trials.
 #[derive(clap::Args)]
 pub(crate) struct FuzzArguments {
     /// Texts to read, as in `1e6`
@@ -59,7 +59,7 @@ pub(crate) struct FuzzArguments {
     keep: PathBuf,
 }
 
-/// What a text is.
+/// Kind of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Model,
@@ -73,9 +73,9 @@ impl Kind {
     }
 }
 
-/// What is damaged.
+/// Source of the damaged texts.
 struct Originals {
-    /// Tokens of the model files: examples, and what the reader is tested with.
+    /// Tokens of the model files: examples, and models of the reader's tests.
     models: Vec<Vec<String>>,
     /// Words of the expressions in them.
     expressions: Vec<Vec<String>>,
@@ -165,7 +165,7 @@ impl Tally {
         self.slowest = self.slowest.max(other.slowest);
     }
 
-    /// Records an answer, and hands on the words for a bad one.
+    /// Records an answer, and returns the message for a bad one.
     fn note(&mut self, answer: std::thread::Result<Answer>) -> Option<String> {
         match answer {
             Ok(Answer::Read) => self.read += 1,
@@ -194,7 +194,7 @@ impl Display for Tally {
     }
 }
 
-/// What all threads have found: tallies of models and expressions, and numbers of texts answered badly with words.
+/// Results of all threads: tallies of models and expressions, and numbers of texts with bad answers and their messages.
 #[derive(Default)]
 struct Found {
     tallies: [Tally; 2],

@@ -1,4 +1,4 @@
-//! Chores of the project, such as `cargo xtask verify`. Knows no mechanics: it runs models and compares numbers.
+//! Project tasks, such as `cargo xtask verify`. Independent of mechanics: it runs models and compares numbers.
 
 mod ablate;
 mod bench;
@@ -50,13 +50,13 @@ enum Chore {
     Scenes(ScenesArguments),
     /// Count instructions of the inner loops and compare them with those kept
     Count(CountArguments),
-    /// Take the steps that are counted
+    /// Perform the steps that are counted
     #[command(hide = true)]
     Steps {
         /// The scene
         name: String,
     },
-    /// Print the bytes that a scene takes
+    /// Print the memory of a scene in bytes
     #[command(hide = true)]
     Bytes {
         /// The scene
@@ -64,9 +64,9 @@ enum Chore {
     },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
-    /// Leave out one mechanism of the search for a step's solution at a time and print what that costs
+    /// Disable one feature of the nonlinear solver at a time and print the change of cost
     Ablate(AblateArguments),
-    /// Run scenes, examples and random mechanisms with every scheme and tolerance, and print what each errs and costs
+    /// Run scenes, examples and random mechanisms with every scheme and tolerance, and print errors and costs
     Defaults(defaults::DefaultsArguments),
     /// Write the reference of the model file, and the types of its entries for models built in Rust and Python
     Reference {
@@ -92,20 +92,20 @@ enum Chore {
     Figures(FiguresArguments),
 }
 
-/// What is made.
+/// Figures to generate.
 #[derive(clap::Args)]
 struct FiguresArguments {
     /// Figures to make, by the names in the chapters' markers; all if none is given
     names: Vec<String>,
-    /// Also make those that take minutes
+    /// Also generate those that take minutes
     #[arg(long)]
     long: bool,
-    /// Make nothing; report links that point nowhere, markers that nothing fills, and an old copy of the report
+    /// Generate nothing; report broken links, markers without a generator, and an outdated copy of the report
     #[arg(long)]
     check: bool,
 }
 
-/// What is written.
+/// Files to write.
 #[derive(clap::Args)]
 struct ScenesArguments {
     /// Write the large scenes as well
@@ -116,7 +116,7 @@ struct ScenesArguments {
     list: bool,
 }
 
-/// What is done with the counts.
+/// Use of the counts.
 #[derive(clap::Args)]
 struct CountArguments {
     /// Keep these counts
@@ -124,7 +124,7 @@ struct CountArguments {
     update: bool,
 }
 
-/// What is measured.
+/// Quantity to measure.
 #[derive(clap::Args)]
 struct BenchArguments {
     /// Scenes by name, such as `chain-s-1000`; those that are kept as files if none is given
@@ -155,7 +155,7 @@ impl BenchArguments {
     }
 }
 
-/// What is omitted from what.
+/// Features to disable, and runs.
 #[derive(clap::Args)]
 struct AblateArguments {
     /// Parts of the names of models to run; all if none is given
@@ -171,7 +171,7 @@ struct AblateArguments {
     numbers: bool,
 }
 
-/// What is verified.
+/// Cases to verify.
 #[derive(clap::Args)]
 struct VerifyArguments {
     /// Cases to run, by folder name; all if none is given

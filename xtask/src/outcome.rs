@@ -1,4 +1,4 @@
-//! Results of a verification: rows of the report. Knows no files.
+//! Results of a verification: rows of the report. Independent of files.
 
 use std::time::Duration;
 
@@ -9,7 +9,7 @@ use lissom_model::output::Figure;
 pub(crate) enum Verdict {
     /// Within its tolerance.
     Pass,
-    /// Not within its tolerance, and nobody said why.
+    /// Not within its tolerance, without a stated reason.
     Fail(String),
     /// Not verified yet, for this reason.
     Open(String),
@@ -20,7 +20,7 @@ pub(crate) enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict of a comparison, of which `open` says why it may fail.
+    /// The verdict of a comparison; `open` is the reason why it may fail.
     pub(crate) fn of(passed: bool, words: impl Into<String>, open: Option<&str>) -> Self {
         match (passed, open) {
             (true, None) => Self::Pass,
@@ -51,7 +51,7 @@ impl Verdict {
 /// One comparison.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
-    /// What is compared.
+    /// Compared quantity.
     pub(crate) quantity: String,
     /// With whom.
     pub(crate) against: String,

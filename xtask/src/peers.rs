@@ -1,4 +1,4 @@
-//! Time per step of other programs on the scenes: figures to compare with, not measured here. Knows no scene.
+//! Time per step of other programs on the scenes: figures for comparison, not measured here. Independent of the scenes.
 
 /// A figure of the fastest other program.
 pub(crate) struct Peer {

@@ -1,5 +1,5 @@
 //! `cargo xtask reference`: the reference of the model file in docs/, and the types of its entries for models that are built
-//! in Rust and in Python, made of what the program itself reads.
+//! in Rust and in Python, generated from the program's own tables.
 
 use std::path::{Path, PathBuf};
 
@@ -10,12 +10,12 @@ use lissom_model::{files, manual, python_entries, typed_entries};
 
 use crate::verify::root;
 
-/// What is above the reference.
+/// Header of the reference.
 const NOTE: &str = "<!-- Made by `cargo xtask reference` of the program's own tables: do not edit. -->\n\n";
-/// What is above the types.
+/// Header of the types.
 const RUST_NOTE: &str = "// Made by `cargo xtask reference` of the program's own tables: do not edit.\n";
 
-/// All files with what they would hold.
+/// All files with their contents.
 fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
     let mut made = vec![(root.join("docs/reference.md"), reference_text())];
     let warnings = root.join("docs/warnings.md");

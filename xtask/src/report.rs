@@ -118,7 +118,7 @@ fn text(cases: &[Case], outcomes: &[Outcome], elapsed: Duration) -> String {
     text
 }
 
-/// What is open, skipped or failed, with reasons.
+/// Open, skipped and failed comparisons, with reasons.
 fn not_verified(cases: &[Case], outcomes: &[Outcome]) -> String {
     let mut text = String::new();
     for outcome in outcomes {

@@ -1,4 +1,4 @@
-//! Runs of models, each made once however often it is asked for. Knows nothing of references.
+//! Runs of models, each performed once. Independent of references.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ use crate::case::{Case, Run};
 
 /// Result of a run.
 pub(crate) struct Finished {
-    /// What was recorded.
+    /// The record.
     pub(crate) record: Record,
     /// Why it ended early, if it did.
     pub(crate) failure: Option<String>,
@@ -82,8 +82,7 @@ impl Runs {
         let tables = blade::tables(&folder.join(file), elements)?;
         Ok(Model::from_text(&path.display().to_string(), &format!("lissom = 1\n\n{tables}{own}")))
     }
-
-    /// What the runs warned of: each run in words, and the warning.
+    /// Warnings of the runs: description of the run, and the warning.
     pub(crate) fn warnings(&self) -> Vec<(String, String)> {
         let finished = self.finished.borrow();
         let of = |((model, changes), run): (&Key, &Rc<Finished>)| {

@@ -1,4 +1,4 @@
-//! The scenes that speed is measured on, as texts of model files by name. Knows no simulation.
+//! The scenes that speed is measured on, as texts of model files by name. Independent of simulation.
 //!
 //! Dimensions and initial motions are those of published comparisons of multibody programs, so that the names
 //! mean the same everywhere.
@@ -41,7 +41,7 @@ pub(crate) const KEPT: &[&str] = &[
     "andrews",
 ];
 
-/// Names of the larger scenes, made when they are asked for.
+/// Names of the larger scenes, made on request.
 pub(crate) const LARGE: &[&str] =
     &["chain-s-1000", "chain-s-10000", "chain-r-1000", "chain-r-10000", "loops-30", "beam-net-100"];
 

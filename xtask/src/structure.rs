@@ -26,7 +26,7 @@ struct Import {
     is_public: bool,
 }
 
-/// What a file defines and names.
+/// Definitions and references of a file.
 #[derive(Default)]
 struct Source {
     defined: BTreeSet<String>,
@@ -163,8 +163,7 @@ impl Crate {
         };
         Some(from.iter().chain(rest).cloned().collect())
     }
-
-    /// The file that defines what a path from the root names.
+    /// The file that defines the item at a path from the root.
     fn definition(&self, path: &[String], seen: &mut Vec<Module>) -> Module {
         let mut length = 0;
         while length < path.len() && self.sources.contains_key(&path[..=length]) {

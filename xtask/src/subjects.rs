@@ -1,5 +1,5 @@
 //! The models that are run again and again where something is measured over all of them: scenes, examples, models of the
-//! verification and random mechanisms. Knows no mechanics.
+//! verification and random mechanisms. Independent of mechanics.
 
 use std::path::Path;
 
@@ -25,11 +25,11 @@ const HARD_STEP: &str = "4e-3";
 
 /// A model that is run again and again.
 pub(crate) struct Subject {
-    /// What it is called in tables.
+    /// Its name in tables.
     pub(crate) name: String,
     /// The model.
     pub(crate) model: Model,
-    /// What is changed in it.
+    /// Changes in it.
     pub(crate) overrides: Vec<Override>,
 }
 

@@ -1,5 +1,5 @@
 //! The same model written differently: parts in another order, turned in space, in other units. Works on the
-//! text of model files; knows which keys hold lengths and directions.
+//! text of model files, with the keys of lengths and directions.
 
 use toml::{Table, Value};
 
@@ -135,7 +135,7 @@ pub(crate) fn in_millimetres(model: &Table) -> Table {
     model
 }
 
-/// Keys that hold lengths, or lengths per time.
+/// Keys of lengths, or of lengths per time.
 const LENGTHS: [&str; 17] = [
     "from",
     "to",
@@ -181,7 +181,7 @@ fn convert(table: &str, key: &str, value: &mut Value) {
     }
 }
 
-/// Multiplies numbers and expressions; leaves names, which represent what is scaled elsewhere.
+/// Multiplies numbers and expressions; names are unchanged, because they are scaled where they are defined.
 fn scale(value: &mut Value, factor: f64) {
     match value {
         Value::Array(list) => list.iter_mut().for_each(|value| match value {
@@ -194,7 +194,7 @@ fn scale(value: &mut Value, factor: f64) {
     }
 }
 
-/// What a value of `unit` is multiplied by when lengths are in millimetres.
+/// Factor of a value of `unit` if lengths are in millimetres.
 pub(crate) fn unit_factor(unit: &str) -> f64 {
     if matches!(unit, "m" | "m/s" | "m/s²" | "N m" | "N m s" | "J") { 1e3 } else { 1.0 }
 }

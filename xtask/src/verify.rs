@@ -30,7 +30,7 @@ pub(crate) enum VerifyError {
     File {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: std::io::Error,
     },
 }

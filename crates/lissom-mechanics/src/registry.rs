@@ -266,7 +266,7 @@ pub(crate) const COORDINATE: Parameter = Parameter::optional(
     "coordinate",
     ParameterType::Positive,
     "",
-    "Which of the joint's coordinates, counted from 1; default the first that fits.",
+    "Number of the joint's coordinate, from 1; default: the first suitable one.",
 );
 
 /// Which coordinate of the first joint, for kinds that couple two.
@@ -274,7 +274,7 @@ pub(crate) const WHICH_COORDINATE: Parameter = Parameter::optional(
     "coordinate",
     ParameterType::Positive,
     "",
-    "Which coordinate of `joint`, counted from 1; may be omitted where it has one.",
+    "Number of the coordinate of `joint`, from 1; may be omitted if there is only one.",
 );
 
 /// Which coordinate of the other joint, for kinds that couple two.
@@ -282,7 +282,7 @@ pub(crate) const OTHER_COORDINATE: Parameter = Parameter::optional(
     "other_coordinate",
     ParameterType::Positive,
     "",
-    "Which coordinate of `other`, counted from 1; may be omitted where it has one.",
+    "Number of the coordinate of `other`, from 1; may be omitted if there is only one.",
 );
 
 /// A parameter's value.

@@ -1,4 +1,4 @@
-//! Outputs that depend on the whole way: the work of what acts on a model, angles that go on beyond half a turn.
+//! Outputs that depend on the history: work, and angles that are continuous beyond half a revolution.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -9,13 +9,13 @@ use lissom_motion::{Rotation, Vector3};
 
 use crate::outputs::Location;
 
-/// Work of what acts on a model.
+/// Work done on a model.
 pub(crate) struct Work {
     pub(crate) name: String,
     pub(crate) of: Actor,
 }
 
-/// What puts power into a model.
+/// Element that delivers power to a model.
 #[derive(Clone, Copy)]
 pub(crate) enum Actor {
     Element(ElementId),

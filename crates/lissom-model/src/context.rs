@@ -1,4 +1,4 @@
-//! What the decoders share: the names of a model, its parameters and points, and the list of problems.
+//! Data common to all decoders: the names of a model, its parameters and points, and the list of problems.
 
 use std::cell::{Ref, RefCell};
 use std::collections::BTreeMap;

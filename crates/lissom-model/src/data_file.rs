@@ -7,7 +7,7 @@ pub(crate) enum DataError {
     /// There is no heading.
     #[error("the file has no heading with the names of its columns")]
     Empty,
-    /// The first line holds numbers.
+    /// The first line contains numbers.
     #[error("line {0}: the first line must name the columns, but holds numbers")]
     NoHeading(usize),
     /// A column is not there.
@@ -36,7 +36,7 @@ pub(crate) enum DataError {
     NotANumber {
         /// Line of the file, from 1.
         line: usize,
-        /// What is there.
+        /// The actual value.
         cell: String,
         /// Name of the column.
         column: String,

@@ -1,21 +1,21 @@
-//! Lines of a text with some of it underlined and words below, for a terminal. Knows texts, not what they mean.
+//! Excerpts of a text with underlined ranges and labels below, for a terminal. Independent of their meaning.
 
 use std::fmt::Write;
 use std::ops::Range;
 
 /// Columns that are written before words go on in the next line.
 const WIDTH: usize = 110;
-/// What a tab is shown as.
+/// Replacement of a tab.
 const TAB: &str = "    ";
 
-/// What is in front of a sentence, and the colour of both.
+/// Prefix of a sentence, and the colour of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mark {
     /// An error.
     Cross,
     /// A warning.
     Triangle,
-    /// What belongs to the sentence before.
+    /// Continuation of the previous sentence.
     Hand,
 }
 
@@ -66,7 +66,7 @@ struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// Where words hang below.
+    /// Position of the label below.
     fn middle(&self) -> usize {
         self.first + self.count / 2
     }
@@ -163,7 +163,7 @@ impl Painter<'_> {
     }
 }
 
-/// Where a label lies. One of several lines is underlined in the first of them, one of no length as one character.
+/// Position of a label. A range of several lines is underlined in the first one, an empty range as one character.
 fn place<'a>(text: &str, lines: &[&str], label: &Label<'a>) -> Place<'a> {
     let before = text.get(..label.range.start).unwrap_or(text);
     let line = before.matches('\n').count();

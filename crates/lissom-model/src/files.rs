@@ -1,8 +1,7 @@
-//! The one place where files are opened, for reading and for writing. Knows paths and texts, no formats.
-//!
-//! Files of a model (its text, what it includes, tables, meshes, matrices) are *inputs*: they are remembered, and nothing
-//! writes over them, whatever path or link leads there. Only regular files are read and written. Whole files are replaced at
-//! once: after a failure the former contents are there, or none.
+//! Opens all files, for reading and for writing. Independent of their formats.
+//! Files of a model (its text, included files, tables, meshes, matrices) are *inputs*: they are recorded, and are never
+//! overwritten, by any path or link. Only regular files are read and written. Whole files are replaced atomically: after a
+//! failure the file has its earlier contents, or does not exist.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, Metadata};
@@ -13,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::suggest;
 
-/// What was tried with a file.
+/// Operation on a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Reading a text.
@@ -28,7 +27,7 @@ pub enum Action {
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {} `{}`: {reason}", words(*.action), .path.display())]
 pub struct FileError {
-    /// What was tried.
+    /// The operation.
     pub action: Action,
     /// The file or folder.
     pub path: PathBuf,
@@ -69,13 +68,13 @@ pub(crate) fn available_memory() -> Option<f64> {
     installed.into_iter().chain(limit).reduce(f64::min)
 }
 
-/// Rejects what is there but is no regular file: a pipe or a device would be waited for, or never end.
+/// Rejects existing files that are not regular: reading a pipe or a device could block or never end.
 fn check_regular(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, IsADirectory};
     match fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => Err(io::Error::new(IsADirectory, "it is a folder")),
         Ok(metadata) if !metadata.is_file() => {
-            Err(io::Error::new(InvalidInput, "it is no regular file, but a pipe, a socket or a device"))
+            Err(io::Error::new(InvalidInput, "it is not a regular file, but a pipe, a socket or a device"))
         }
         _ => Ok(()),
     }
@@ -129,8 +128,8 @@ fn text_of(path: &Path, bytes: io::Result<Vec<u8>>) -> Result<String, FileError>
         let (reason, help) = match source.kind() {
             io::ErrorKind::NotFound => ("there is no such file".to_owned(), similar_file(path)),
             io::ErrorKind::InvalidData => {
-                let help = "a model file is a text in UTF-8; save it as such in your editor";
-                ("it is no text".to_owned(), Some(help.to_owned()))
+                let help = "a model file must be text in UTF-8: save it as such in the editor";
+                ("it is not a text file".to_owned(), Some(help.to_owned()))
             }
             io::ErrorKind::IsADirectory => {
                 ("it is a folder".to_owned(), Some("name a file in it".to_owned()))
@@ -179,7 +178,7 @@ fn are_same(_: &Metadata, _: &Metadata) -> bool {
     false
 }
 
-/// Rejects a file that must not be written or removed: an input, or what is no regular file.
+/// Rejects files that must not be written or removed: inputs, and files that are not regular.
 ///
 /// # Errors
 /// With the reason.
@@ -213,7 +212,7 @@ fn similar_file(path: &Path) -> Option<String> {
     suggest::help(wanted, names.iter().map(String::as_str))
 }
 
-/// Creates a folder and those above it; one that is there already is fine.
+/// Creates a folder and its parents; an existing one is accepted.
 ///
 /// # Errors
 /// If it cannot be created.
@@ -221,7 +220,7 @@ pub fn create_folder(path: &Path) -> Result<(), FileError> {
     fs::create_dir_all(path).map_err(|source| failure(Action::CreateFolder, path, source))
 }
 
-/// Creates a file to be written bit by bit; one that is there already is replaced by an empty one.
+/// Creates a file for incremental writing; an existing one is replaced by an empty one.
 ///
 /// # Errors
 /// If it cannot be created, or is an input.
@@ -274,7 +273,7 @@ pub fn synchronized_length(path: &Path) -> io::Result<u64> {
     Ok(file.metadata()?.len())
 }
 
-/// Paths of what is in a folder; none if it cannot be read.
+/// Paths of the entries of a folder; none if it cannot be read.
 pub fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> {
     fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path())
 }
@@ -351,7 +350,7 @@ pub fn failure(action: Action, path: &Path, source: io::Error) -> FileError {
 mod tests {
     use super::*;
 
-    /// A folder of its own for each test, gone afterwards.
+    /// A separate folder for each test, removed afterwards.
     struct Folder(PathBuf);
 
     impl Folder {
@@ -422,7 +421,7 @@ mod tests {
         let pipe = folder.0.join("history.csv");
         std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
         let message = read_text(&pipe).unwrap_err().to_string();
-        assert!(message.contains("no regular file"), "{message}");
+        assert!(message.contains("not a regular file"), "{message}");
         assert!(write(&pipe, b"").is_err() && create(&pipe).is_err() && remove(&pipe).is_err());
     }
 
@@ -441,7 +440,7 @@ mod tests {
         let folder = Folder::new("binary");
         let path = folder.0.join("a.toml");
         write(&path, &[0xff, 0xfe, 0x00]).unwrap();
-        assert!(read_text(&path).unwrap_err().to_string().contains("it is no text"));
+        assert!(read_text(&path).unwrap_err().to_string().contains("it is not a text file"));
         assert!(read_text(&folder.0).is_err());
         assert!(write(&folder.0.join("none/b.csv"), b"").unwrap_err().help.unwrap().contains("folder"));
         assert!(create_file(&folder.0.join("none/b.csv")).is_err());

@@ -139,7 +139,7 @@ impl Context<'_> {
         self.fail(
             node.span,
             format!("{what} must ascend, but {low} is not below {high}"),
-            "give [least, greatest]",
+            "write [minimum, maximum]",
         )
     }
 }

@@ -1,5 +1,5 @@
-//! Functions of time: expressions, as the simulator sees them; tables are in `table`.
-//! Knows neither where they are used nor how they are written in a file.
+//! Functions of time for the simulator, from expressions; those from tables are in `table`.
+//! Independent of their use and of their form in a file.
 
 use std::sync::Arc;
 

@@ -1,11 +1,11 @@
-//! What the tables of a model file hold, key by key: the decoder, the schema and the manual read these.
-//! Knows words and types, no values.
+//! Keys of the tables of a model file, for the decoder, the schema and the reference.
+//! Contains words and types, no values.
 
 use std::borrow::Cow;
 
 use lissom_core::registry::{ModelAxis, Parameter, ParameterType};
 
-/// What a key holds.
+/// Shape of the value of a key.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     /// A text.
@@ -116,7 +116,7 @@ pub(crate) enum Shape {
     Table,
 }
 
-/// Pattern of the shapes that hold three numbers or expressions and nothing else, and of others that are added.
+/// Pattern of the shapes of exactly three numbers or expressions, and of others that are added.
 macro_rules! three_numbers {
     ($($other:pat_param),*) => {
         Shape::Vector
@@ -235,12 +235,7 @@ impl Shape {
 
     /// Keys of a mass that is given by a density.
     pub(crate) fn density_keys() -> Vec<Key> {
-        vec![required(
-            "density",
-            Self::Positive,
-            "kg/m³",
-            "mass per volume of the solid that `inertia` names",
-        )]
+        vec![required("density", Self::Positive, "kg/m³", "mass density of the solid that `inertia` names")]
     }
 
     /// Keys of an inertia that is given by a solid.
@@ -300,7 +295,7 @@ impl Shape {
 pub(crate) struct Key {
     /// Word in the model file.
     pub(crate) name: &'static str,
-    /// What it holds.
+    /// Shape of its value.
     pub(crate) holds: Shape,
     /// Whether it must be given.
     pub(crate) required: bool,

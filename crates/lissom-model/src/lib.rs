@@ -57,6 +57,6 @@ pub use manual::{manual, topic, topics};
 pub use model_axes::{EntryAxes, model_axes};
 pub use model_text::ModelText;
 pub use python_entries::python_entries;
-pub use report::{Located, Problem, Report, Severity, Sources, Span};
+pub use report::{Located, MODEL_FILE, Problem, Report, Severity, Sources, Span};
 pub use schema::schema;
 pub use typed_entries::typed_entries;

@@ -1,4 +1,4 @@
-//! The texts that a model includes, and its data files: read once, then the same for all that is made of them. Knows no
+//! The texts that a model includes, and its data files: read once and shared by all their uses. Independent of their
 //! format.
 
 use std::collections::BTreeMap;
@@ -36,13 +36,13 @@ pub struct Library {
 }
 
 impl Library {
-    /// Texts in the folder in which the file `model` lies.
+    /// Texts in the folder of the file `model`.
     pub fn beside(model: &Path) -> Self {
         let folder = model.parent().map(Path::to_owned).unwrap_or_default();
         Self { folder: Some(folder), ..Self::default() }
     }
 
-    /// Texts in the folder in which the file `model` lies, of which some were read before, by their paths.
+    /// Texts in the folder of the file `model`, some of which were read before, by their paths.
     pub fn beside_with(model: &Path, texts: impl IntoIterator<Item = (String, String)>) -> Self {
         Self { folder: Self::beside(model).folder, ..Self::of_texts(texts) }
     }
@@ -134,7 +134,7 @@ impl Library {
         found.iter().filter_map(text).collect()
     }
 
-    /// The files that were asked for so far, whether they are there or not.
+    /// The files requested so far, whether they exist or not.
     pub fn files(&self) -> Vec<PathBuf> {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = self.folder.clone().unwrap_or_default();

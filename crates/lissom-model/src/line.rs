@@ -1,5 +1,5 @@
 //! The reference line of a beam: straight, circular arc, or a curve given by expressions, and the frames along it.
-//! Knows no elements and no sections.
+//! Independent of elements and sections.
 
 use lissom_motion::{Matrix3, Motion, Vector3};
 
@@ -46,7 +46,7 @@ impl Line {
     /// The arc from `from` through `through` to `to`.
     ///
     /// # Errors
-    /// If no circle goes through the points.
+    /// If there is no circle through the points.
     pub fn arc(from: Vector3, through: Vector3, to: Vector3) -> Result<Self, NoCircle> {
         let (a, b) = (through - from, to - from);
         let normal = a.cross(&b);
@@ -152,7 +152,7 @@ impl Line {
         self.parallel_at(up).is_some()
     }
 
-    /// Where the line stands still or has no place, if anywhere.
+    /// Position at which the line has no direction or is not finite, if any.
     pub fn fault(&self) -> Option<f64> {
         let bad = |s: &f64| {
             let speed = self.derivative(*s).norm();

@@ -13,23 +13,23 @@ use crate::table_values::table_keys;
 const INTRODUCTION: &str = "\
 A model is a TOML file. Units are SI, angles radians, axes right-handed.
 
-- **Numbers.** Wherever a number is expected, a text is allowed: an expression of the `[parameters]`, such as
-  `\"L/2\"`. A parameter may name those above it.
-- **Expressions** know `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
-  `a < b`, `<=`, `>`, `>=` are 1 where they hold and 0 elsewhere; `if(condition, a, b)` is `b` where the condition is 0.
-  `step(x)` is 0 below and 1 from zero on; `smoothstep(x)` goes from 0 at 0 to 1 at 1 with continuous second
-  derivative. Functions of time name `t` [s]; curves and twists name `s`, from 0 to 1 along the beam.
+- **Numbers.** Wherever a number is expected, a text is accepted: an expression of the `[parameters]`, such as
+  `\"L/2\"`. A parameter may refer to those above it.
+- **Expressions** consist of numbers, `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
+  `a < b`, `<=`, `>`, `>=` are 1 if true and 0 if false; `if(condition, a, b)` is `b` if the condition is 0.
+  `step(x)` is 0 for x < 0 and 1 otherwise; `smoothstep(x)` increases from 0 at 0 to 1 at 1 with continuous second
+  derivative. Functions of time contain `t` [s]; curves and twists contain `s`, from 0 to 1 along the beam.
 - **Functions of time** are a number, an expression of `t`, or
   `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`, or `\"monotone\"`, which does not
-  overshoot); before and after the table the end values hold. Instead of `table`, `file = \"motor.csv\"` and
-  `columns = [\"time\", \"torque\"]` take two columns of a text file in the model's folder.
-- **Sizes** of loads are functions of time, or expressions that name inputs, signals, states, coordinates of joints as
-  `arm.angle`, and components of outputs as `tip.u1`.
+  overshoot); outside the table the value is that of the nearest end. Instead of `table`, `file = \"motor.csv\"` and
+  `columns = [\"time\", \"torque\"]` read two columns of a text file in the model's folder.
+- **Sizes** of loads are functions of time, or expressions that contain inputs, signals, states, coordinates of joints such as
+  `arm.angle`, and components of outputs such as `tip.u1`.
 - **Positions** are three numbers or the name of an entry of `[points]`.
 - **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
   Beams, bodies and point masses share one set of names.
-- **Sections** count axial, shear 2, shear 3, torsion, bending 2, bending 3; axis 1 runs along the beam, axis 3 leans
-  to the beam's `up`. Without `up`, it leans to global z, or to y (then x) where the beam runs along z.
+- **Sections** have the order axial, shear 2, shear 3, torsion, bending 2, bending 3; axis 1 is along the beam, axis 3 oriented
+  to the beam's `up`. Without `up`, it is oriented to global z, or to y (then x) if the beam is parallel to z.
 ";
 
 /// The reference of the files that [`Document::parse`](crate::Document::parse) reads with `registry`.
@@ -43,11 +43,11 @@ pub fn manual(registry: &Registry) -> String {
     text
 }
 
-/// Words besides those of the tables that [`topic`] knows.
+/// Words that [`topic`] accepts in addition to those of the tables.
 const FUNCTION_WORDS: [&str; 2] = ["function", "expression"];
 
-/// What can be under a word at the top of a model file, such as `outputs` or `output`, as Markdown; also what a
-/// `function` is. None where there is no such word.
+/// Contents of a key at the top level of a model file, such as `outputs` or `output`, as Markdown; also the description of a
+/// `function`. None if there is no such word.
 pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     let mut text = String::new();
     if FUNCTION_WORDS.contains(&word)
@@ -70,7 +70,7 @@ pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     Some(text.trim_start().to_owned())
 }
 
-/// The words that [`topic`] knows.
+/// The words that [`topic`] accepts.
 pub fn topics() -> Vec<&'static str> {
     let tables = tops().filter(|top| !matches!(top.holds, Holds::Value(_)));
     let name = |top: &'static Top| if singular(top.name) == "entry" { top.name } else { singular(top.name) };
@@ -166,7 +166,7 @@ fn keys<'k>(text: &mut String, keys: impl Iterator<Item = &'k Key>) {
     }
 }
 
-/// What a shape holds, in words.
+/// Description of a shape.
 pub(crate) fn words(shape: &Shape) -> String {
     let fixed = match shape {
         Shape::Text => "a text",

@@ -22,7 +22,7 @@ pub(crate) enum MatrixError {
     Sizes {
         /// Line from 1.
         line: usize,
-        /// What was looked for.
+        /// The required type.
         wanted: &'static str,
     },
     /// Something is no number.
@@ -30,10 +30,10 @@ pub(crate) enum MatrixError {
     NotANumber {
         /// Line from 1.
         line: usize,
-        /// What is there.
+        /// The actual value.
         word: String,
     },
-    /// An entry lies outside.
+    /// An entry is outside.
     #[error("line {line}: there is no entry ({row}, {column}) in a matrix of {rows} by {columns}")]
     Outside {
         /// Line from 1.

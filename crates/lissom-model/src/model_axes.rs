@@ -21,7 +21,7 @@ pub fn model_axes(registry: &Registry) -> Vec<EntryAxes> {
     {
         let table = top.name;
         if let Holds::Values(shape) = &top.holds {
-            // The value has no key of its own.
+            // The value has no separate key.
             let keys = if shape.is_in_model_axes() { vec![""] } else { Vec::new() };
             all.push(EntryAxes { table, kind: "", keys });
         }

@@ -20,7 +20,7 @@ impl ModelText {
     /// files that the model includes are looked for beside it.
     ///
     /// # Errors
-    /// If the text is not TOML, or an override leads nowhere.
+    /// If the text is not TOML, or the path of an override does not exist.
     pub fn read(text: &str, file_name: &str, overrides: &[(String, String)]) -> Result<Self, Report> {
         Self::read_with(text, file_name, overrides, Arc::new(Library::beside(Path::new(file_name))))
     }
@@ -64,12 +64,12 @@ impl ModelText {
         from_tree(tree, registry)
     }
 
-    /// The files that it includes, as far as documents were made of it.
+    /// The included files, as far as they have been read.
     pub fn library(&self) -> &Library {
         &self.0.library
     }
 
-    /// Overrides of what is inside of parts, each as `path = value`: [`to_toml`](Self::to_toml) cannot express them.
+    /// Overrides inside parts, each as `path = value`; [`to_toml`](Self::to_toml) cannot express them.
     pub fn overrides_inside_parts(&self) -> Vec<String> {
         let line = |patch: &Patch| {
             let path: Vec<String> = patch.path.iter().map(|(name, _)| toml_text::key(name)).collect();
@@ -79,7 +79,7 @@ impl ModelText {
     }
 
     /// The model as TOML, overrides in place except those inside of parts, without comments. Files stay included. Every
-    /// number comes back to the last bit.
+    /// number is reproduced to the last bit.
     pub fn to_toml(&self) -> String {
         toml_text::file(&self.0.root)
     }
@@ -146,7 +146,7 @@ step = 1e-300
             let problem = without(&[path], &[]).unwrap_err().render(false);
             assert!(problem.contains(words) && problem.contains("[override:1:"), "{path}: {problem}");
         }
-        // What is missing then is reported as if it had never been there.
+        // A removed value is reported as if it had never existed.
         let problem = without(&["point_masses.\"my ball\".mass"], &[]).unwrap_err().render(false);
         assert!(problem.contains("mass"), "{problem}");
     }

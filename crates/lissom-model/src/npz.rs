@@ -13,15 +13,15 @@ const MAX_BYTES: u64 = 100_000_000;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum NpzError {
     /// It is no ZIP archive, or cut off.
-    #[error("it is no NPZ archive, or it is cut off")]
+    #[error("it is not an NPZ archive, or it is incomplete")]
     NotAnArchive,
     /// A file in it is packed in another way.
     #[error(
-        "`{0}` in it is packed in a way that is not read: write it by `numpy.savez` or `numpy.savez_compressed`"
+        "the compression of `{0}` in it is not supported: write it by `numpy.savez` or `numpy.savez_compressed`"
     )]
     Packing(String),
     /// A file in it is no array.
-    #[error("`{0}` in it is no array of NumPy")]
+    #[error("`{0}` in it is not a NumPy array")]
     NotAnArray(String),
     /// An array is of another type or shape.
     #[error(
@@ -34,7 +34,7 @@ pub(crate) enum NpzError {
         what: String,
     },
     /// It is too large.
-    #[error("the array `{0}` is larger than any model can hold")]
+    #[error("the array `{0}` is larger than any model can use")]
     TooLarge(String),
 }
 

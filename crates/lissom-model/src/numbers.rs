@@ -25,7 +25,7 @@ pub fn number_at(
     }
     match node.map(|node| &node.value) {
         None => Err(format!(
-            "the model file says nothing at `{path}`: write the number there, even if it is a default"
+            "the model file has no number at `{path}`: write it explicitly, even if it is the default"
         )),
         Some(Value::Number(value)) => Ok(*value),
         Some(Value::Text(words)) => Expression::parse(words, None, parameters)
@@ -33,9 +33,9 @@ pub fn number_at(
             .and_then(|expression| expression.constant())
             .ok_or_else(|| format!("`{path}` is not a number: \"{words}\"")),
         Some(Value::List(_)) => Err(format!(
-            "`{path}` is a list: write a parameter into it, such as \"a\" with `parameters.a`, and name that"
+            "`{path}` is a list: use a parameter in it, such as \"a\", and write `parameters.a` as the path"
         )),
-        Some(Value::Table(_)) => Err(format!("`{path}` is a table: name a number in it")),
+        Some(Value::Table(_)) => Err(format!("`{path}` is a table: write the path of a number in it")),
         Some(_) => Err(format!("`{path}` is not a number")),
     }
 }

@@ -1,4 +1,4 @@
-//! The entries of a model as classes of Python, made of the same descriptions the decoder and the schema read: what stands in
+//! The entries of a model as classes of Python, generated from the descriptions that the decoder and the schema use: the contents of
 //! `crates/lissom-python/python/lissom/entries/`.
 
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use crate::keys::{Key, Shape, three_numbers};
 use crate::manual::words;
 use crate::registry::Registry;
 
-/// The files, by their names without ending, with the tables whose entries they hold.
+/// The files by name without extension, with the tables of their entries.
 const FILES: [(&str, &str, &[&str]); 9] = [
     ("sections", "Materials and cross sections.", &["materials", "sections"]),
     (
@@ -21,11 +21,11 @@ const FILES: [(&str, &str, &[&str]); 9] = [
     ),
     ("joints", "What holds nodes together, one class per kind.", &["joints"]),
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),
-    ("loads", "Forces and moments from outside, and of actuators.", &["loads"]),
+    ("loads", "Applied forces and moments, and those of actuators.", &["loads"]),
     ("feedback", "First-order states and events.", &["states", "events"]),
     ("motions", "How the parts are and move at the start.", &["initial"]),
     ("outputs", "What is recorded, one class per kind.", &["outputs"]),
-    ("analyses", "What is computed, and how.", &["analysis"]),
+    ("analyses", "Kind of analysis and its settings.", &["analysis"]),
 ];
 /// Words that mean something else in Python; they get a line below.
 const RESERVED: [&str; 10] = ["as", "from", "global", "if", "import", "in", "is", "lambda", "not", "with"];
@@ -34,7 +34,7 @@ const TYPES: [&str; 9] =
     ["Count", "Entry", "Function", "Names", "Number", "Place", "Table", "Tables", "Vector"];
 const NOTE: &str = "# Made by `cargo xtask reference` of the program's own tables: do not edit.\n";
 
-/// The texts of the files by their names, with the classes of all entries that `registry` knows.
+/// The texts of the files by name, with the classes of all entries of `registry`.
 pub fn python_entries(registry: &Registry) -> BTreeMap<String, String> {
     let mut files = BTreeMap::new();
     for (file, summary, tables) in FILES {
@@ -143,7 +143,7 @@ fn class(
     }
 }
 
-/// The type that a key holds.
+/// Type of a key.
 fn type_of(shape: &Shape) -> String {
     let literal = |words: &[&str]| {
         let quoted: Vec<String> = words.iter().map(|word| format!("{word:?}")).collect();
@@ -184,7 +184,7 @@ fn type_of(shape: &Shape) -> String {
     fixed.to_owned()
 }
 
-/// What the class `Model` inherits: a property for every word at the top of a model file.
+/// Base class of `Model`: a property for every key at the top level of a model file.
 fn model_tables(registry: &Registry) -> String {
     let mut text = format!(
         "{NOTE}\"\"\"The tables of a model, and the classes of their entries.\"\"\"\n\nfrom __future__ import annotations\n\n\

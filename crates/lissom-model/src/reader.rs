@@ -1,5 +1,5 @@
 //! Reads one table key by key against its description: unknown and missing keys are reported at once, and every
-//! value is checked for what its key holds.
+//! value is checked against the shape of its key.
 
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
 use lissom_motion::{Matrix3, Vector3};
@@ -95,7 +95,7 @@ impl<'c, 'a> Reader<'c, 'a> {
         format!("`{key}` of {}", self.what)
     }
 
-    /// What `key` holds; a key that is not described holds any number or text.
+    /// Shape of `key`; a key without description may be any number or text.
     fn shape(&self, key: &str) -> &Shape {
         self.keys.iter().find(|known| known.name == key).map_or(&Shape::Number, |known| &known.holds)
     }
@@ -177,12 +177,16 @@ impl<'c, 'a> Reader<'c, 'a> {
             };
             if !known.contains(&word.as_str()) {
                 let help = suggest::help(word, known.iter().copied());
-                let problem = Problem::error(entry.span, format!("{words} cannot hold `{word}`"));
+                let problem = Problem::error(entry.span, format!("{words} cannot contain `{word}`"));
                 context.report(problem.maybe_help(help));
                 return None;
             }
             if chosen.contains(word) {
-                return context.fail(entry.span, format!("{words} holds `{word}` twice"), "name it once");
+                return context.fail(
+                    entry.span,
+                    format!("{words} contains `{word}` twice"),
+                    "remove one of them",
+                );
             }
             chosen.push(word.clone());
         }
@@ -300,7 +304,7 @@ impl<'c, 'a> Reader<'c, 'a> {
                     Size::Signal(_) => Held::Number(1.0),
                 }),
                 ParameterType::FunctionOf(variable) => self.function_of(name, variable).map(Held::Function),
-                // Resolved with the whole model at hand.
+                // Resolved later, with the whole model.
                 ParameterType::Equation => None,
                 ParameterType::Numbers => {
                     let read = |node| self.context.number_list(node, &self.words(name)).map(Held::Numbers);

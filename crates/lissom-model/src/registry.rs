@@ -1,10 +1,10 @@
 //! The kinds of joints, springs and loads, and the schemes and solvers, that a model file may name.
-//! The tables are an input of the decoder, so that this crate knows no mechanics.
+//! The tables are an input of the decoder, so that this crate is independent of mechanics.
 
 use lissom_core::kinematics::Quantity;
 use lissom_core::registry::Parameter;
 
-/// The frame a joint between two nodes needs, besides its location.
+/// Frame that a joint between two nodes requires in addition to its location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameRule {
     /// No direction matters.
@@ -17,7 +17,7 @@ pub enum FrameRule {
     GivenOrGlobal,
 }
 
-/// What a kind is attached to.
+/// Attachment of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActsOn {
     /// Nodes `base` and `tip` at one location `at`.
@@ -38,7 +38,7 @@ pub enum ActsOn {
     Coordinates,
     /// Beams one after the other, `beams`, and a node `tip` at location `at`.
     AlongBeams,
-    /// Nothing: it has coordinates of its own.
+    /// Nothing: it defines its own coordinates.
     Nothing,
 }
 
@@ -51,9 +51,9 @@ pub struct KindEntry {
     pub summary: &'static str,
     /// A minimal entry of a model file, without its heading.
     pub sample: &'static str,
-    /// Parameters besides those that `acts_on` asks for.
+    /// Parameters in addition to those that `acts_on` requires.
     pub parameters: &'static [Parameter],
-    /// What it is attached to.
+    /// Its attachment.
     pub acts_on: ActsOn,
 }
 
@@ -64,9 +64,9 @@ pub struct ChoiceEntry {
     pub name: &'static str,
     /// One sentence.
     pub summary: &'static str,
-    /// Parameters of its own in the table `[analysis]`.
+    /// Its parameters in the table `[analysis]`.
     pub parameters: &'static [Parameter],
-    /// The `tolerance` of Newton's iterations where it needs one of its own.
+    /// Its default `tolerance` of Newton's iterations, if different from that of other schemes.
     pub tolerance: Option<f64>,
 }
 

@@ -1,6 +1,8 @@
-//! What is wrong with a model file: problems with the position they underline, gathered in a report.
-//! Knows texts and positions, not what any key means.
+//! Problems of a model file with the positions that they underline, collected in a report.
+//! Independent of the meaning of keys.
 
+use lissom_core::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
+use lissom_core::kinematics::Subject;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
@@ -20,7 +22,7 @@ pub struct Span {
 /// Where a text is that is there a second time.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Shift {
-    /// The text that is there again; what lies elsewhere, such as an override, stays.
+    /// The repeated text; positions elsewhere, such as in an override, are unchanged.
     within: Span,
     /// How far behind it is there again.
     by: usize,
@@ -75,11 +77,11 @@ impl<T> Located<T> {
 pub enum Severity {
     /// The model cannot be used.
     Error,
-    /// The model can be used, but may not be what was meant.
+    /// The model can be used, but may contain a mistake.
     Warning,
 }
 
-/// One thing that is wrong, where, and what to do about it.
+/// An error or warning with its position and remedy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Error or warning.
@@ -133,7 +135,7 @@ impl Problem {
     }
 }
 
-/// One text of the model: the file, an override, or what a part was made of.
+/// One text of the model: the file, an override, or the contents of a part.
 #[derive(Clone, Debug)]
 struct Piece {
     name: Arc<str>,
@@ -148,7 +150,7 @@ struct Piece {
 pub(crate) struct Origin {
     /// Name of the part.
     pub(crate) part: String,
-    /// Where the part is asked for.
+    /// Position of the request for the part.
     pub(crate) place: Span,
 }
 
@@ -158,7 +160,7 @@ pub struct Sources {
     pieces: Vec<Piece>,
 }
 
-/// What the text of an override is called.
+/// Name of the text of an override.
 pub(crate) const OVERRIDE: &str = "override";
 
 impl Sources {
@@ -182,7 +184,7 @@ impl Sources {
         start
     }
 
-    /// Adds the text in which `span` lies once more, for the part that `origin` names.
+    /// Adds the text that contains `span` again, for the part `origin`.
     pub(crate) fn push_again(&mut self, span: Span, origin: Origin) -> Shift {
         let Some(piece) = self.piece(span) else { return Shift::default() };
         let (name, text) = (Arc::clone(&piece.name), Arc::clone(&piece.text));
@@ -208,7 +210,7 @@ impl Sources {
         if name == OVERRIDE { "" } else { name.get(folder..).unwrap_or(name) }
     }
 
-    /// Whether `span` lies in an override.
+    /// Whether `span` is in an override.
     pub(crate) fn is_override(&self, span: Span) -> bool {
         self.piece(span).is_some_and(|piece| &*piece.name == OVERRIDE)
     }
@@ -231,7 +233,7 @@ impl Sources {
     }
 
     fn piece(&self, span: Span) -> Option<&Piece> {
-        // Pieces stand one after the other, and each begins behind the end of the former.
+        // Pieces are consecutive; each begins after the end of the previous one.
         let after = self.pieces.partition_point(|piece| piece.start <= span.start);
         let found = after.checked_sub(1).and_then(|index| self.pieces.get(index));
         found.filter(|piece| span.start <= piece.end).or(self.pieces.first())
@@ -260,7 +262,7 @@ struct Shown {
     origins: Vec<Included>,
 }
 
-/// The position where a part was asked for whose text has a problem.
+/// Position of the request for a part whose text has a problem.
 #[derive(Clone, Debug)]
 struct Included {
     words: String,
@@ -429,7 +431,7 @@ impl Report {
             if let Some(piece) = &shown.piece {
                 let place = problem.span.start.saturating_sub(piece.start);
                 let text = &piece.text;
-                // The starts of lines are looked up: counting them anew for each of many problems takes their product.
+                // The starts of lines are tabulated: counting lines for each problem would take time proportional to their product.
                 let starts = lines.entry((text.as_ptr(), text.len())).or_insert_with(|| line_starts(text));
                 let line = starts.partition_point(|start| *start <= place);
                 let start = line.checked_sub(1).map_or(0, |line| starts[line]);
@@ -476,6 +478,35 @@ impl fmt::Display for Report {
 }
 
 impl std::error::Error for Report {}
+
+/// Entry of the catalogue for errors of a model file.
+pub const MODEL_FILE: Entry = Entry {
+    code: "model-file",
+    variant: "Report",
+    severity: diagnostics::Severity::Failure,
+    message: "{name}: {errors} errors",
+    meaning: "The model file has errors: TOML syntax, unknown keys, missing or invalid values, names that do not exist, or parts that \
+              are not connected. Nothing was computed.",
+    advice: "Correct the underlined positions; each error states a remedy. `lissom check MODEL.toml` reports all errors, \
+             `lissom kinds NAME` the keys of a table.",
+};
+
+impl Diagnose for Report {
+    fn diagnostic(&self) -> Diagnostic {
+        let errors = self.problems().filter(|problem| problem.severity == Severity::Error).count();
+        let first = self.to_value().get(0).cloned().unwrap_or_default();
+        let part = first["part"].as_str().filter(|part| !part.is_empty());
+        Diagnostic {
+            code: Some(MODEL_FILE.code),
+            severity: MODEL_FILE.severity,
+            time: None,
+            subject: part.map(|part| Subject::new("", part).called(format!("`{part}`"))),
+            values: vec![("errors", Value::Count(errors))],
+            cause: self.to_string(),
+            remedy: first["help"].as_str().unwrap_or_default().to_owned(),
+        }
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -11,7 +11,7 @@ use crate::registry::Registry;
 use crate::table_values::table_keys;
 
 /// The schema (JSON Schema, draft 2020-12) of the files that [`Document::parse`](crate::Document::parse) reads
-/// with `registry`. What a schema cannot say, such as whether a name exists, only the decoder checks.
+/// with `registry`. The decoder alone checks conditions that a schema cannot express, such as the existence of a name.
 pub fn schema(registry: &Registry) -> Value {
     let mut properties = Map::new();
     for top in tops() {
@@ -54,7 +54,7 @@ fn table(name: &str, registry: &Registry) -> Value {
     let Some(tag) = forms.tag else {
         return forms.all.first().map_or(json!({}), |form| of_keys(&form.keys));
     };
-    // With if/then an editor shows what is wrong with the chosen form, not that none of all forms fits.
+    // With if/then an editor shows the error in the chosen form, not that no form matches.
     let branch = |form: &Variant| {
         let mut then = of_keys(&form.keys);
         describe(&mut then, form.summary);

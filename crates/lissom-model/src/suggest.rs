@@ -11,7 +11,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
         return None;
     }
     let small = word.to_lowercase();
-    // Of equally distant words, the one that starts alike.
+    // Of equally distant words, the one with the same beginning.
     let score = |candidate: &str| {
         let other = candidate.to_lowercase();
         let alike = small.chars().zip(other.chars()).take_while(|(a, b)| a == b).count();
@@ -23,7 +23,7 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     (distance <= allowed).then_some(best)
 }
 
-/// A help line: the nearest word, else one that others call so, else all the known ones if they are few, else nothing.
+/// A help line: the nearest word, otherwise one with this synonym, otherwise all known words if they are few, otherwise none.
 pub(crate) fn help<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let known: Vec<&str> = known.into_iter().collect();
     if let Some(found) = nearest(word, known.iter().copied()) {

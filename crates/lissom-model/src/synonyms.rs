@@ -1,4 +1,4 @@
-//! What other programs and textbooks call the words of a model file.
+//! Synonyms of the words of a model file in other programs and textbooks.
 
 /// A word of the model file, and other words for it in small letters.
 const OTHERS: &[(&str, &[&str])] = &[
@@ -54,13 +54,13 @@ pub(crate) fn known_for<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .find_map(|(own, _)| known.iter().find(|known| *known == own).copied())
 }
 
-/// What to write instead of a word that no single one represents.
+/// Replacement of a word without a single synonym.
 pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     let is_known = |name: &str| known.contains(&name);
     match word.to_lowercase().as_str() {
-        "diameter" if is_known("radius") => Some("give `radius`, half of the diameter".to_owned()),
+        "diameter" if is_known("radius") => Some("write `radius`, half of the diameter".to_owned()),
         "units" | "unit" if is_known("lissom") => Some(
-            "there are no words for units: leave it out, and write lengths in m, masses in kg, times in s, forces in N and angles \
+            "units cannot be specified: remove it, and write lengths in m, masses in kg, times in s, forces in N and angles \
              in rad"
                 .to_owned(),
         ),
@@ -68,12 +68,12 @@ pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     }
 }
 
-/// What to write instead of a unit in an expression.
+/// Replacement of a unit in an expression.
 pub(crate) fn instead_of_unit(word: &str) -> Option<&'static str> {
     Some(match word {
         "deg" | "degree" | "degrees" => "angles are in radians: write `30*pi/180` for 30 degrees",
         "rpm" => "angular velocities are in rad/s: write `40*2*pi/60` for 40 turns per minute",
-        "rad" => "angles are in radians: leave the unit out",
+        "rad" => "angles are in radians: remove the unit",
         "kg" | "g" | "m" | "cm" | "mm" | "km" | "s" | "ms" | "N" | "kN" | "Nm" | "Pa" | "kPa" | "MPa"
         | "GPa" | "Hz" | "lb" | "ft" => {
             "numbers have no units in words: write them in kg, m, s, N and rad, such as `210e9` for 210 GPa"
@@ -96,7 +96,7 @@ mod tests {
         assert_eq!(known_for("hinge", &["axial"]), None);
         assert_eq!(
             suggest::help("diameter", ["radius"]).as_deref(),
-            Some("give `radius`, half of the diameter")
+            Some("write `radius`, half of the diameter")
         );
         assert_eq!(suggest::help("fixed", joints).as_deref(), Some("did you mean `clamp`?"));
     }

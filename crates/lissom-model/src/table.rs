@@ -14,10 +14,10 @@ pub enum Interpolation {
     Monotone,
 }
 
-/// How a table goes on before its first and after its last row.
+/// Extrapolation of a table before its first and after its last row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extrapolation {
-    /// The end values hold.
+    /// Constant, with the values of the ends.
     Constant,
     /// Straight lines with the slopes at the ends.
     Linear,
@@ -46,7 +46,7 @@ pub struct Table {
     extrapolation: Extrapolation,
 }
 
-/// What a polynomial between two rows is made of.
+/// Coefficients of a polynomial between two rows.
 #[derive(Clone, Debug, PartialEq)]
 enum Between {
     Lines,

@@ -14,7 +14,12 @@ use crate::text::{Node, Value};
 pub(crate) fn table_keys() -> Vec<Key> {
     let words = choice(&["linear", "spline", "monotone"]);
     vec![
-        optional("table", Shape::Rows, "", "rows [argument, value], arguments ascending; give it or `file`"),
+        optional(
+            "table",
+            Shape::Rows,
+            "",
+            "rows [argument, value] with ascending arguments; either it or `file` is required",
+        ),
         optional(
             "file",
             Shape::Text,
@@ -50,7 +55,7 @@ impl Context<'_> {
             (Some(table), None) => {
                 if let Some(columns) = reader.node("columns") {
                     let message = format!("{what} names columns, but no file");
-                    return self.fail(columns.span, message, "leave out `columns`, or give `file`");
+                    return self.fail(columns.span, message, "remove `columns`, or specify `file`");
                 }
                 let Value::List(rows) = &table.value else {
                     return self.wrong_type(table, what, "a list of rows [argument, value]");
@@ -66,18 +71,18 @@ impl Context<'_> {
                             TableError::NotFinite(row) => rows.get(row),
                             TableError::TooShort => None,
                         };
-                        let message = format!("{what} is no function: {error}");
+                        let message = format!("{what} is not a function: {error}");
                         let span = place.map_or(table.span, |row| row.span);
-                        self.fail(span, message, "give rows [argument, value] in ascending order")
+                        self.fail(span, message, "write rows [argument, value] in ascending order")
                     },
                     Some,
                 )
             }
             (None, Some(file)) => self.data_file(file, &reader, (interpolation, extrapolation)),
             (Some(_), Some(file)) => {
-                self.fail(file.span, format!("{what} has both `table` and `file`"), "leave one out")
+                self.fail(file.span, format!("{what} has both `table` and `file`"), "remove one of them")
             }
-            (None, None) => self.fail(node.span, format!("{what} has no rows"), "give `table` or `file`"),
+            (None, None) => self.fail(node.span, format!("{what} has no rows"), "specify `table` or `file`"),
         }
     }
 
@@ -112,7 +117,7 @@ impl Context<'_> {
                     DataError::NotANumber { .. } => {
                         Some("write numbers as 1.5 or 1e-3, with a point".to_owned())
                     }
-                    _ => Some("give for example `time,force` in the first line".to_owned()),
+                    _ => Some("write for example `time,force` in the first line".to_owned()),
                 };
                 let problem = Problem::error(file.span, format!("{what}: `{name}`: {error}"));
                 self.report(problem.label("named here").maybe_help(help));
@@ -127,7 +132,7 @@ impl Context<'_> {
                     }
                     TableError::NotFinite(_) | TableError::TooShort => error.to_string(),
                 };
-                let help = "give rows in ascending order of the first column";
+                let help = "sort the rows by the first column";
                 self.fail(file.span, format!("{what}: `{name}`: {error}"), help)
             },
             Some,

@@ -1,4 +1,4 @@
-//! From text and overrides to one tree of values with their positions. Knows TOML, not what any key means.
+//! Conversion of text and overrides to one tree of values with their positions. Independent of the meaning of keys.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -96,13 +96,13 @@ fn table(table: DeTable<'_>) -> Table {
     table.into_iter().map(entry).collect()
 }
 
-/// A tree, the texts it came from, and what was wrong with them.
+/// A tree, its texts, and their errors.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
     pub(crate) root: Table,
     pub(crate) sources: Sources,
     pub(crate) problems: Vec<Problem>,
-    /// Overrides of entries that are there only when parts are put in their places.
+    /// Overrides of entries that exist only after the expansion of parts.
     pub(crate) deferred: Vec<Patch>,
     /// The files it includes.
     pub(crate) library: Arc<Library>,
@@ -138,7 +138,7 @@ impl Tree {
             let done = patch.and_then(|patch| {
                 if patch.is_of_part(&self.root) {
                     let place = patch.path.first().map(|(_, span)| *span).unwrap_or_default();
-                    let message = format!("`{path}` lies in a part, where nothing can be omitted");
+                    let message = format!("`{path}` is in a part, where nothing can be removed");
                     let help = "change the file that the part is made of, or set another value";
                     return Err(Box::new(Problem::error(place, message).help(help)));
                 }
@@ -148,7 +148,7 @@ impl Tree {
         }
     }
 
-    /// Lays the overrides `(path, value)` over what is there.
+    /// Applies the overrides `(path, value)`.
     pub(crate) fn lay(&mut self, overrides: &[(String, String)]) {
         let readable = self.problems.is_empty();
         for (path, value) in overrides {
@@ -169,7 +169,7 @@ impl Tree {
     }
 }
 
-/// Only the first mistake in the text is reported: what follows it is mostly its echo.
+/// Only the first error in the text is reported: subsequent ones are usually its consequences.
 pub(crate) fn parse(text: &str) -> Result<Table, Box<Problem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     let place = |error: &toml::de::Error| error.span().map_or(Span::default(), Span::from);
@@ -180,7 +180,7 @@ pub(crate) fn parse(text: &str) -> Result<Table, Box<Problem>> {
 }
 
 fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
-    // An empty position cannot be underlined: take the character before it.
+    // An empty range cannot be underlined: use the character before it.
     if span.start >= span.end {
         let end = span.start.min(text.len());
         let start =
@@ -190,11 +190,11 @@ fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
     let help = if message.contains("duplicate") {
         "every name and key may be given only once in its table"
     } else if message.contains("string values must be quoted") {
-        "texts and expressions are in quotes, as in \"sin(t)\"; numbers as in 1.5 or 2e11"
+        "texts and expressions are in quotes, such as \"sin(t)\"; numbers are written as 1.5 or 2e11"
     } else if text.get(span.end..).is_some_and(|rest| rest.starts_with(','))
         && text.get(..span.end).is_some_and(|before| before.ends_with(|last: char| last.is_ascii_digit()))
     {
-        "decimals have a point, as in 1.5"
+        "decimals have a point, such as 1.5"
     } else {
         "the file is TOML: key = value lines below [table] headings"
     };
@@ -217,7 +217,7 @@ fn parse_override(path: &str, value: &str, start: usize) -> (String, Result<Patc
         Ok(probe) if !path.contains(['\n', '\r']) => depth(&probe),
         _ => {
             let span = Span { start, end: start + path.len() };
-            let problem = Problem::error(span, format!("`{path}` is no path to a value"));
+            let problem = Problem::error(span, format!("`{path}` is not a path to a value"));
             let help = "write for example analysis.step=1e-4 or materials.steel.E=2e11";
             return (format!("{path} = {value}"), Err(Box::new(problem.help(help))));
         }
@@ -278,27 +278,27 @@ impl Patch {
                 key,
                 node: Node { span: key, scope: value_scope, value: Value::Table(Table::new()) },
             };
-            let message = format!("`{name}` is a value, not a table: the path leads nowhere");
+            let message = format!("`{name}` is a value, not a table: the path does not exist");
             let node = &mut table.entry(name).or_insert_with(empty).node;
-            // What is put into a part is understood there.
+            // Values inside a part are interpreted there.
             value = value.moved(Shift::default(), node.scope);
             let Value::Table(inner) = &mut node.value else {
-                return Err(Box::new(Problem::error(key, message).help("leave out what follows it")));
+                return Err(Box::new(Problem::error(key, message).help("remove the rest of the path")));
             };
             table = inner;
         }
-        // What is replaced keeps its position among the others: parameters may name those above them.
+        // A replaced entry keeps its position in the order, because parameters may refer to those above them.
         let key = table.get(&last).map_or(key, |entry| entry.key);
         table.insert(last, Entry { key, node: value });
         Ok(())
     }
 
-    /// Removes what the path leads to.
+    /// Removes the value at the path.
     fn leave_out(self, root: &mut Table) -> Result<(), Box<Problem>> {
         let Some(((last, place), above)) = self.path.split_last() else { return Ok(()) };
         let missing = |table: &Table, name: &str, place: Span| {
             let known = table.keys().map(String::as_str);
-            let problem = Problem::error(place, format!("the model has no `{name}` here to leave out"));
+            let problem = Problem::error(place, format!("the model has no `{name}` here to be removed"));
             Box::new(problem.label("not in the file").maybe_help(suggest::help(name, known)))
         };
         let mut table = root;
@@ -308,8 +308,8 @@ impl Patch {
             }
             let Some(Entry { node: Node { value: Value::Table(inner), .. }, .. }) = table.get_mut(name)
             else {
-                let message = format!("`{name}` is a value, not a table: the path leads nowhere");
-                return Err(Box::new(Problem::error(*place, message).help("leave out what follows it")));
+                let message = format!("`{name}` is a value, not a table: the path does not exist");
+                return Err(Box::new(Problem::error(*place, message).help("remove the rest of the path")));
             };
             table = inner;
         }
@@ -319,7 +319,7 @@ impl Patch {
         Ok(())
     }
 
-    /// An override changes what is there: it may not invent a part, a material or a parameter.
+    /// An override changes existing entries: it cannot add a part, a material or a parameter.
     fn check(&self, root: &Table) -> Result<(), Box<Problem>> {
         let [(first, _), (second, place), ..] = self.path.as_slice() else { return Ok(()) };
         if !tables::has_named_entries(first) {

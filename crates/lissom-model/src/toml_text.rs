@@ -40,7 +40,7 @@ pub(crate) fn inline(node: &Node) -> String {
         Value::Number(number) if number.is_nan() => "nan".to_owned(),
         Value::Number(number) => number_text(*number),
         Value::Flag(flag) => flag.to_string(),
-        // No key of a model holds a date: the decoder has rejected it.
+        // No value of a model is a date: the decoder has rejected it.
         Value::Date => "\"date\"".to_owned(),
         Value::List(list) => format!("[{}]", list.iter().map(inline).collect::<Vec<_>>().join(", ")),
         Value::Table(table) => {

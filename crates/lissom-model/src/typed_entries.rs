@@ -1,4 +1,4 @@
-//! The entries of a model as types of Rust, made of the same descriptions the decoder and the schema read: what stands in
+//! The entries of a model as types of Rust, generated from the descriptions that the decoder and the schema use: the contents of
 //! `crates/lissom/src/builder/entries/`.
 
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ use crate::registry::Registry;
 /// A table and the type of its ids.
 type TableAndId = (&'static str, &'static str);
 
-/// The files, by their names without ending, and the tables whose entries they hold with the type of their ids.
+/// The files by name without extension, with the tables of their entries and the types of their ids.
 const FILES: [(&str, &str, &[TableAndId]); 9] = [
     ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
     (
@@ -25,19 +25,23 @@ const FILES: [(&str, &str, &[TableAndId]); 9] = [
             ("superelements", "SuperelementId"),
         ],
     ),
-    ("joints", "What holds nodes together, one type per kind.", &[("joints", "JointId")]),
+    (
+        "joints",
+        "Constraints between nodes, or between coordinates of joints, one type per kind.",
+        &[("joints", "JointId")],
+    ),
     ("springs", "What pulls nodes or joints back, one type per kind.", &[("springs", "SpringId")]),
-    ("loads", "Forces and moments from outside, and of actuators.", &[("loads", "LoadId")]),
+    ("loads", "Applied forces and moments, and those of actuators.", &[("loads", "LoadId")]),
     ("feedback", "First-order states and events.", &[("states", "StateId"), ("events", "EventId")]),
     ("motions", "How the parts are and move at the start.", &[("initial", "InitialId")]),
     ("outputs", "What is recorded, one type per kind.", &[("outputs", "OutputId")]),
-    ("analyses", "What is computed, and how.", &[("analysis", "AnalysisId")]),
+    ("analyses", "Kind of analysis and its settings.", &[("analysis", "AnalysisId")]),
 ];
 
 /// Words that a key chooses among, by the name of their type.
 type Words = BTreeMap<String, Vec<&'static str>>;
 
-/// The types of all entries that `registry` knows: the texts of the files by their names without ending.
+/// The types of all entries of `registry`: the texts of the files by name without extension.
 pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
     let mut words = Words::new();
     let mut files = BTreeMap::new();
@@ -171,7 +175,7 @@ fn nested((name, summary): (&str, &str), keys: &[Key], words: &mut Words) -> Dec
     with_keys(Declared { name: name.to_owned(), heading, optional: Vec::new() }, keys, None, words)
 }
 
-/// The same with what is in `new`, and with the keys that may be omitted.
+/// The same with the arguments of `new` and the optional keys.
 fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mut Words) -> Declared {
     let typed: Vec<(&Key, String)> = keys
         .iter()
@@ -200,10 +204,10 @@ fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mu
     declared
 }
 
-/// The type of Rust that a key holds; none for those that code has no use for.
+/// Rust type of a key; none for those that are not used in code.
 fn type_of(key: &Key, words: &mut Words) -> Option<String> {
     let fixed = match &key.holds {
-        // Where parts are placed in each other, code has functions.
+        // Code has functions for the placement of parts in each other.
         Shape::Text if key.name == "in" => return None,
         // A signal, an input or a state.
         Shape::Text if key.name == "of" => "Quantity",
@@ -252,7 +256,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
     Some(fixed.to_owned())
 }
 
-/// The name of the type that holds the words of a key.
+/// Name of the type for the words of a key.
 fn word_type(key: &Key, known: &[&'static str], words: &mut Words) -> String {
     let mut name = camel(key.name);
     if known.contains(&"positive") {
@@ -303,7 +307,7 @@ fn summary_of(table: &str) -> &'static str {
         "bodies" => "A rigid body.",
         "point_masses" => "A mass without extension.",
         "superelements" => "A linear elastic part that is given by reduced matrices.",
-        "states" => "A first-order state: a number whose derivative by time is an expression.",
+        "states" => "A first-order state: a number whose time derivative is an expression.",
         "events" => "What happens when an expression passes through zero.",
         "initial" => "A rigid motion of all parts at the start, or static equilibrium.",
         _ => "An entry.",
@@ -323,7 +327,7 @@ fn identifier(key: &str) -> &str {
     }
 }
 
-/// What a key means, with its unit.
+/// Meaning of a key, with its unit.
 fn about(key: &Key) -> String {
     let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
     let summary = key.summary.trim_end_matches('.');

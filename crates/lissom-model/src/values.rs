@@ -1,4 +1,4 @@
-//! From TOML values to numbers, vectors, matrices and expressions, each with an error that says what was
+//! Conversion of TOML values to numbers, vectors, matrices and expressions, with errors that state what was
 //! expected. A number may also be a text: an expression of the parameters.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6};
@@ -22,11 +22,11 @@ pub(crate) fn type_of(node: &Node) -> &'static str {
 }
 
 impl Context<'_> {
-    /// Notes that `what` must be `wanted` but is of another type.
+    /// Reports that `what` must be `wanted` but is of another type.
     pub(crate) fn wrong_type<T>(&self, node: &Node, what: &str, wanted: &str) -> Option<T> {
         let found = type_of(node);
         let problem = Problem::error(node.span, format!("{what} must be {wanted}, not {found}"));
-        let example = if wanted == "a list of 3 numbers" { ", as [0, 0, -9.81]" } else { "" };
+        let example = if wanted == "a list of 3 numbers" { ", such as [0, 0, -9.81]" } else { "" };
         self.report(problem.label(format!("this is {found}")).help(format!("write {wanted}{example}")));
         None
     }
@@ -85,7 +85,7 @@ impl Context<'_> {
         let place = self.sources.within(node.span, text, &error.range);
         Problem::error(place, format!("{what} cannot be read: {error}"))
             .label("here")
-            .help("expressions know + - * / ^ ( ), pi, [parameters] and functions such as sin(x)")
+            .help("expressions consist of numbers, + - * / ^ ( ), pi, [parameters] and functions such as sin(x)")
             .maybe_help(error.help.clone())
     }
 
@@ -233,7 +233,7 @@ impl Context<'_> {
         if scaled.iter().all(|entry| entry.is_finite()) && scaled.symmetric_eigenvalues().min() > -1e-10 {
             return Some(matrix);
         }
-        let help = "with a negative eigenvalue it would push away, or put energy in";
+        let help = "a negative eigenvalue would make the model unstable";
         self.fail(node.span, format!("{what} must not have negative eigenvalues"), help)
     }
 
@@ -254,7 +254,8 @@ impl Context<'_> {
         if definite {
             return Some(matrix);
         }
-        let help = "every direction needs some stiffness or mass; small values are fine, zeros are not";
+        let help =
+            "the stiffness or mass in each direction must be greater than zero; small values are accepted";
         self.fail(node.span, format!("{what} must be positive definite"), help)
     }
 }

@@ -184,7 +184,7 @@ fn events_of_a_part_set_its_own_inputs() {
     let text = "inputs.gain = 5\n[parts.a]\ninclude = \"part.toml\"\n";
     let part = part.replace("inputs.gain = 1\n", "").replace(" + gain", "");
     let shown = reported(text, &[("part.toml", &part)], &[]);
-    assert!(shown.contains("sets `gain`, which is no input"), "the model's input is another: {shown}");
+    assert!(shown.contains("sets `gain`, which is not an input"), "the model's input is another: {shown}");
 }
 
 #[test]
@@ -313,10 +313,10 @@ fn mistakes_with_parts_are_reported() {
         ("[parts.a]\ninclude = \"one.toml\"\n".to_owned(), "one.toml includes two.toml includes one.toml"),
         ("[parts.a]\ninclude = \"heavy.toml\"\n".to_owned(), "`gravity` is not allowed in an included file"),
         ("bodies.a = { mass = 1, inertia = [1, 1, 1] }\n[parts.a.bodies.b]\nmass = 1\ninertia = [1, 1, 1]\n".to_owned(), "the body `a` has the name of a part"),
-        (turned.to_owned(), "is none of the global axes, as its part is turned"),
+        (turned.to_owned(), "is not a plane of global axes, because its part is rotated"),
         ("[parts.ground.bodies.b]\nmass = 1\ninertia = [1, 1, 1]\n".to_owned(), "`ground` cannot be the name of a part"),
         ("[parts.p.joints.j]\nkind = \"spherical\"\nbase = \"ground\"\ntip = \"x{index}\"\n".to_owned(), "unknown name `index`"),
-        ("[parts.p]\n[parts.p.parameters]\nL = 1\n[parts.p.signals]\nL = \"t\"\n".to_owned(), "has the name of a parameter that is known there"),
+        ("[parts.p]\n[parts.p.parameters]\nL = 1\n[parts.p.signals]\nL = \"t\"\n".to_owned(), "has the name of a parameter"),
     ] {
         let files = [
             ("arm.toml", ARM),

@@ -80,7 +80,7 @@ pub(crate) fn linearize_here(
     Ok(of_linear(&found, model.model.name(), &model.overrides, document))
 }
 
-/// What `lissom modes` leaves.
+/// Results of `lissom modes`.
 #[pyfunction]
 pub(crate) fn modes(
     model: &NativeModel,
@@ -99,7 +99,7 @@ pub(crate) fn modes(
     })
 }
 
-/// What `lissom buckling` leaves.
+/// Results of `lissom buckling`.
 #[pyfunction]
 pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>) -> PyResult<Files> {
     let model = model.clone();
@@ -117,7 +117,7 @@ pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>
     })
 }
 
-/// What `lissom gradient` leaves.
+/// Results of `lissom gradient`.
 #[pyfunction]
 pub(crate) fn gradient(
     model: &NativeModel,
@@ -140,7 +140,7 @@ pub(crate) fn gradient(
     })
 }
 
-/// What `lissom campbell` leaves, without its pictures.
+/// Results of `lissom campbell`, without its pictures.
 #[pyfunction]
 pub(crate) fn campbell(
     model: &NativeModel,
@@ -169,7 +169,7 @@ pub(crate) fn campbell(
     })
 }
 
-/// What `lissom response` leaves, without its pictures.
+/// Results of `lissom response`, without its pictures.
 #[pyfunction]
 pub(crate) fn response(
     model: &NativeModel,
@@ -190,7 +190,7 @@ pub(crate) fn response(
     })
 }
 
-/// What `lissom linearize` leaves.
+/// Results of `lissom linearize`.
 #[pyfunction]
 pub(crate) fn linearize(
     model: &NativeModel,

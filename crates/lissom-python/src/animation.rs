@@ -42,7 +42,7 @@ fn of_motion(error: &dyn std::fmt::Display) -> PyErr {
 }
 
 /// Runs the model with its motion recorded, and gives the page. A run that fails on its way is shown up to there, and
-/// the page says why it ended.
+/// the page shows the cause of the failure.
 #[pyfunction]
 pub(crate) fn animation(
     model: &NativeModel,

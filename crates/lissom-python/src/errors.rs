@@ -2,33 +2,36 @@
 
 use std::fmt::Display;
 
+use lissom::core::diagnostics::Value;
 use lissom::sweep::{SweepError, SweepFolderError};
 use lissom::{Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyOSError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyMappingProxy, PyTuple};
 
 create_exception!(
     lissom,
     LissomError,
     PyException,
-    "What all exceptions of this package are.\n\nThe text is that of the command line; `time` [s], `part` and `remedy` are parts of it, or None."
+    "Base class of the exceptions of this package.\n\nThe text is that of the command line. `code` identifies the failure, as in \
+     `lissom explain`; `values` has its numbers and names, in SI units. `time` [s], `part` and `remedy` are parts of the text. They \
+     are None if absent."
 );
 create_exception!(
     lissom,
     ModelError,
     LissomError,
-    "A model or sweep is wrong. The text underlines every mistake, with a remedy.\n\n`problems` has them as \
-     `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, where it is known, `part`, `file`, `line`, \
-     `column`. `part` and `remedy` are those of the first."
+    "A model, a sweep or a request is invalid. The text underlines every error, with a remedy.\n\n`problems` has them as \
+     `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, if known, `part`, `file`, `line`, `column`. \
+     `part` and `remedy` are those of the first."
 );
 create_exception!(
     lissom,
     SolutionError,
     LissomError,
-    "A model has no solution. The text says at which time and where, and what to try.\n\n`result` holds what was computed before a \
-     run failed, a `lissom.Result`; None otherwise."
+    "A model has no solution. The text states the time, the part, the cause and a remedy.\n\n`result` is the `lissom.Result` of a run \
+     up to its failure; None otherwise."
 );
 
 /// Attributes of every exception, with their defaults, so that they always exist.
@@ -40,19 +43,36 @@ pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
         ("SolutionError", py.get_type::<SolutionError>()),
     ];
     for (name, class) in all {
-        for attribute in ["time", "part", "remedy"] {
+        for attribute in ["code", "time", "part", "remedy"] {
             class.setattr(attribute, py.None())?;
         }
+        class.setattr("values", PyMappingProxy::new(py, PyDict::new(py).as_mapping()))?;
         module.add(name, class)?;
     }
     py.get_type::<ModelError>().setattr("problems", PyTuple::empty(py))?;
     py.get_type::<SolutionError>().setattr("result", py.None())
 }
 
-/// Adds time, part and remedy as attributes.
+/// Values of a diagnostic by name.
+fn values<'py>(py: Python<'py>, diagnostic: &Diagnostic) -> PyResult<Bound<'py, PyDict>> {
+    let values = PyDict::new(py);
+    for (name, value) in &diagnostic.values {
+        match value {
+            Value::Number(number) => values.set_item(name, number)?,
+            Value::Count(count) => values.set_item(name, count)?,
+            Value::Flag(flag) => values.set_item(name, flag)?,
+            Value::Text(text) => values.set_item(name, text)?,
+        }
+    }
+    Ok(values)
+}
+
+/// Adds code, values, time, part and remedy as attributes.
 fn with(error: PyErr, diagnostic: &Diagnostic) -> PyErr {
     let result = Python::attach(|py| {
         let value = error.value(py);
+        value.setattr("code", diagnostic.code)?;
+        value.setattr("values", values(py, diagnostic)?)?;
         value.setattr("time", diagnostic.time)?;
         value.setattr("part", diagnostic.part())?;
         value.setattr("remedy", diagnostic.remedy())
@@ -60,10 +80,15 @@ fn with(error: PyErr, diagnostic: &Diagnostic) -> PyErr {
     result.err().unwrap_or(error)
 }
 
-/// A request that is invalid for a model.
+/// An argument that cannot be read.
 pub(crate) fn question(words: impl Into<String>) -> PyErr {
     let words = words.into();
     with(ModelError::new_err(words.clone()), &Diagnostic::uncatalogued(&words))
+}
+
+/// A request that is invalid for a model.
+fn request(error: &(impl Diagnose + Display)) -> PyErr {
+    with(ModelError::new_err(error.to_string()), &error.diagnostic())
 }
 
 /// A model without a solution.
@@ -73,7 +98,7 @@ pub(crate) fn solution(error: &(impl Diagnose + Display)) -> PyErr {
 
 /// An invalid request, or a model without a solution.
 pub(crate) fn refused(is_of_question: bool, error: &(impl Diagnose + Display)) -> PyErr {
-    if is_of_question { question(error.to_string()) } else { solution(error) }
+    if is_of_question { request(error) } else { solution(error) }
 }
 
 /// An invalid model. Its problems are those of `lissom check --json`.
@@ -83,18 +108,16 @@ pub(crate) fn of_report(report: &Report) -> PyErr {
     let result = Python::attach(|py| {
         let value = error.value(py);
         let read = py.import("json")?.getattr("loads")?.call1((problems.to_string(),))?;
-        value.setattr("problems", PyTuple::new(py, read.try_iter()?.collect::<PyResult<Vec<_>>>()?)?)?;
-        value.setattr("part", problems[0]["part"].as_str())?;
-        value.setattr("remedy", problems[0]["help"].as_str())
+        value.setattr("problems", PyTuple::new(py, read.try_iter()?.collect::<PyResult<Vec<_>>>()?)?)
     });
-    result.err().unwrap_or(error)
+    result.err().unwrap_or_else(|| with(error, &report.diagnostic()))
 }
 
 /// A session that cannot start.
 pub(crate) fn of_session(error: &SessionError) -> PyErr {
     match error {
         SessionError::Model(report) => of_report(report),
-        SessionError::NotInTime(_) => question(error.to_string()),
+        SessionError::NotInTime(_) => request(error),
         other => solution(other),
     }
 }
@@ -117,11 +140,11 @@ pub(crate) fn of_folder(error: &FolderError) -> PyErr {
 pub(crate) fn of_sweep(error: &SweepError) -> PyErr {
     match error {
         SweepError::Model(report) => of_report(report),
-        other => question(other.to_string()),
+        other => request(other),
     }
 }
 
-/// A folder that cannot take a sweep.
+/// A folder that cannot be used for a sweep.
 pub(crate) fn of_sweep_folder(error: &SweepFolderError) -> PyErr {
     match error {
         SweepFolderError::File(error) => of_file(error),

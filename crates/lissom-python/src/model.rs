@@ -61,7 +61,7 @@ pub(crate) fn threads_or_all(threads: Option<NonZero<usize>>) -> NonZero<usize> 
 
 #[pymethods]
 impl NativeModel {
-    /// A model from a text; `name` is what complaints call it, `known` has texts of files that it includes, by their paths.
+    /// A model from a text; `name` is its name in messages, `known` has texts of included files, by path.
     #[new]
     #[pyo3(signature = (text, name, overrides, known = BTreeMap::new()))]
     fn new(
@@ -112,7 +112,7 @@ impl NativeModel {
         match text.overrides_inside_parts().as_slice() {
             [] => Ok(text.to_toml()),
             [inside, ..] => Err(PyValueError::new_err(format!(
-                "`{inside}` was put into a part, which the text of the model cannot say: change the file that the part is made of, \
+                "`{inside}` was put into a part, which the text of the model cannot express: change the file of the part, \
                  or a parameter of it"
             ))),
         }
@@ -153,7 +153,7 @@ impl NativeModel {
         progress: Option<Py<PyAny>>,
         threads: Option<NonZero<usize>>,
     ) -> PyResult<(Parts<'py>, Option<Bound<'py, PyAny>>)> {
-        // Assembly and the start may take long, too.
+        // Assembly and initial conditions may also take long.
         let model = self.clone();
         let (session, mut summary) = interruptible(py, move || model.start(threads))?;
         let raised = |error: PyErr| error.into_value(py).into_bound(py).into_any();

@@ -37,7 +37,7 @@ pub(crate) fn json(summary: &Summary) -> String {
     summary.to_json()
 }
 
-/// What a run left in a folder; an empty summary where there is none, as after a crash.
+/// Results of a run in a folder; the summary is empty if there is none, such as after a crash.
 #[pyfunction]
 pub(crate) fn read_folder(py: Python<'_>, folder: PathBuf) -> PyResult<Parts<'_>> {
     let read = || {

@@ -106,7 +106,7 @@ impl Simulation {
 
 #[pymethods]
 impl Simulation {
-    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the simulation stays
+    /// Performs one step: the next planned one, or one whose size is limited by its error. On failure the simulation stays
     /// where it was.
     ///
     /// Raises `SolutionError` if the step has no solution, `ValueError` at the end of the model's analysis.
@@ -131,10 +131,9 @@ impl Simulation {
         warn(py, &news)
     }
 
-    /// Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too. Stands still before it
+    /// Advances to `time` [s] exactly, also beyond the end of the model's analysis. Stops before it
     /// at an event that ends the run, which `stopped_by` names.
-    ///
-    /// Raises `SolutionError` if a step has no solution: the simulation then is at the end of the last one that has.
+    /// Raises `SolutionError` if a step has no solution; the simulation then remains at the end of the previous step.
     /// Raises `ValueError` if `time` is before the present time or not finite.
     fn step_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut watch = Watch::new(None);
@@ -157,7 +156,7 @@ impl Simulation {
         warn(py, &outcome?)
     }
 
-    /// Warnings up to now, as in `summary.json`. Each is also reported by a `ModelWarning` when it comes up.
+    /// Warnings so far, as in `summary.json`. Each is also reported by a `ModelWarning` when it occurs.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.lock().session.warnings().map(words).collect()
@@ -239,7 +238,7 @@ impl Simulation {
         Ok(self.lock().values()[index])
     }
 
-    /// The model linearised where the simulation is, a `lissom.LinearModel`: what `model.linearize` gives about this
+    /// The model linearised at the current state, a `lissom.LinearModel`: as `model.linearize` about this
     /// time. `inputs` name inputs, loads and prescribed motions, `outputs` outputs or columns of them.
     ///
     /// Raises `ModelError` if there is no such input or output, `SolutionError` if the model is at rest without being in
@@ -264,7 +263,7 @@ impl Simulation {
         PyBytes::new(py, &bytes)
     }
 
-    /// Goes back, or on, to where a snapshot of the same model was taken; from there to the same results, bit by bit.
+    /// Restores the state of a snapshot of the same model; subsequent results are bitwise identical.
     ///
     /// Raises `ValueError` if the bytes are no snapshot of this model and version; the simulation is then as it was.
     fn restore(&self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {

@@ -34,7 +34,7 @@ fn outcome(of: MemberOutcome) -> PyResult<Outcome> {
 
 #[pymethods]
 impl NativeSweep {
-    /// A sweep as `text`, a sweep file, describes it; `model` takes the position of the file's own.
+    /// A sweep from `text`, a sweep file; `model` replaces the model of that file.
     #[new]
     fn new(py: Python<'_>, model: &NativeModel, text: &str, name: &str) -> PyResult<Self> {
         let file = SweepFile::parse(text, name).map_err(|report| of_report(&report))?;
@@ -56,8 +56,7 @@ impl NativeSweep {
     fn paths(&self) -> Vec<String> {
         self.sweep.file().vary.iter().map(|varied| varied.path.clone()).collect()
     }
-
-    /// Names of what is collected.
+    /// Names of the collected scalars.
     fn collected(&self) -> Vec<String> {
         self.sweep.file().collect.iter().map(|collected| collected.name.clone()).collect()
     }
@@ -102,7 +101,7 @@ impl NativeSweep {
         outcomes.into_iter().map(outcome).collect()
     }
 
-    /// Solves what a folder does not hold yet, and leaves there what `lissom sweep` leaves. All outcomes.
+    /// Solves the members that are missing in a folder, and writes the results of `lissom sweep`. Returns all outcomes.
     #[pyo3(signature = (folder, restart, workers, progress))]
     fn solve_in_folder(
         &self,
@@ -162,7 +161,7 @@ fn workers_or_all(workers: Option<NonZero<usize>>) -> NonZero<usize> {
     workers.unwrap_or_else(|| std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN))
 }
 
-/// What can be collected and how values can be sampled: two dictionaries of names and sentences.
+/// Statistics and samplings: two dictionaries of names and descriptions.
 #[pyfunction]
 pub(crate) fn statistics(py: Python<'_>) -> PyResult<(Bound<'_, PyDict>, Bound<'_, PyDict>)> {
     let (collected, sampled) = (PyDict::new(py), PyDict::new(py));

@@ -80,6 +80,7 @@ def test_mistakes_are_underlined() -> None:
         lissom.loads(TEXT.replace("[point_masses.stone]", "[point_mases.stone]"))
     assert issubclass(lissom.ModelError, lissom.LissomError)
     assert (caught.value.part, caught.value.remedy, caught.value.time) == ("analysis", "did you mean `end`?", None)
+    assert (caught.value.code, caught.value.values) == ("model-file", {"errors": 1})
     (problem,) = caught.value.problems
     assert problem["severity"] == "error" and problem["message"] in str(caught.value) and problem["line"] == 1
     with pytest.raises(OSError, match="no such file"):
@@ -115,7 +116,7 @@ def test_failures_say_what_the_summary_says(program: Program, tmp_path: Path) ->
     assert str(error) == summary["error"] and str(error) in ended.stderr
     failure = summary["failure"]
     assert (error.time, error.part, error.remedy) == (failure["time"], failure["part"], failure["remedy"])
-    assert failure["code"] == "not-converged"
+    assert error.code == failure["code"] == "not-converged" and error.values == failure["values"]
     assert (error.time, error.part) == (0.01, "bob")
     assert error.remedy is not None and "a small `max_iterations`" in error.remedy
     assert len(error.result.time) == 1 and error.result.summary["failure"] == summary["failure"]
@@ -127,6 +128,26 @@ def test_failures_say_what_the_summary_says(program: Program, tmp_path: Path) ->
         assert (other.value.time, other.value.part) == (0.01, "bob") and other.value.result is None
     again = pickle.loads(pickle.dumps(error))
     assert (again.time, again.part, again.remedy) == (error.time, error.part, error.remedy)
+    assert (again.code, again.values) == (error.code, error.values)
+
+
+def test_invalid_requests_have_codes_and_values() -> None:
+    model = lissom.load(PENDULUM)
+    with pytest.raises(lissom.ModelError, match="no output column `bob.q`") as column:
+        model.gradient("bob.q", "point_masses.bob.mass")
+    assert column.value.code == "gradient-column" and column.value.values["name"] == "bob.q"
+    assert column.value.remedy is not None and "bob.x" in column.value.remedy
+    with pytest.raises(lissom.ModelError, match="greater than zero") as frequencies:
+        model.response("force", "bob.x", 2.0, 1.0)
+    assert frequencies.value.code == "response-range"
+    with pytest.raises(lissom.ModelError, match="cannot be linearised at t = 99") as late:
+        model.modes(about=99.0)
+    assert (late.value.code, late.value.time) == ("linearization-time", 99.0)
+    # An argument that cannot be read has no code.
+    with pytest.raises(lissom.ModelError, match="`about`") as unknown:
+        model.modes(about="somewhere")
+    assert (unknown.value.code, dict(unknown.value.values)) == (None, {})
+    assert lissom.LissomError.code is None and dict(lissom.LissomError.values) == {}
 
 
 def test_results_and_models_go_to_other_processes() -> None:

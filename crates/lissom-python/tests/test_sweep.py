@@ -159,7 +159,7 @@ def test_plots_show_every_member() -> None:
 
 def test_members_that_fail_are_warned_of() -> None:
     model = lissom.load(PENDULUM)
-    with pytest.warns(lissom.SolutionWarning, match="2 of 3 members are not solved; member 0: .*greater than zero"):
+    with pytest.warns(lissom.SolutionWarning, match="2 of 3 members have no solution; member 0: .*greater than zero"):
         table = lissom.sweep(model, {"point_masses.bob.mass": [-1, 1, 0]}, collect=["max(bob.x)"], set={"analysis.end": 0.1})
     assert list(table.failed) == [0, 2] and list(table["state"]) == ["wrong_model", "solved", "wrong_model"]
     assert np.isnan(table["max(bob.x)"][[0, 2]]).all() and np.isfinite(table["max(bob.x)"][1])
@@ -175,7 +175,7 @@ def test_wrong_sweeps_are_refused() -> None:
         lissom.sweep(model, VARY, collect=COLLECT, sampling="sobl")
     with pytest.raises(ValueError, match="`workers` is 0"):
         lissom.sweep(model, VARY, collect=COLLECT, workers=0)
-    with pytest.raises(lissom.ModelError, match="needs the number of members"):
+    with pytest.raises(lissom.ModelError, match="requires the number of members"):
         lissom.sweep(model, VARY, collect=COLLECT, sampling="sobol")
 
 

@@ -98,7 +98,7 @@ pub static KINDS: &[SolverKind] = &[
     },
     SolverKind {
         name: pivoting::NAME,
-        summary: "sparse LU with partial pivoting: to fall back on, and to compare with",
+        summary: "sparse LU with partial pivoting: fallback, and for comparison",
         real: |structure| Box::new(pivoting::Pivoting::<f64>::new(structure)),
         complex: |structure| Box::new(pivoting::Pivoting::<Complex64>::new(structure)),
     },

@@ -43,7 +43,7 @@ use lissom_mechanics::signals::{Graph, HeldId, SignalId};
 #[non_exhaustive]
 pub enum BuildError {
     /// Nothing can move.
-    #[error("the model has no unknowns: nothing in it can move")]
+    #[error("the model has no unknowns: none of its parts can move")]
     Empty,
     /// A coordinate without constraint or spring, or a structure that cannot be ordered.
     #[error("the equations cannot be ordered: {0}")]

@@ -1,6 +1,7 @@
 //! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness,
 //! interpolated and extrapolated from them, is singular.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -32,10 +33,7 @@ pub enum BucklingRunError {
     #[error(transparent)]
     Path(#[from] PathError),
     /// The loads are larger than a critical load.
-    #[error(
-        "the loads of the model are critical already at load factor {0:.6e}; make them smaller, or follow the path by an \
-         analysis of kind `path`"
-    )]
+    #[error("{}", self.diagnostic())]
     AlreadyCritical(f64),
     /// There is no linear model.
     #[error(transparent)]
@@ -44,9 +42,7 @@ pub enum BucklingRunError {
     #[error(transparent)]
     Buckling(#[from] BucklingError),
     /// Some modes were not found.
-    #[error(
-        "{0} of the load factors below the last one were missed, as negative pivots show; ask for another `count`"
-    )]
+    #[error("{}", self.diagnostic())]
     Missing(usize),
 }
 
@@ -61,7 +57,7 @@ pub struct BucklingReport {
     pub asked: usize,
     /// Largest rotation of a node under the loads [rad].
     pub turn: f64,
-    /// Warnings about them.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Wall-clock time.
     pub wall: Duration,
@@ -109,8 +105,8 @@ pub fn buckling(
     let turn = zero.largest_turn(&one);
     if turn > LARGE_TURN {
         warnings.push(format!(
-            "nodes turn by up to {turn:.2} rad under the loads: load factors far from 1 are extrapolations of a stiffness that \
-             does not change in proportion; an analysis of kind `path` finds the critical points"
+            "nodes rotate by up to {turn:.2} rad under the loads: load factors far from 1 are extrapolated although the stiffness \
+             does not change in proportion to the loads; an analysis of kind `path` locates the critical points"
         ));
     }
     match buckling.completeness {
@@ -118,9 +114,9 @@ pub fn buckling(
         Completeness::Counted => {}
         Completeness::Unknown | Completeness::NotCounted => warnings.push(
             if buckling.modes.is_empty() {
-                "no load factor was found, and whether there is one is not known"
+                "no load factor was found, and it is unknown whether there is one"
             } else {
-                "whether a lower load factor was missed is not known"
+                "it is unknown whether a lower load factor was missed"
             }
             .to_owned(),
         ),
@@ -133,7 +129,7 @@ pub fn buckling(
                     .to_owned(),
             );
         } else if number < asked && (count.is_some() || own != DEFAULT_BUCKLING_COUNT) {
-            warnings.push(format!("{asked} load factors are asked for, and there are only {number}"));
+            warnings.push(format!("{asked} load factors were requested, and the model has only {number}"));
         }
     }
     Ok(BucklingReport {

@@ -1,5 +1,6 @@
 //! Campbell diagram: natural frequencies and damping over a parameter, with modes tracked by their shapes.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -46,7 +47,7 @@ pub enum CampbellError {
     #[error(transparent)]
     Model(Report),
     /// The values are not a range.
-    #[error("`{path}` from {from} to {to}: both must be numbers, and different")]
+    #[error("{}", self.diagnostic())]
     Range {
         /// The path.
         path: String,
@@ -56,7 +57,7 @@ pub enum CampbellError {
         to: f64,
     },
     /// There are no modes at a value.
-    #[error("at `{path}` = {value}: {error}")]
+    #[error("{}", self.diagnostic())]
     Modes {
         /// The path.
         path: String,
@@ -66,7 +67,7 @@ pub enum CampbellError {
         error: Box<ModesError>,
     },
     /// The unknowns depend on the value.
-    #[error("another value at `{0}` changes the unknowns of the model: modes cannot be followed")]
+    #[error("{}", self.diagnostic())]
     Unlike(String),
 }
 
@@ -140,7 +141,7 @@ pub struct CampbellReport {
     pub crossings: Vec<Crossing>,
     /// The multiples of the rotation.
     pub rays: Vec<u32>,
-    /// Warnings about it.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Wall-clock time.
     pub wall: Duration,
@@ -240,7 +241,7 @@ impl Search<'_> {
         let point = point.ok_or_else(|| CampbellError::Unlike(path.clone()))?;
         for of in point.modes.iter().filter(|of| of.assurance.is_some_and(|alike| alike < DOUBTFUL)) {
             self.warnings.push(format!(
-                "line {} is followed to `{path}` = {value} with shapes that are little alike ({:.2}): take more values",
+                "line {} is continued to `{path}` = {value} between shapes with a correlation of only {:.2}: use more values",
                 of.line + 1,
                 of.assurance.unwrap_or(0.0)
             ));

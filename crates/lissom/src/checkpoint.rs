@@ -30,7 +30,7 @@ impl FromStr for CheckpointEvery {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let wrong = || "it must be a time as `10s` or a number of steps as `1000steps`".to_owned();
+        let wrong = || "it must be a time such as `10s` or a number of steps such as `1000steps`".to_owned();
         if let Some(number) = text.strip_suffix("steps") {
             let steps: usize = number.trim().parse().map_err(|_| wrong())?;
             return if steps > 0 { Ok(Self::Steps(steps)) } else { Err(wrong()) };
@@ -78,7 +78,7 @@ pub enum CheckpointError {
     )]
     Missing(String),
     /// The file is not a checkpoint, or one of another version.
-    #[error("`{0}` is no checkpoint of this version of the program: run the model again")]
+    #[error("`{0}` is not a checkpoint of this version of the program: run the model again")]
     Unreadable(String),
     /// A file cannot be read or written.
     #[error(transparent)]

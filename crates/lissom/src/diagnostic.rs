@@ -1,20 +1,15 @@
 //! Diagnostics of analyses and runs: their contents, and the catalogue of all codes.
 
-use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Value};
+use lissom_core::diagnostics::{Diagnose, Entry, Value};
+use lissom_model::MODEL_FILE;
 use serde_json::json;
 
-use crate::buckling::BucklingRunError;
-use crate::campbell::CampbellError;
-use crate::gradient::{self, GradientError};
-use crate::modes::ModesError;
-use crate::path::{PathRunError, PathSessionError};
-use crate::report::RunError;
-use crate::response::FrequencyError;
-use crate::session::SessionError;
+use crate::{failures, gradient};
 
 /// All codes of warnings and failures, with their meaning.
 pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
-    lissom_core::catalogue::entries().chain(gradient::ENTRIES)
+    let of_core = lissom_core::catalogue::entries();
+    of_core.chain(gradient::ENTRIES).chain([&MODEL_FILE]).chain(failures::ENTRIES)
 }
 
 /// A failure for `summary.json`, without the message.
@@ -40,103 +35,14 @@ pub(crate) fn facts(error: &impl Diagnose) -> serde_json::Value {
     })
 }
 
-impl Diagnose for SessionError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Initial(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for RunError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Step(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for ModesError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Initial(error) => error.diagnostic(),
-            Self::Step(error) => error.diagnostic(),
-            Self::Steady(error) => error.diagnostic(),
-            Self::Linear(error) => error.diagnostic(),
-            Self::Mode(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for FrequencyError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::State(error) => error.diagnostic(),
-            Self::Response { error, .. } => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for BucklingRunError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Path(error) => error.diagnostic(),
-            Self::Linear(error) => error.diagnostic(),
-            Self::Buckling(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for GradientError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Initial(error) => error.diagnostic(),
-            Self::Step(error) => error.diagnostic(),
-            Self::Denied { .. } => {
-                Diagnostic { code: Some(gradient::REFUTED), ..Diagnostic::uncatalogued(self) }
-            }
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for CampbellError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Modes { error, .. } => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for PathRunError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Path(error) => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
-impl Diagnose for PathSessionError {
-    fn diagnostic(&self) -> Diagnostic {
-        match self {
-            Self::Start(error) | Self::NotLoaded { error, .. } => error.diagnostic(),
-            _ => Diagnostic::uncatalogued(self),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use lissom_core::analysis::StepError;
 
     use super::*;
+    use crate::RunError;
+    use crate::campbell::CampbellError;
+    use crate::modes::ModesError;
 
     #[test]
     fn what_contains_a_failure_has_its_diagnostic() {
@@ -147,7 +53,7 @@ mod tests {
             value: 3.0,
             error: Box::new(ModesError::Step(step)),
         });
-        let remedy = "take a smaller step, or set `relative_tolerance`";
+        let remedy = "use a smaller step, or set `relative_tolerance`";
         let values = json!({ "node": "a`; b = c", "angle": 2.0 });
         let expected = json!({
             "code": "rotation-per-step", "time": 0.5, "part": "a`; b = c", "kind": "node", "values": values, "remedy": remedy,
@@ -159,5 +65,41 @@ mod tests {
     fn codes_are_distinct() {
         let codes: std::collections::BTreeSet<&str> = catalogue().map(|entry| entry.code).collect();
         assert_eq!(codes.len(), catalogue().count());
+    }
+
+    #[test]
+    fn failures_of_requests_have_codes_values_and_remedies() {
+        let error = ModesError::Time { time: 0.5, reason: "a reason".to_owned() };
+        let expected = json!({
+            "code": "linearization-time", "time": 0.5, "part": null, "kind": null, "values": { "reason": "a reason" },
+            "remedy": "choose a time of the analysis, `static` or `undeformed`",
+        });
+        assert_eq!(facts(&error), expected);
+        let words = "the model cannot be linearised at t = 0.5 s: a reason; choose a time of the analysis, `static` or `undeformed`";
+        assert_eq!(error.to_string(), words);
+        let wrong =
+            crate::Model::from_text("a.toml", "lissom = 1\ngravitiy = 1\n").document(&[]).unwrap_err();
+        let diagnostic = wrong.diagnostic();
+        assert_eq!(
+            (diagnostic.code, diagnostic.cause.as_str()),
+            (Some("model-file"), wrong.to_string().as_str())
+        );
+        assert!(!diagnostic.remedy.is_empty());
+        let wrapped = crate::SessionError::Model(wrong);
+        assert_eq!(wrapped.diagnostic(), diagnostic);
+    }
+
+    #[test]
+    fn entries_are_sentences() {
+        for entry in catalogue() {
+            let [meaning, advice] = [entry.meaning, entry.advice];
+            assert!(meaning.ends_with('.') && advice.ends_with('.'), "{}", entry.code);
+            assert!(
+                !meaning.contains(" | ") && !meaning.contains("  ") && !advice.contains("  "),
+                "{}",
+                entry.code
+            );
+            assert!(!entry.message.contains("  ") && !entry.message.contains('\n'), "{}", entry.code);
+        }
     }
 }

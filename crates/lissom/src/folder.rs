@@ -127,7 +127,7 @@ fn lock(path: &Path) -> Result<File, FileError> {
     match lock.try_lock() {
         Err(TryLockError::WouldBlock) => Err(refuse(Error::new(
             ErrorKind::ResourceBusy,
-            "another run is writing into this folder: wait for it, or choose another one with `--out`",
+            "another run is writing to this folder: wait for it, or choose another folder with `--out`",
         ))),
         // If files cannot be locked, runs are distinguished only by their folders.
         _ => Ok(lock),

@@ -32,12 +32,12 @@ impl ResultFolder {
     /// If the folder contains no table or no motion, or if table, motion or scene are invalid.
     pub fn recorded(path: &Path) -> Result<RecordedRun, FolderError> {
         if path.join(MODES).is_file() {
-            let kind = "natural modes, whose shapes `lissom view` and `lissom snapshot` show";
+            let kind = "natural modes: `lissom view` and `lissom snapshot` show their shapes";
             return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
         }
         let (_, record, title) = Self::open(path)?;
         let Some((_, bytes)) = drawn(path)? else {
-            let kind = "a run without its motion: run the model without `--no-plots`";
+            let kind = "a run without recorded motion: run the model without `--no-plots`";
             return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
         };
         let scene = read_scene(&path.join(SCENE))?;
@@ -65,11 +65,11 @@ impl ResultFolder {
         let (_, record, _) = Self::open(path)?;
         let mut results = results.with_record(&record);
         if summary.is_null() {
-            let text = "There is no summary of the run: it was cut off, or is still going on.";
+            let text = "There is no summary: the run is incomplete or still in progress.";
             results = results.with_notice(Notice::warning(text));
         }
         let Some((scene, motion)) = drawn(path)? else {
-            let text = "No motion was recorded: run the model without `--no-plots` to see it move.";
+            let text = "No motion was recorded: run the model without `--no-plots` to see an animation.";
             return Ok(results.with_notice(Notice::warning(text)));
         };
         let last = Motion::last_time(&motion).map_err(|error| foreign(&path.join(MOTION), error))?;

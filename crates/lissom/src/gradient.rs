@@ -5,6 +5,7 @@ mod method;
 mod output_history;
 mod runs;
 
+use lissom_core::diagnostics::Diagnose;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -81,7 +82,7 @@ pub enum GradientError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// The model has no such column.
-    #[error("the model has no output column `{name}`: its columns are {known}")]
+    #[error("{}", self.diagnostic())]
     Column {
         /// The given name.
         name: String,
@@ -89,10 +90,10 @@ pub enum GradientError {
         known: String,
     },
     /// There is no such number.
-    #[error("{0}")]
+    #[error("{}", self.diagnostic())]
     Number(String),
     /// The time is outside the analysis.
-    #[error("the output at t = {time} s: the analysis runs from {start} to {end} s")]
+    #[error("{}", self.diagnostic())]
     Time {
         /// The time [s].
         time: f64,
@@ -102,18 +103,13 @@ pub enum GradientError {
         end: f64,
     },
     /// The analysis has no steps.
-    #[error(
-        "an analysis of kind `{0}` has no steps to differentiate along: it must be of kind `dynamics` or `statics`"
-    )]
+    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
     /// A neighbouring model has different unknowns.
-    #[error("another value at `{0}` changes the unknowns of the model: there is no derivative by it")]
+    #[error("{}", self.diagnostic())]
     Unlike(String),
     /// A function of time has its kinks at different times in a neighbouring model.
-    #[error(
-        "another value at `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s: steps end where it is, and see \
-         nothing of how it moves; smooth it out over several steps, or compare runs"
-    )]
+    #[error("{}", self.diagnostic())]
     KinkMoves {
         /// Path of the number.
         path: String,
@@ -121,33 +117,19 @@ pub enum GradientError {
         time: f64,
     },
     /// Loads depend on the motion, or signals are sampled.
-    #[error(
-        "nothing is differentiated along the motion of a model with feedback, states or samples: remove loads and states whose \
-         signals depend on the motion"
-    )]
+    #[error("{}", self.diagnostic())]
     Feedback,
     /// A step was subdivided.
-    #[error(
-        "the step to t = {0:.6e} s was taken in parts, along which nothing is differentiated: it has no solution as a whole, or a load or \
-         drive has a kink or jump there; choose a smaller step, steps that end at the kinks, or smooth them out"
-    )]
+    #[error("{}", self.diagnostic())]
     InParts(f64),
     /// Differences of runs depend on their distance.
-    #[error(
-        "no derivative by `{path}`: forces switch during the run, as where a stop is met or a spring goes slack, and differences of \
-         runs over two distances do not agree. The output is not smooth in this number, or a switch happens at the very time of the \
-         output; choose another time, a smaller `analysis.relative_tolerance`, or compare runs"
-    )]
+    #[error("{}", self.diagnostic())]
     NotSmooth {
         /// Path of the number.
         path: String,
     },
     /// Runs of neighbouring models contradict the derivatives.
-    #[error(
-        "the derivatives add up to a change of {expected:e} where runs of the model with all numbers changed a little change by \
-         {found:e}: the output may have jumps or kinks nearby; ask for another time, and take it for an error of the program \
-         where that does not help"
-    )]
+    #[error("{}", self.diagnostic())]
     Denied {
         /// Change predicted by the derivatives, in the unit of the output.
         expected: f64,
@@ -431,28 +413,15 @@ fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Do
 }
 
 /// Entries of the catalogue for derivatives.
-pub(crate) const ENTRIES: &[Entry] = &[
-    Entry {
-        code: "gradient-unconfirmed",
-        variant: "Confirmation",
-        severity: Severity::Warning,
-        message: "runs of the model with numbers changed a little neither confirm nor deny the derivatives",
-        meaning: "The finite-difference check, which runs the model with slightly changed parameters, neither confirms nor refutes the derivatives of \
+pub(crate) const ENTRIES: &[Entry] = &[Entry {
+    code: "gradient-unconfirmed",
+    variant: "Confirmation",
+    severity: Severity::Warning,
+    message: "runs of the model with perturbed numbers neither confirm nor refute the derivatives",
+    meaning: "The finite-difference check, which runs the model with perturbed parameters, neither confirms nor refutes the derivatives of \
         `lissom gradient`.",
-        advice: "The output changes by less than the error of a run, or not smoothly: use another output, or another time.",
-    },
-    Entry {
-        code: REFUTED,
-        variant: "GradientError::Denied",
-        severity: Severity::Failure,
-        message: "the derivatives add up to a change of {expected} where runs of the model change by {found}",
-        meaning: "The finite-difference check refutes the derivatives of `lissom gradient`: the output has a jump or a kink nearby.",
-        advice: "Use another time; if that does not help, it is an error of the program: please report it.",
-    },
-];
-
-/// The code of derivatives that runs contradict.
-pub(crate) const REFUTED: &str = "gradient-refuted";
+    advice: "The output changes by less than the error of a run, or is not smooth: use another output, or another time.",
+}];
 
 impl GradientReport {
     /// The table `gradient.csv`: path, number, derivative.
@@ -470,11 +439,11 @@ impl GradientReport {
         match self.confirmation {
             Some(Confirmation::Confirmed { .. }) => None,
             Some(Confirmation::Untold { .. }) => Some(
-                "gradient-unconfirmed: runs of the model with numbers changed a little neither confirm nor deny the derivatives: the output changes by \
-                 less than is left of a run, or not smoothly",
+                "gradient-unconfirmed: runs of the model with perturbed numbers neither confirm nor refute the derivatives: the output changes by \
+                 less than the error of a run, or is not smooth",
             ),
             None => Some(
-                "gradient-unconfirmed: the derivatives were not compared with runs of the model with numbers changed a little",
+                "gradient-unconfirmed: the derivatives were not compared with runs of the model with perturbed numbers",
             ),
         }
     }

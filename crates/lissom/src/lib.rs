@@ -120,6 +120,7 @@ pub mod campbell;
 mod checkpoint;
 mod diagnostic;
 pub mod export;
+mod failures;
 pub mod fmu;
 mod folder;
 mod folder_page;

@@ -124,7 +124,7 @@ fn report_of(
         let of_inputs = inputs.iter().enumerate().flat_map(|(column, input)| {
             input.right.iter().enumerate().map(move |(row, &value)| (row, column, value))
         });
-        let comment = "right-hand sides for a unit of each input, those of the constraints last";
+        let comment = "right-hand sides for unit inputs, those of the constraints last";
         let size = [count + multipliers, inputs.len()];
         files.push(("inputs.mtx".to_owned(), sparse_matrix(comment, size, of_inputs)));
     }

@@ -1,5 +1,6 @@
 //! Natural modes of a model about a state: computes the state, linearises there, and reports the modes in tables.
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -51,7 +52,7 @@ pub enum ModesError {
     #[error(transparent)]
     Model(#[from] Report),
     /// The time is outside the analysis.
-    #[error("modes about t = {time} s: {reason}")]
+    #[error("{}", self.diagnostic())]
     Time {
         /// The time [s].
         time: f64,
@@ -59,7 +60,7 @@ pub enum ModesError {
         reason: String,
     },
     /// An invalid frequency.
-    #[error("modes near {0} Hz: the frequency must be a number that is not negative")]
+    #[error("{}", self.diagnostic())]
     Shift(f64),
     /// The analysis that computes the state has no consistent initial values.
     #[error(transparent)]
@@ -68,10 +69,7 @@ pub enum ModesError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// The state is not in equilibrium.
-    #[error(
-        "the {state} is not in equilibrium: unbalanced forces would move it by {imbalance:.1e} of the model's length, and modes \
-         about it mean nothing; {hint}"
-    )]
+    #[error("{}", self.diagnostic())]
     NotInEquilibrium {
         /// The state, in words.
         state: &'static str,
@@ -84,24 +82,13 @@ pub enum ModesError {
     #[error(transparent)]
     Steady(#[from] SteadyError),
     /// The rotation is not steady.
-    #[error(
-        "the velocities at the start are no steady rotation: in the axes of the nodes they change by {0:.1e} of their squares; \
-         gravity across the axis, loads at rest in space and other motions are not steady in rotating axes"
-    )]
+    #[error("{}", self.diagnostic())]
     Unsteady(f64),
     /// The rotation is steady only at the azimuth of the start.
-    #[error(
-        "the rotation is not steady: a part of a turn after the start the twists of nodes change by {0:.1e} of their squares, as \
-         under gravity across the axis or other loads at rest in space; leave them out (`--unset gravity`), or let gravity act \
-         along the axis"
-    )]
+    #[error("{}", self.diagnostic())]
     SteadyHereAlone(f64),
     /// Coefficients change as the model rotates.
-    #[error(
-        "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model turns ({departure:.1e}): parts that \
-         turn and parts that do not are coupled across the axis, as by a support that yields; there are no multi-blade coordinates \
-         in which they are constant, because {reason}; such modes need Floquet's theory, which is not there"
-    )]
+    #[error("{}", self.diagnostic())]
     Periodic {
         /// Number of the mode, from 1.
         number: usize,
@@ -119,11 +106,7 @@ pub enum ModesError {
     #[error(transparent)]
     Mode(#[from] ModeError),
     /// Some modes were not found.
-    #[error(
-        "{0} of the modes between the first and the last one were missed, as negative pivots show; ask for another `count`; where \
-         very light parts make some frequencies thousands of times higher than others, for fewer modes, or for those near a \
-         frequency by `shift`"
-    )]
+    #[error("{}", self.diagnostic())]
     Missing(usize),
 }
 
@@ -132,10 +115,9 @@ impl From<SessionError> for ModesError {
         match error {
             SessionError::Model(report) => Self::Model(report),
             SessionError::Initial(error) => Self::Initial(error),
-            SessionError::NotInTime(kind) => Self::Time {
-                time: 0.0,
-                reason: format!("an analysis of kind `{kind}` has no course in time"),
-            },
+            SessionError::NotInTime(kind) => {
+                Self::Time { time: 0.0, reason: format!("an analysis of kind `{kind}` has no time steps") }
+            }
         }
     }
 }
@@ -169,7 +151,7 @@ pub struct ModeReport {
     pub time: f64,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
-    /// Warnings about them.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Wall-clock time.
     pub wall: Duration,
@@ -211,9 +193,12 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     })?;
     let number = report.modes.len();
     if is_asked && number < count {
-        let few =
-            if report.completeness == Completeness::Counted { "there are only" } else { "found are only" };
-        report.warnings.push(format!("{count} modes are asked for, and {few} {number}"));
+        let few = if report.completeness == Completeness::Counted {
+            "the model has only"
+        } else {
+            "the search found only"
+        };
+        report.warnings.push(format!("{count} modes were requested, and {few} {number}"));
     }
     report.about = about.name();
     report.wall = began.elapsed();
@@ -224,12 +209,13 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
 }
 
 /// Note about modes in axes at rest.
-pub(crate) const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
-    from there, shapes those of this instant";
+pub(crate) const AT_REST: &str = "the coefficients are constant only in axes at rest, with multi-blade coordinates: frequencies are \
+those in these \
+    axes, shapes those at this instant";
 
 /// Note about modes in axes of wheels.
-const ROLLING: &str = "the coefficients are constant in axes alone that do not spin with the wheels: frequencies are those seen from there, \
-    shapes those of this instant";
+const ROLLING: &str = "the coefficients are constant only in axes that do not spin with the wheels: frequencies are those in these axes, \
+    shapes those at this instant";
 
 /// Modes whose coefficients are constant while the model rotates.
 pub(crate) struct Reliable<'a> {
@@ -268,9 +254,9 @@ pub(crate) fn reliable<'a>(
     }
     let (mut chosen, mut left_out) = (Reliable { found, at_rest: None, warnings: Vec::new() }, inconstant);
     let (mut reason, warning, other) = if model.rolls_on() {
-        ("they change in axes that do not spin with the wheels, too", ROLLING, Ok(model.in_rolling_axes()))
+        ("they also change in axes that do not spin with the wheels", ROLLING, Ok(model.in_rolling_axes()))
     } else {
-        ("they change in the multi-blade coordinates of its rotor, too", AT_REST, model.in_axes_at_rest())
+        ("they also change in multi-blade coordinates of its rotor", AT_REST, model.in_axes_at_rest())
     };
     match other {
         Err(no) => reason = no.words(),
@@ -290,8 +276,8 @@ pub(crate) fn reliable<'a>(
     }
     let names: Vec<String> = left_out.iter().map(|mode| format!("{:.4e} Hz", mode.frequency)).collect();
     chosen.warnings.push(format!(
-        "{} of {} modes are omitted ({}): their coefficients change as the model turns, because parts that turn and parts that do \
-         not are coupled across the axis, and {reason}; such modes need Floquet's theory, which is not there",
+        "{} of {} modes are omitted ({}): their coefficients change as the model rotates, because rotating and non-rotating parts \
+         are coupled across the axis, and {reason}; such modes require Floquet theory, which is not implemented",
         left_out.len(),
         left_out.len() + chosen.found.modes.len(),
         names.join(", ")
@@ -325,11 +311,11 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
     let unstable = found.modes.iter().filter(|mode| mode.kind.is_unstable()).count();
     if unstable > 0 {
         let words = if unstable == 1 { "1 mode grows".to_owned() } else { format!("{unstable} modes grow") };
-        warnings.push(format!("the state is not stable: {words}"));
+        warnings.push(format!("the state is unstable: {words}"));
     }
     match found.completeness {
         Completeness::Unknown => warnings.push(
-            "whether modes were missed is not known: the matrices of the count could not be factored, or contradict each other"
+            "it is unknown whether modes were missed: the matrices of the count could not be factored, or their counts are inconsistent"
                 .to_owned(),
         ),
         Completeness::NotCounted | Completeness::Counted | Completeness::Missing(_) => {}

@@ -131,7 +131,7 @@ fn handed_over<T, E: From<ModesError>>(
     let mut then = Some(then);
     let mut made = None;
     find(&mut |reached| made = then.take().map(|then| then(reached)))?;
-    made.expect("a search that succeeds hands its state over")
+    made.expect("a successful search passes on its state")
 }
 
 fn undeformed(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
@@ -142,7 +142,7 @@ fn undeformed(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
         &model,
         "undeformed state",
         STILL_BALANCED,
-        "springs or drives pull at it: take the static equilibrium",
+        "springs or drives exert forces in it: use the static equilibrium",
     )?;
     hand(LinearizationPoint { model: &model, channels: &lowered.channels, warnings: Vec::new() });
     Ok(())
@@ -164,9 +164,8 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
     let warnings = relaxed.map(|doubt| format!("{}: {doubt}", doubt.code())).collect();
     stop(&mut state);
     let model = linear(&system, &state, &settings)?;
-    let hint =
-        "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
-    balanced(&model, "state that was found", STILL_BALANCED, hint)?;
+    let hint = "specify an analysis of kind `statics` with more load steps, and linearise at its end";
+    balanced(&model, "computed state", STILL_BALANCED, hint)?;
     hand(LinearizationPoint { model: &model, channels: &channels, warnings });
     Ok(())
 }
@@ -192,9 +191,7 @@ fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesErro
     let (start, end) = (document.analysis.start, document.analysis.end);
     let wrong = |reason: String| Err(ModesError::Time { time, reason });
     if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
-        return wrong(
-            "an analysis of this kind has no course in time; take `static` or `undeformed`".to_owned(),
-        );
+        return wrong("an analysis of this kind has no time steps; use `static` or `undeformed`".to_owned());
     }
     if !(time >= start && time <= end) {
         return wrong(format!("the analysis runs from {start} to {end} s"));
@@ -230,19 +227,19 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     let model = linear(simulation.system(), simulation.state(), simulation.settings())?;
     if is_static {
         if time > document.analysis.start {
-            balanced(&model, "state that was reached", STILL_BALANCED, "take more load steps")?;
+            balanced(&model, "computed state", STILL_BALANCED, "use more load steps")?;
         } else {
-            let hint = "no load step leads to this time: take a later one";
+            let hint = "there is no load step before this time: use a later one";
             balanced(&model, "state at the start", STILL_BALANCED, hint)?;
         }
     } else if model.is_at_rest() {
-        let hint = "it is about to move: take the static equilibrium";
+        let hint = "it starts to move from there: use the static equilibrium";
         balanced(&model, "state at that time", STILL_BALANCED, hint)?;
     }
     let mut warnings = Vec::new();
     if model.unsteadiness() > STEADY {
         warnings.push(format!(
-            "the motion at t = {time} s is not steady (its twists change by {:.1e} of their squares): frequencies are those of \
+            "the motion at t = {time} s is not steady (relative change of its twists {:.1e}): frequencies are those of \
              coefficients frozen at that instant",
             model.unsteadiness()
         ));

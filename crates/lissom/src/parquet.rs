@@ -61,7 +61,7 @@ impl Values {
 }
 
 fn too_large() -> io::Error {
-    io::Error::new(io::ErrorKind::FileTooLarge, "a column is larger than a Parquet file takes")
+    io::Error::new(io::ErrorKind::FileTooLarge, "a column exceeds the size that a Parquet file can store")
 }
 
 /// A table as a file; `facts` are texts of its metadata by key.

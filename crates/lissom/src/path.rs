@@ -3,6 +3,7 @@
 mod number;
 mod pictures;
 
+use lissom_core::diagnostics::Diagnose;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -47,16 +48,13 @@ pub enum PathSessionError {
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis is of another kind.
-    #[error("the analysis is of kind `{0}`, not `path`")]
+    #[error("{}", self.diagnostic())]
     NotAPath(&'static str),
     /// There is no equilibrium to start from, or no load.
     #[error(transparent)]
     Start(#[from] PathError),
     /// The loads are larger than a critical load before the number is varied.
-    #[error(
-        "`{path}` is varied from the equilibrium under the loads of the model, but they pass a critical point at load factor \
-         {load_factor:.6e} already; begin with smaller loads, or vary a parameter of the load itself"
-    )]
+    #[error("{}", self.diagnostic())]
     AlreadyCritical {
         /// Path to the number.
         path: String,
@@ -64,9 +62,7 @@ pub enum PathSessionError {
         load_factor: f64,
     },
     /// The loads were not reached before the number is varied.
-    #[error(
-        "`{path}` is varied from the equilibrium under the loads of the model, which is not found: {error}"
-    )]
+    #[error("{}", self.diagnostic())]
     NotLoaded {
         /// Path to the number.
         path: String,
@@ -86,7 +82,7 @@ pub enum PathRunError {
     #[error(transparent)]
     Model(#[from] Report),
     /// A writer failed.
-    #[error("the results cannot be written: {0}")]
+    #[error("{}", self.diagnostic())]
     Write(#[from] io::Error),
 }
 

@@ -1,5 +1,6 @@
 //! Inputs and outputs of a linear model, by the names of the model file.
 
+use lissom_core::diagnostics::Diagnose;
 use lissom_core::linear::OutputDerivatives;
 use lissom_core::signals::{Argument, HeldId};
 use lissom_model::Document;
@@ -15,7 +16,7 @@ use lissom_model::output::Column;
 #[non_exhaustive]
 pub enum PortError {
     /// No input has this name.
-    #[error("the model has no input `{name}`: name an input, a load or a prescribed motion; it has {known}")]
+    #[error("{}", self.diagnostic())]
     Input {
         /// The given name.
         name: String,
@@ -23,7 +24,7 @@ pub enum PortError {
         known: String,
     },
     /// Several entries have this name.
-    #[error("`{name}` may mean {meanings}: write one of these")]
+    #[error("{}", self.diagnostic())]
     Ambiguous {
         /// The given name.
         name: String,
@@ -31,7 +32,7 @@ pub enum PortError {
         meanings: String,
     },
     /// No output has this name.
-    #[error("the model has no output or output column `{name}`: its columns are {known}")]
+    #[error("{}", self.diagnostic())]
     Output {
         /// The given name.
         name: String,
@@ -39,19 +40,17 @@ pub enum PortError {
         known: String,
     },
     /// Energy or momentum.
-    #[error(
-        "the output `{0}` has no linear response: name positions, velocities, accelerations, reactions, section forces or signals"
-    )]
+    #[error("{}", self.diagnostic())]
     NotLinear(String),
     /// An input without effect.
-    #[error("the input `{0}` acts on nothing: no load, state or output that is asked for depends on it here")]
+    #[error("{}", self.diagnostic())]
     WithoutEffect(String),
     /// The model could not be built with the load as an input.
     #[error(transparent)]
     Model(#[from] ModesError),
 }
 
-/// An input: the change of the right-hand sides for a unit of it, by row.
+/// An input: the change of the right-hand sides for its unit, by row.
 pub(crate) struct Input {
     pub(crate) name: String,
     pub(crate) right: Vec<f64>,

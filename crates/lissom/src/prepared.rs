@@ -1,5 +1,6 @@
 //! A prepared model, shared by many sessions: its system is built once.
 
+use lissom_core::diagnostics::Diagnose;
 use std::sync::Arc;
 
 use lissom_core::analysis::InitialError;
@@ -27,7 +28,7 @@ pub struct Prepared {
 #[non_exhaustive]
 pub enum StartError {
     /// It does not match the model.
-    #[error("the state has {found} {what}, the model {wanted}: it belongs to another model")]
+    #[error("{}", self.diagnostic())]
     OtherModel {
         /// The quantity with a different number.
         what: &'static str,
@@ -37,13 +38,10 @@ pub enum StartError {
         wanted: usize,
     },
     /// A number is not finite.
-    #[error("the state holds a number that is not finite")]
+    #[error("{}", self.diagnostic())]
     NotFinite,
     /// Positions do not satisfy the constraints.
-    #[error(
-        "the positions of the state violate joint `{joint}` ({equation}) by {violation:.1e}: move all parts so that joints hold, \
-         or change the positions in the model"
-    )]
+    #[error("{}", self.diagnostic())]
     Violated {
         /// Name of the joint.
         joint: String,

@@ -1,6 +1,7 @@
 //! Reduction of a flexible assembly to the matrices of a superelement: selection of the parts, their state, and the files
 //! that describe the superelement.
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -63,7 +64,7 @@ pub struct ReduceReport {
     pub mass: f64,
     /// Whether the state has forces at the interfaces.
     pub is_preloaded: bool,
-    /// Warnings about it.
+    /// Warnings.
     pub warnings: Vec<String>,
     /// Wall-clock time.
     pub wall: Duration,
@@ -77,16 +78,16 @@ pub enum ReduceError {
     #[error(transparent)]
     State(#[from] ModesError),
     /// The request is invalid for the model.
-    #[error("{0}")]
+    #[error("{}", self.diagnostic())]
     Question(String),
-    /// It cannot be computed.
+    /// The reduction cannot be computed.
     #[error(transparent)]
     Reduction(#[from] ReductionError),
     /// The matrices are not those of a free part.
-    #[error("the reduced {0}; this is no reduction to be used")]
+    #[error("{}", self.diagnostic())]
     Matrices(#[from] ParameterError),
     /// The archive could not be packed.
-    #[error("the archive of matrices cannot be packed: {0}")]
+    #[error("{}", self.diagnostic())]
     Archive(#[from] std::io::Error),
 }
 
@@ -122,8 +123,9 @@ pub fn reduce(
         });
     let (at, layout, mut warnings) = found?;
     if has_gravity {
-        warnings
-            .push("gravity is omitted: weight is that of the model that uses the superelement".to_owned());
+        warnings.push(
+            "gravity is omitted: the weight is that in the model that uses the superelement".to_owned(),
+        );
     }
     let chosen = Chosen::of(&document, request, &names.names)?;
     let own = chosen.document(&document)?;
@@ -156,17 +158,16 @@ pub fn reduce(
     if found.frequencies.len() < request.modes {
         let number = found.frequencies.len();
         return question(format!(
-            "there are only {number} modes with the interfaces held: ask for no more `--modes`"
+            "there are only {number} modes with fixed interfaces: request at most as many by `--modes`"
         ));
     }
     if !found.is_counted && request.modes > 0 {
-        warnings
-            .push("whether a mode was missed among those with the interfaces held is not known".to_owned());
+        warnings.push("it is unknown whether modes with fixed interfaces were missed".to_owned());
     }
     if found.matrices.geometric.is_none() && inner > 0 {
         warnings.push(
-            "there are joints or relations within: what is of second order in the deformation is not found, and the superelement \
-             will not know the stiffness that loads give and take"
+            "the parts are connected by joints or relations: terms of second order in the deformation are not computed, so the \
+             superelement lacks the change of its stiffness by loads"
                 .to_owned(),
         );
     }
@@ -208,13 +209,13 @@ fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
         };
     let Some(line) = names.lines.get(beam) else {
         return question(format!(
-            "there is no node `{name}` among what is reduced: name a body, \"beam.start\", \"beam.end\" or \"beam@0.5\""
+            "the reduced parts have no node `{name}`: write a body, \"beam.start\", \"beam.end\" or \"beam@0.5\""
         ));
     };
     match fraction.and_then(|fraction| line.node_at(fraction)) {
         Some(node) => Ok(node),
         None => question(format!(
-            "beam `{beam}` has no node at `{name}`: name its start or end, or a node between"
+            "beam `{beam}` has no node at `{name}`: write its start, its end, or a node between elements"
         )),
     }
 }
@@ -235,7 +236,9 @@ fn take_places(
         let found = (1..layout.node_count()).find(|&other| layout.node_name(other) == name);
         match found {
             Some(other) => at.nodes[node] = whole.nodes[other],
-            None => return question(format!("the node `{name}` is not there without the rest of the model")),
+            None => {
+                return question(format!("the node `{name}` exists only with parts that are not reduced"));
+            }
         }
     }
     for coordinate in 0..at.coordinates.len() {
@@ -245,7 +248,7 @@ fn take_places(
             Some(other) => at.coordinates[coordinate] = whole.coordinates[other],
             None => {
                 return question(format!(
-                    "the coordinate `{name}` is not there without the rest of the model"
+                    "the coordinate `{name}` exists only with parts that are not reduced"
                 ));
             }
         }
@@ -292,20 +295,22 @@ impl Chosen {
             );
             if parts.len() == before {
                 let known = all.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-                return question(format!("there is no part `{asked}` to be reduced; there are {known}"));
+                return question(format!(
+                    "there is no part `{asked}`; parts that can be reduced are {known}"
+                ));
             }
         }
         if request.parts.is_empty() {
             parts.extend(all.into_iter().cloned());
         }
         if request.interfaces.is_empty() {
-            return question("name at least one interface by `--interfaces`, as beam.start,beam.end");
+            return question("specify at least one interface by `--interfaces`, such as beam.start,beam.end");
         }
         let nodes: Vec<NodeId> =
             request.interfaces.iter().map(|name| node_of(names, name)).collect::<Result<_, _>>()?;
         for (index, node) in nodes.iter().enumerate() {
             if nodes[..index].contains(node) {
-                return question(format!("the interface `{}` is named twice", request.interfaces[index]));
+                return question(format!("the interface `{}` is specified twice", request.interfaces[index]));
             }
         }
         let interfaces = request.interfaces.clone();
@@ -348,7 +353,8 @@ impl Chosen {
             return Ok(Touches::Interfaces);
         }
         question(format!(
-            "`{}` leads from outside to a node between the interfaces: make that node an interface, or leave `{0}` out by `--unset`",
+            "`{}` connects a part that is not reduced to a node that is not an interface: make that node an interface, or remove `{0}` \
+            by `--unset`",
             component.name.value
         ))
     }
@@ -358,14 +364,14 @@ impl Chosen {
         for beam in &own.beams {
             if !beam.distributed.is_empty() {
                 return question(format!(
-                    "beam `{}` has forces per length, which a superelement does not hold: leave them out",
+                    "beam `{}` has distributed forces, which a superelement cannot represent: remove them",
                     beam.name.value
                 ));
             }
             for shared in beam.shared_start.iter().chain(&beam.shared_end) {
                 if !self.is_part(&shared.value) {
                     return question(format!(
-                        "beam `{}` shares a node of a part that is not reduced: reduce that part, too, or join them by a clamp",
+                        "beam `{}` shares a node with a part that is not reduced: reduce that part as well, or connect them by a clamp",
                         beam.name.value
                     ));
                 }
@@ -403,7 +409,7 @@ impl Chosen {
                 {
                     if places.iter().any(|(on, _)| self.is_part(&on.value)) {
                         return question(format!(
-                            "`{}` has a drum outside of these parts: leave it out, or take the drum in",
+                            "`{}` has a drum that is not reduced: remove it, or reduce the part with the drum as well",
                             component.name.value
                         ));
                     }
@@ -422,7 +428,7 @@ impl Chosen {
                     if self.is_part(&tip.value) || beams.iter().any(|beam| self.is_part(&start(&beam.value)))
                     {
                         return question(format!(
-                            "`{}` slides along a beam, which a superelement does not hold: leave it out, or its parts",
+                            "`{}` slides along a beam, which a superelement cannot represent: remove it, or reduce other parts",
                             component.name.value
                         ));
                     }
@@ -468,7 +474,7 @@ impl Chosen {
         let by_signal = own.springs.iter().chain(&own.loads).find(|component| component.signal.is_some());
         if let Some(component) = by_signal {
             return question(format!(
-                "`{}` acts by a signal, which a superelement does not hold: leave it out by `--unset`",
+                "`{}` depends on a signal, which a superelement cannot represent: remove it by `--unset`",
                 component.name.value
             ));
         }
@@ -489,8 +495,8 @@ fn files(
     }
     let mut files = Vec::new();
     let mut text = format!(
-        "# {name}: reduced by `lissom reduce`. Copy the table into a model beside the files of its matrices, or include this file as\n\
-         # an entry of [parts]. Joints hold its interfaces as {}.\n\
+        "# {name}: reduced by `lissom reduce`. Copy the table into a model in the same folder as its matrices, or include this file as\n\
+         # an entry of [parts]. Joints refer to its interfaces as {}.\n\
          lissom = 1\n\n[superelements.{name}]\ninterfaces = [\n",
         labels.iter().map(|label| format!("\"{name}.{label}\"")).collect::<Vec<_>>().join(", ")
     );

@@ -1,5 +1,6 @@
 //! Report of a run.
 
+use lissom_core::diagnostics::Diagnose;
 use std::io;
 use std::time::Duration;
 
@@ -18,7 +19,7 @@ pub enum RunError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// A writer failed.
-    #[error("the results cannot be written: {0}")]
+    #[error("{}", self.diagnostic())]
     Write(#[from] io::Error),
 }
 

@@ -1,5 +1,6 @@
 //! Frequency response: amplitudes of outputs for harmonic inputs of unit amplitude, without time integration.
 
+use lissom_core::diagnostics::Diagnose;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -65,7 +66,7 @@ pub enum FrequencyError {
     #[error(transparent)]
     Port(#[from] PortError),
     /// The frequencies are not a range.
-    #[error("frequencies from {from} to {to} Hz: both must be above zero, and the first below the last")]
+    #[error("{}", self.diagnostic())]
     Range {
         /// First frequency [Hz].
         from: f64,
@@ -73,13 +74,10 @@ pub enum FrequencyError {
         to: f64,
     },
     /// Wheels are rolling.
-    #[error(
-        "wheels roll on at that instant: their contacts move through the axes of the parts, in which responses are found; take a \
-         state in which they are, or `lissom modes`, which knows axes that do not spin with the wheels"
-    )]
+    #[error("{}", self.diagnostic())]
     RollsOn,
     /// A solve failed.
-    #[error("at {frequency} Hz: {error}")]
+    #[error("{}", self.diagnostic())]
     Response {
         /// The frequency [Hz].
         frequency: f64,
@@ -176,7 +174,7 @@ fn of_state(
     }
     if !model.is_at_rest() {
         warnings.push(
-            "the model moves: outputs in global axes are those of the instant of linearisation".to_owned(),
+            "the model moves: outputs in global axes are those at the instant of linearisation".to_owned(),
         );
     }
     let natural = natural_frequencies(model, request, &mut warnings);
@@ -186,8 +184,9 @@ fn of_state(
     first.dedup();
     table.fill(&first)?;
     if table.rows.len() >= MAX_FREQUENCIES {
-        warnings
-            .push(format!("more than {MAX_FREQUENCIES} frequencies would be needed to resolve every change"));
+        warnings.push(format!(
+            "more than {MAX_FREQUENCIES} frequencies would be required to resolve every change"
+        ));
     }
     let layout = model.system().layout();
     let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
@@ -219,7 +218,7 @@ fn natural_frequencies(
         Ok(found) => found.modes,
         Err(error) => {
             warnings.push(format!(
-                "narrow peaks may be passed over, because natural frequencies are not known: {error}"
+                "narrow peaks may be missed, because natural frequencies could not be computed: {error}"
             ));
             return Vec::new();
         }
@@ -227,14 +226,14 @@ fn natural_frequencies(
     let growing = found.iter().filter(|mode| mode.kind.is_unstable()).count();
     if growing > 0 {
         warnings.push(format!(
-            "the state is not stable ({growing} modes grow): no motion settles to this response, it is that of the linear equations alone"
+            "the state is unstable ({growing} modes grow): the response is that of the linear equations, but no motion converges to it"
         ));
     }
     let last = found.last().map_or(0.0, |mode| mode.frequency);
     if found.len() >= MODES && last < request.to {
         warnings.push(format!(
-            "natural frequencies are known up to {last:.4e} Hz: above, peaks narrower than the distance of two frequencies may be \
-             passed over"
+            "natural frequencies were computed up to {last:.4e} Hz: above, peaks narrower than the spacing of frequencies may be \
+             missed"
         ));
     }
     let inside = |mode: &&Mode| {

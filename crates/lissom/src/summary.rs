@@ -1,7 +1,10 @@
 //! The contents of `summary.json`: the request and its result. Scripts read these names.
 
+use std::fmt::Display;
+
 use lissom_core::analysis::InitialError;
 use lissom_core::analysis::assembly::Gap;
+use lissom_core::diagnostics::Diagnose;
 use lissom_core::elements::Energy;
 use lissom_core::scaling::Representative;
 use lissom_model::Document;
@@ -17,7 +20,7 @@ use crate::report::RunReport;
 use crate::session::{Session, columns};
 
 pub(crate) fn insert(summary: &mut Summary, name: &str, fact: Value) {
-    summary.insert(name, fact).expect("a JSON value can be said in JSON");
+    summary.insert(name, fact).expect("a JSON value can be written as JSON");
 }
 
 /// Contents for an analysis without time steps before it has a result: it is reported as failed until then.
@@ -223,11 +226,16 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     );
 }
 
+/// Adds a failure: its message, and its code, values and remedy.
+pub fn of_failure(summary: &mut Summary, error: &(impl Diagnose + Display)) {
+    insert(summary, "error", json!(error.to_string()));
+    insert(summary, "failure", diagnostic::facts(error));
+}
+
 /// Adds the reason why a run could not start.
 pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
     insert(summary, "stopped", json!("failed"));
-    insert(summary, "error", json!(error.to_string()));
-    insert(summary, "failure", diagnostic::facts(error));
+    of_failure(summary, error);
     for name in ["records", "rejected_steps", "stagnated_steps", "newton_iterations", "factorizations"] {
         insert(summary, name, json!(0));
     }

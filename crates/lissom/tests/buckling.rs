@@ -117,7 +117,7 @@ fn fewer_factors_than_asked_for_are_reported() {
     };
     let (number, warnings) = reported(Some(200));
     assert!(number < 200);
-    assert_eq!(warnings, [format!("200 load factors are asked for, and there are only {number}")]);
+    assert_eq!(warnings, [format!("200 load factors were requested, and the model has only {number}")]);
     assert!(reported(Some(number)).1.is_empty());
     let (few, warnings) = reported(None);
     assert!(few <= number && warnings.is_empty(), "{few} {warnings:?}");

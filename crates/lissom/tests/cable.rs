@@ -272,7 +272,7 @@ fn a_path_along_a_number_begins_where_relaxation_ends() {
         PathSession::new(&Model::from_text("cable.toml", &format!("{text}end = 1\n")), &[]).unwrap();
     let (_, report) = session.record();
     let PathEnd::Failed(error) = report.end else { panic!("{:?}", report.end) };
-    assert!(error.to_string().contains("give it tension"), "{error}");
+    assert!(error.to_string().contains("apply tension"), "{error}");
 }
 
 #[test]

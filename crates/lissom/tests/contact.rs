@@ -401,7 +401,7 @@ fn solids_have_their_mass_and_inertia() {
     for (keys, words) in [
         ("mass = { density = 1 }\ninertia = [1, 1, 1]", "`inertia` names no solid"),
         ("mass = 1\ninertia = { box = [1, 1, 1], sphere = 1 }", "must name one solid, not 2"),
-        ("mass = 1\ninertia = { tube = [0.1, 0.2, 1] }", "is no solid"),
+        ("mass = 1\ninertia = { tube = [0.1, 0.2, 1] }", "is not a valid solid"),
         ("mass = 1\ninertia = { box = [1, 1, 1], axis = \"x\" }", "a box has no `axis`"),
         ("inertia = { box = [1, 1, 1] }", "lacks `mass`"),
     ] {
@@ -412,9 +412,9 @@ fn solids_have_their_mass_and_inertia() {
 #[test]
 fn mistakes_of_stops_and_friction_are_reported() {
     for (law, words) in [
-        ("stiffness = 1e6\nrestitution = 0.5", "needs `impact_velocity`"),
+        ("stiffness = 1e6\nrestitution = 0.5", "requires `impact_velocity`"),
         ("stiffness = 1e6\nrestitution = 1.5\nimpact_velocity = 1", "must be from 0.01 to 1"),
-        ("stiffness = 1e6\nrestitution = 0.5\nimpact_velocity = 1\ndissipation = 1", "leave one out"),
+        ("stiffness = 1e6\nrestitution = 0.5\nimpact_velocity = 1\ndissipation = 1", "remove one of them"),
         ("stiffness = 1e6\nimpact_velocity = 1", "no meaning without `restitution`"),
         ("stiffness = 1e6\nexponent = 0.5", "must be 1 or greater"),
     ] {

@@ -384,7 +384,7 @@ fn mistakes_are_reported_with_their_place() {
             load("2*comand") + "[signals]\ncommand = \"t\"\n",
             &["unknown name `comand`", "did you mean `command`"],
         ),
-        (load("arm"), &["unknown name `arm`", "name a component"]),
+        (load("arm"), &["unknown name `arm`", "write a component"]),
         (load("sin(t"), &["closing parenthesis"]),
         (
             "[signals]\na = \"2*b\"\nb = \"c + 1\"\nc = \"a*t\"\n".to_owned(),
@@ -415,7 +415,7 @@ fn mistakes_are_reported_with_their_place() {
         }
     }
     let statics = arm("[states]\na = { derivative = \"1\" }\n", "").replace("\"dynamics\"", "\"statics\"");
-    assert!(refused(&statics).contains("knows no rates"));
+    assert!(refused(&statics).contains("has no rates"));
 }
 
 #[test]
@@ -561,5 +561,5 @@ fn friction_has_no_equation_in_statics() {
     let tables = "[springs.friction]\nkind = \"axial_friction\"\njoint = \"slide\"\ncoulomb = 1\n";
     let statics =
         slider(tables, "").replace("\"dynamics\"", "\"statics\"").replace("velocity = [0.5, 0, 0]\n", "");
-    assert!(refused(&statics).contains("know no rates"));
+    assert!(refused(&statics).contains("have no rates"));
 }

@@ -240,7 +240,7 @@ fn mistakes_are_reported() {
         ("force = \"sin(t)\"", &["cannot name the time"]),
         ("force = \"200*slide.displacement\"", &["cannot name `slide.displacement`"]),
         ("force = { table = [[0, 0]] }", &["at least two rows"]),
-        ("force = { interpolation = \"linear\" }", &["give `table` or `file`"]),
+        ("force = { interpolation = \"linear\" }", &["specify `table` or `file`"]),
         ("force = { table = [[0, 0], [1, 1]], columns = [\"a\", \"b\"] }", &["names columns, but no file"]),
         ("force = { table = [[0, 0], [1, 1]], file = \"a.csv\" }", &["both `table` and `file`"]),
         ("limits = [1, -1]", &["must ascend"]),

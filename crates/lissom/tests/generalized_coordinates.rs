@@ -228,9 +228,9 @@ fn what_makes_no_sense_is_refused() {
     refused(
         &mass,
         "mass = [[1, 1, 0], [1, 1, 0], [0, 0, 1]]",
-        "`x.displacement2`; nothing holds or carries it",
+        "`x.displacement2`; it has no resistance in this position",
     );
-    refused(&mass, "", "`x.displacement1`; nothing holds or carries it");
+    refused(&mass, "", "`x.displacement1`; it has no resistance in this position");
     refused(&mass, "mass = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]", "must not have negative eigenvalues");
     refused(&mass, "mass = [[1, 0.5, 0], [0, 1, 0], [0, 0, 1]]", "must be symmetric");
     refused(&mass, "mass = [1, 1]", "is of 2 coordinates, but `coordinates` names 3");

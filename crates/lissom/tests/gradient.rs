@@ -324,7 +324,10 @@ fn numbers_that_move_kinks_are_refused() {
                     let paths = [format!("parameters.{path}")];
                     let error = gradient(&model, &[], &target, &paths, true).map(|_| ()).unwrap_err();
                     assert!(matches!(error, GradientError::KinkMoves { .. }), "{force}, {analysis}: {error}");
-                    assert!(error.is_of_question() && error.to_string().contains("smooth it out"), "{error}");
+                    assert!(
+                        error.is_of_question() && error.to_string().contains("smooth it over"),
+                        "{error}"
+                    );
                 }
             }
         }

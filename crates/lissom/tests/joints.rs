@@ -334,9 +334,9 @@ fn wrong_locks_are_reported() {
     for (lines, words) in [
         ("locked = []", "is empty"),
         ("locked = [\"x\", \"x\"]", "twice"),
-        ("locked = [\"rw\"]", "cannot hold `rw`"),
+        ("locked = [\"rw\"]", "cannot contain `rw`"),
         ("locked = \"x\"", "list of words"),
-        ("locked = [\"x\"]\naxis = [1, 0, 0]", "give both axes"),
+        ("locked = [\"x\"]\naxis = [1, 0, 0]", "specify both axes"),
         ("locked = [\"x\"]\naxis = [1, 0, 0]\nsecond_axis = [1, 1, 0]", "not at 90"),
     ] {
         let error = told_of(lines);

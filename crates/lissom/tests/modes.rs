@@ -222,7 +222,7 @@ fn an_unstable_equilibrium_is_reported() {
     let report = find(&pendulum(REVOLUTE, "position = [0, 0, 0.7]", MODES), OperatingPoint::Static, 1);
     assert_eq!((report.modes[0].kind, report.modes[0].damping), (ModeKind::Divergence, -1.0));
     near(report.modes[0].frequency, (2.0_f64 * 9.81 * 0.7 / 1.08).sqrt() / TAU, 1e-10);
-    assert!(report.warnings[0].contains("not stable"), "{:?}", report.warnings);
+    assert!(report.warnings[0].contains("unstable"), "{:?}", report.warnings);
 }
 
 /// Two masses on a line, springs from the ground to the first and from there to the second.
@@ -548,7 +548,7 @@ fn fewer_modes_than_asked_for_are_reported() {
         let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
         (report.modes.len(), report.warnings)
     };
-    assert_eq!(reported(Some(50)), (6, vec!["50 modes are asked for, and there are only 6".to_owned()]));
+    assert_eq!(reported(Some(50)), (6, vec!["50 modes were requested, and the model has only 6".to_owned()]));
     assert_eq!(reported(Some(6)), (6, Vec::new()));
     assert_eq!(reported(None), (6, Vec::new()));
 }

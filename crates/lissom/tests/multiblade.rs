@@ -183,7 +183,7 @@ fn modes_of_two_blades_are_left_out_with_the_reason() {
         Err(error) => error.to_string(),
         Ok(found) => found.warnings.join("\n"),
     };
-    assert!(words.contains("they change in the multi-blade coordinates"), "{words}");
+    assert!(words.contains("they also change in multi-blade coordinates"), "{words}");
 }
 
 #[test]

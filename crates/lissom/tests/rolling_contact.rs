@@ -205,18 +205,18 @@ fn laws_that_make_no_sense_are_refused() {
     for (law, wanted) in [
         ("traction = \"0.5\"", "must be zero there"),
         ("traction = \"-slip\"", "negative friction would drive"),
-        ("traction = \"slip\"\nfriction_coefficient = 0.3", "leave one of them out"),
+        ("traction = \"slip\"\nfriction_coefficient = 0.3", "remove one of them"),
     ] {
         let started = Model::from_text("wheel.toml", &wheel(1.0, 0.0, "", law)).session(&[]).map(|_| ());
         let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
         assert!(report.render(false).contains(wanted), "{}", report.render(false));
     }
     for (from, to, wanted) in [
-        ("wheel_axis = [0, 1, 0]", "wheel_axis = [0, 0, 1]", "lies flat"),
-        ("wheel_axis = [0, 1, 0]", "wheel_axis = [0, 0, -1]", "lies flat"),
+        ("wheel_axis = [0, 1, 0]", "wheel_axis = [0, 0, 1]", "is flat"),
+        ("wheel_axis = [0, 1, 0]", "wheel_axis = [0, 0, -1]", "is flat"),
         ("radius = 0.3", "rim = 0.4", "there is no wheel to roll"),
         ("radius = 0.3", "radius = 0", "there is no wheel to roll"),
-        ("at_base = [0, 0, 0]", "at_base = [0, 0, 1]\nat_tip = [2, 0, 1]", "lies in the plane"),
+        ("at_base = [0, 0, 0]", "at_base = [0, 0, 1]\nat_tip = [2, 0, 1]", "is in the plane"),
     ] {
         let text = wheel(1.0, 0.0, "", LAW);
         assert!(text.contains(from), "{from}");

@@ -394,7 +394,7 @@ fn ropes_that_cannot_be_are_refused() {
     for (from, to, wanted) in [
         ("stiffness = 1000", "stiffness = 1000\ndrums = [\"rail\"]", "as many as `drums`: 0 for 1"),
         ("stiffness = 1000", "stiffness = 1000\ndrum_radii = [0.2]", "as many as `drums`: 1 for 0"),
-        ("stiffness = 1000", "stiffness = 1000\ndrums = [\"rail\"]\ndrum_radii = [0]", "pays nothing out"),
+        ("stiffness = 1000", "stiffness = 1000\ndrums = [\"rail\"]\ndrum_radii = [0]", "pays out no rope"),
         (
             "stiffness = 1000",
             "stiffness = 1000\ndrums = [\"rail.angle\"]\ndrum_radii = [1]",

@@ -110,7 +110,7 @@ fn states_that_do_not_fit_are_refused() {
             .contains("violate joint `revolute_1`")
     );
     assert!(refused(&|state| state.kinematics.nodes[1].twist[0] = f64::NAN).contains("not finite"));
-    assert!(refused(&|state| state.kinematics.nodes.truncate(1)).contains("1 nodes, the model 2"));
+    assert!(refused(&|state| state.kinematics.nodes.truncate(1)).contains("1 nodes, but the model has 2"));
     let mut session = prepared.session().unwrap();
     assert!(session.step_to(f64::NAN).unwrap_err().to_string().contains("finite"));
     assert!(session.step_to(f64::INFINITY).is_err());

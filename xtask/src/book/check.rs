@@ -1,4 +1,4 @@
-//! What may be wrong with the book without anyone noticing: links that point nowhere, markers that nothing fills,
+//! Checks of the book: broken links, markers without a generator,
 //! generators without a position. Reads files, runs nothing.
 
 use std::path::{Component, Path, PathBuf};
@@ -18,7 +18,7 @@ pub(super) fn complaints(root: &Path) -> Result<Vec<String>, BookError> {
     Ok(all)
 }
 
-/// What is wrong with links and markers.
+/// Errors of links and markers.
 fn structure(root: &Path) -> Result<Vec<String>, BookError> {
     let docs = root.join("docs");
     let mut complaints = Vec::new();
@@ -56,7 +56,7 @@ fn structure(root: &Path) -> Result<Vec<String>, BookError> {
     Ok(complaints)
 }
 
-/// What is wrong with a link, if anything.
+/// Error of a link, if there is one.
 fn wrong_link(docs: &Path, chapter: &Path, target: &str) -> Option<&'static str> {
     let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
     if path.contains("://") || path.starts_with("mailto:") {

@@ -1,4 +1,4 @@
-//! Condition numbers of the pendulum beside the published ones, and of the tip crank. Knows the models by name only.
+//! Condition numbers of the pendulum beside the published ones, and of the tip crank. Refers to the models only by name.
 
 use lissom::Override;
 use lissom::study::conditioning::{Measured, Request, Row, SCALINGS, Table, study};

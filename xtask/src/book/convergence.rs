@@ -46,7 +46,7 @@ fn three_schemes(studio: &Studio, end: &str, name: &str) -> Result<Fragment, Boo
     Ok(fragment)
 }
 
-/// The three components of the displacement, each for itself, as the drive of the model starts.
+/// The three components of the displacement, separately, at the start of the drive of the model.
 pub(super) fn components(studio: &Studio) -> Result<Fragment, BookError> {
     each_component(studio, &[])
 }

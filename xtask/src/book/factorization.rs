@@ -1,4 +1,4 @@
-//! What scaling, augmented term and pivoting do to the first tangent of the tip crank.
+//! Effects of scaling, augmented term and pivoting on the first tangent of the tip crank.
 
 use lissom::core::analysis::factorization_study::{Case, Factored};
 use lissom::study::factorization::{Table, scaling_name, study};

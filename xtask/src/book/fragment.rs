@@ -1,4 +1,4 @@
-//! What a generator makes: Markdown and the drawings it shows. Knows no numbers.
+//! Result of a generator: Markdown and its drawings. Independent of the numbers.
 
 use std::fmt::Write;
 
@@ -70,7 +70,7 @@ pub(super) fn overrides(set: &[(&str, &str)]) -> Vec<Override> {
     set.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect()
 }
 
-/// Texts as a study takes them.
+/// Texts for a study.
 pub(super) fn texts(list: &[&str]) -> Vec<String> {
     list.iter().map(|&text| text.to_owned()).collect()
 }

@@ -1,13 +1,13 @@
-//! The table of what `cargo xtask figures` makes: a name, as in a chapter's marker, and what makes the text.
+//! Table of the results of `cargo xtask figures`: a name, as in a chapter's marker, and the function that makes the text.
 
 use super::fragment::Fragment;
 use super::{BookError, Studio, conditioning, convergence, factorization, roundoff, simulation, work};
 
-/// Makes what is between the markers of one name.
+/// Makes the text between the markers of one name.
 pub(super) struct Generator {
     /// As in the marker.
     pub(super) name: &'static str,
-    /// Whether it takes minutes, so that it has to be asked for.
+    /// Whether it takes minutes and must be requested.
     pub(super) is_long: bool,
     /// Makes it.
     pub(super) make: fn(&Studio) -> Result<Fragment, BookError>,

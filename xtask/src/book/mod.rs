@@ -1,5 +1,5 @@
 //! `cargo xtask figures`: makes the tables and figures of the book in docs/ anew, between the markers of its
-//! chapters, and checks markers and links. Knows no study.
+//! chapters, and checks markers and links. Independent of the studies.
 
 mod check;
 mod conditioning;
@@ -58,7 +58,7 @@ pub(crate) enum BookError {
     File {
         /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         error: std::io::Error,
     },
 }
@@ -130,7 +130,7 @@ pub(crate) fn figures(arguments: &FiguresArguments) -> Result<bool, BookError> {
     Ok(true)
 }
 
-/// The generators asked for by name; else all, the slow ones only for `--long`.
+/// The generators requested by name; otherwise all, the slow ones only for `--long`.
 fn chosen(arguments: &FiguresArguments) -> Result<Vec<&'static Generator>, BookError> {
     let of_name = |name: &String| {
         GENERATORS.iter().find(|generator| generator.name == name).ok_or_else(|| {

@@ -14,7 +14,7 @@ pub(super) fn two(value: f64) -> String {
     }
 }
 
-/// One digit, for what round-off decides.
+/// One digit, for numbers determined by round-off.
 pub(super) fn one(value: f64) -> String {
     if value == 0.0 || !value.is_finite() { value.to_string() } else { format!("{value:.0e}") }
 }

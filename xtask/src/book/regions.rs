@@ -1,5 +1,5 @@
 //! The regions of chapters that are generated, between `<!-- figures: NAME -->` and `<!-- end -->`, each at the start
-//! of a line. Knows nothing of what is there.
+//! of a line. Independent of their contents.
 
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ pub(super) fn chapters(docs: &Path) -> Result<Vec<PathBuf>, BookError> {
     Ok(found)
 }
 
-/// The names of a chapter's regions, or what is wrong with them.
+/// The names of a chapter's regions, or their error.
 pub(super) fn names(text: &str) -> Result<Vec<&str>, String> {
     let mut names = Vec::new();
     let mut open: Option<&str> = None;

@@ -1,4 +1,4 @@
-//! What round-off leaves of reactions at tiny steps.
+//! Round-off of reactions at tiny steps.
 
 use lissom::study::roundoff::{Request, study};
 

@@ -1,5 +1,5 @@
 //! The report of the verification as a chapter of the book: the same text, with the plots it shows beside it, because
-//! a book cannot show what lies outside of its folder.
+//! a book cannot show files outside of its folder.
 
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub(crate) fn renew(root: &Path) -> Result<(), BookError> {
     std::fs::write(&chapter, text).map_err(BookError::file(&chapter))
 }
 
-/// Whether the chapter says what the report says.
+/// Whether the chapter agrees with the report.
 pub(super) fn is_fresh(root: &Path) -> Result<bool, BookError> {
     let chapter = chapter(root);
     let text = std::fs::read_to_string(&chapter).map_err(BookError::file(&chapter))?;

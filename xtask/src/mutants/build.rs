@@ -78,7 +78,7 @@ impl TestPrograms {
     }
 }
 
-/// What comes of a build.
+/// Result of a build.
 pub(super) enum Built {
     Programs(TestPrograms),
     /// Numbers of mutants that the compiler rejects.
@@ -148,7 +148,7 @@ fn blamed(error: &Value, parts: &BTreeMap<PathBuf, Switched>) -> Option<usize> {
     })
 }
 
-/// What was built.
+/// The programs built.
 fn programs(messages: &[Value]) -> TestPrograms {
     let mut programs = TestPrograms { tests: Vec::new(), started: BTreeMap::new() };
     for message in messages.iter().filter(|message| message["reason"] == "compiler-artifact") {

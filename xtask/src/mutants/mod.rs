@@ -60,7 +60,7 @@ pub(crate) enum MutantsError {
     System {
         /// The file, or the program.
         what: String,
-        /// What the system says.
+        /// The error of the system.
         error: std::io::Error,
     },
     /// A file of the project is no Rust.
@@ -68,7 +68,7 @@ pub(crate) enum MutantsError {
     Source {
         /// The file.
         file: String,
-        /// What is wrong.
+        /// The error.
         what: String,
     },
     /// Tests fail in code that is not broken.
@@ -77,12 +77,12 @@ pub(crate) enum MutantsError {
     /// Something else than a mutant keeps the tests from being built.
     #[error("the tests cannot be built:\n{0}")]
     Build(String),
-    /// What is known cannot be read or written.
+    /// The stored results cannot be read or written.
     #[error("{what}: {error}")]
     Json {
-        /// What is read.
+        /// The file.
         what: String,
-        /// What is wrong.
+        /// The error.
         error: serde_json::Error,
     },
 }

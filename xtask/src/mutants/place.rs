@@ -1,4 +1,4 @@
-//! Positions where the code can be broken, and what is there instead. The kinds are those of cargo-mutants.
+//! Positions of mutations in the code, and their replacements. The kinds are those of cargo-mutants.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -283,7 +283,7 @@ impl<'ast> Visit<'ast> for Search<'_> {
     }
 }
 
-/// What can stand instead of an operator.
+/// Replacements of an operator.
 fn others(operator: &BinOp) -> &'static [&'static str] {
     match operator {
         BinOp::Eq(_) => &["!="],

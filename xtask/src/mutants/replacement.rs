@@ -1,4 +1,4 @@
-//! What a function can return without a look at its arguments.
+//! Values that a function can return independent of its arguments.
 
 use syn::{GenericArgument, PathArguments, ReturnType, Type};
 

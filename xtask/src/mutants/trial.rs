@@ -22,7 +22,7 @@ const ADDRESSES: &str = "--as=12000000000";
 /// What `timeout` exits with where it has ended a program, or killed it.
 const TIMED_OUT: [i32; 2] = [124, 137];
 
-/// What became of a mutant.
+/// Outcome of a mutant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) enum Outcome {
     /// A test failed, this one first.
@@ -33,7 +33,7 @@ pub(super) enum Outcome {
     NotBuilt,
     /// No test noticed.
     Survived,
-    /// No test comes there.
+    /// No test reaches it.
     Unreached,
 }
 
@@ -53,7 +53,7 @@ impl Outcome {
     }
 }
 
-/// What is known of a program with tests when no mutant is chosen.
+/// Data of a program with tests when no mutant is chosen.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 struct Unbroken {
     /// When it was built [ns since 1970].
@@ -85,7 +85,7 @@ impl Unbroken {
     }
 }
 
-/// What came of one program.
+/// Outcome of one program.
 struct Run {
     outcome: Outcome,
     tests: BTreeSet<String>,
@@ -93,7 +93,7 @@ struct Run {
     output: String,
 }
 
-/// The tests, and what is known of them.
+/// The tests, with their data.
 pub(super) struct Trials {
     programs: TestPrograms,
     unbroken: BTreeMap<String, Unbroken>,

@@ -13,7 +13,7 @@ use super::draw::Draw;
 pub(super) struct Mechanism {
     /// Tables of the model, which can be omitted one by one as long as nothing names them.
     pub(super) tables: Vec<String>,
-    /// Whether nothing takes or gives energy.
+    /// Whether energy is conserved.
     pub(super) is_conservative: bool,
     /// Whether nothing touches the ground and nothing pulls from outside.
     pub(super) is_free: bool,
@@ -40,7 +40,7 @@ struct Coordinate {
     is_angle: bool,
 }
 
-/// What later parts can hang on.
+/// Nodes to which later parts can be connected.
 struct Node {
     name: String,
     place: [f64; 3],

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 use mechanism::mechanism;
 use trial::{Finding, trial};
 
-/// What is tried.
+/// Options of the trials.
 #[derive(clap::Args)]
 pub(crate) struct RandomArguments {
     /// Mechanisms to try
@@ -36,7 +36,7 @@ pub(crate) struct RandomArguments {
     /// Folder for the models in which something was found
     #[arg(long, default_value = "out/random")]
     keep: PathBuf,
-    /// Leave out of each model found what the finding does not need
+    /// Reduce each model found to the tables that the finding requires
     #[arg(long)]
     reduce: bool,
     /// Print the text of the first mechanism, and try nothing
@@ -98,7 +98,7 @@ pub(crate) fn random(arguments: &RandomArguments) -> std::io::Result<bool> {
     Ok(defects == 0)
 }
 
-/// Prints what was found, keeps the models, and counts.
+/// Prints the findings, stores the models, and counts.
 fn print_findings(arguments: &RandomArguments, found: &[(u64, Vec<Finding>)]) -> std::io::Result<()> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut reasons: BTreeMap<String, (usize, u64)> = BTreeMap::new();

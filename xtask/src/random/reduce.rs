@@ -1,4 +1,4 @@
-//! Leaves out of a mechanism what a finding does not need, table by table.
+//! Reduces a mechanism to the tables that a finding requires.
 
 use super::mechanism::Mechanism;
 use super::trial::{Finding, trial};
@@ -20,8 +20,7 @@ pub(super) fn reduced(mechanism: Mechanism, finding: &Finding) -> Mechanism {
         let mut trial_model = smallest.clone();
         trial_model.tables.remove(index);
         if trial(&trial_model).iter().any(is_same) {
-            smallest = trial_model;
-            // What named the table omitted may be omitted now.
+            smallest = trial_model; // Tables that referred to the omitted one may now be omitted.
             index = smallest.tables.len().min(index + 3);
         }
     }

@@ -56,8 +56,7 @@ impl Finding {
             Self::Panicked(_) => "panicked",
         }
     }
-
-    /// What there is to say.
+    /// The message.
     pub(super) fn words(&self) -> &str {
         match self {
             Self::Agreed => "",
@@ -78,7 +77,7 @@ impl Finding {
     }
 }
 
-/// How a scheme is run, by what is set in the model.
+/// How a scheme is run, as overrides of the model.
 struct Way {
     name: &'static str,
     set: &'static [(&'static str, &'static str)],

@@ -39,7 +39,7 @@ diagnostics! {
         } => "input-not-finite" {
             subject: Subject::new("input", name),
             cause: ("input `{name}` cannot be {value}"),
-            remedy: "give a finite number",
+            remedy: "specify a finite number",
             meaning: "An input was set to a value that is not finite.",
             advice: "Use a finite number.",
         }

@@ -29,8 +29,8 @@ diagnostics! {
             state: Subject,
         } => "rates-in-statics" {
             subject: state,
-            cause: ("statics and a start from equilibrium know no rates: {state} has no equation there"),
-            remedy: "remove states, friction and rolling joints, or start a dynamic analysis as it is",
+            cause: ("statics and a start from equilibrium have no rates: {state} has no equation there"),
+            remedy: "remove states, friction and rolling joints, or start a dynamic analysis without an equilibrium",
             meaning: "A state, friction or a rolling joint is governed by rates, which statics and a start from equilibrium do not have.",
             advice: "Remove it, or simulate the motion from the given positions.",
         }
@@ -40,9 +40,9 @@ diagnostics! {
             free: Subject,
         } => "free-at-rest" {
             subject: free,
-            cause: ("initial equilibrium: nothing holds or carries the {free}: neither weight nor a spring decides where it rests, so any \
-                    place is as good as another"),
-            remedy: "hold it by a joint, a drive or a spring, or start from the places given, without an equilibrium",
+            cause: ("initial equilibrium: the {free} has no resistance: neither weight nor a spring determines its position of rest, so \
+                    any position is an equilibrium"),
+            remedy: "constrain it by a joint, a drive or a spring, or start from the given positions, without an equilibrium",
             meaning: "The equilibrium is not unique, because neither a spring nor weight determines the position of a part.",
             advice: "Add a joint, a drive or a spring, or start from the given positions.",
         }
@@ -54,9 +54,9 @@ diagnostics! {
             given: String,
         } => "velocity-impossible" {
             subject: part,
-            cause: ("the initial velocity of {part}, {given}, is excluded by the joints and drives: nothing of it remains"),
-            remedy: "leave it out, or free what shall move",
-            meaning: "The joints and drives admit nothing of a given initial velocity.",
+            cause: ("the initial velocity of {part}, {given}, is entirely prevented by the joints and drives"),
+            remedy: "remove it, or release the part",
+            meaning: "The joints and drives prevent a given initial velocity entirely.",
             advice: "Remove the velocity, or free the coordinate.",
         }
         /// Drives or joints ask for different velocities.
@@ -79,9 +79,9 @@ diagnostics! {
             /// The last change, relative to the largest multiplier.
             change: f64,
         } => "normal-forces" {
-            cause: ("initial accelerations: the normal forces of wheels on rails and the creep forces they allow are not found together \
-                    (they still change by {change:.1e} of their size)"),
-            remedy: "look at friction_coefficient and at how the wheels are held",
+            cause: ("initial accelerations: the iteration for the normal forces and creep forces of wheels on rails did not converge \
+                    (last relative change {change:.1e})"),
+            remedy: "check `friction_coefficient` and the constraints of the wheels",
             meaning: "The iteration for the normal forces of wheels on rails, on which creep forces depend, does not converge at the start.",
             advice: "Check `friction_coefficient` and the constraints of the wheels.",
         }
@@ -91,9 +91,9 @@ diagnostics! {
             unknown: Subject,
         } => "initial-not-finite" {
             subject: unknown,
-            cause: ("initial accelerations are not finite, first for the {unknown}: a force there is without bound at the start, or masses \
-                    are too far apart"),
-            remedy: "look at what acts on it, and at the units",
+            cause: ("initial accelerations are not finite, first for the {unknown}: a force is unbounded at the start, or masses differ \
+                    by too many orders of magnitude"),
+            remedy: "check the forces on it, and the units",
             meaning: "Initial accelerations are not finite.",
             advice: "Look at the forces on the reported unknown, and at the units.",
         }

@@ -25,9 +25,8 @@ impl Diagnose for SignalError {
             cause: format!(
                 "signal {signal} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow"
             ),
-            remedy:
-                "keep it within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
-                    .to_owned(),
+            remedy: "restrict it, for example by `max(…, 0)` under a root or `clamp`, or end the run before"
+                .to_owned(),
         }
     }
 }

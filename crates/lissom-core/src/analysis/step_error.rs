@@ -69,9 +69,10 @@ diagnostics! {
         } => "joint-degenerate" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("step to t = {time:.6e} s did not converge: the `{kind}` joint `{joint}` has come to where its parts are turned by \
-                    {angle:.1} degrees against each other, and there its equation {equation} vanishes and holds nothing"),
-            remedy: "keep it away from there by a stop, by other lengths or by another start, or use a joint of another kind",
+            cause: ("step to t = {time:.6e} s did not converge: the parts of the `{kind}` joint `{joint}` are rotated by {angle:.1} \
+                    degrees relative to each other, where its equation \
+                    {equation} vanishes"),
+            remedy: "avoid this position by a stop, other lengths or another start, or use a joint of another kind",
             meaning: "A joint is in a position where one of its equations vanishes, such as a `constant_velocity` joint that is bent by half a \
                 turn.",
             advice: "Use a stop, other lengths, another start, or a joint of another kind.",
@@ -88,8 +89,8 @@ diagnostics! {
             time: *time,
             subject: joints,
             cause: ("step to t = {time:.6e} s did not converge: {beside:.2} degrees before it the mechanism has a singular position, where \
-                    the equations of {joints} repeat each other and it locks or may go on in more than one way"),
-            remedy: "keep it away from there by other lengths, another drive or another start",
+                    the equations of {joints} are dependent, and it locks or can continue in more than one way"),
+            remedy: "avoid this position by other lengths, another drive or another start",
             meaning: "A closed loop is close to a locking position, such as a slider crank at its dead centre.",
             advice: "Use other lengths, another drive, or another start.",
         }
@@ -102,9 +103,10 @@ diagnostics! {
         } => "switches-within-step" {
             time: *time,
             subject: what,
-            cause: ("step to t = {time:.6e} s did not converge, nor do its shortest parts: within it {what} switches, and on neither side \
-                    of the switch the motion can go on"),
-            remedy: "give the jump a width (`tanh(v/0.01)` instead of `sign(v)`), use a kind made for it, such as friction, or set \
+            cause: ("step to t = {time:.6e} s did not converge, nor did its shortest substeps: {what} switches within it, and the motion \
+                    can continue on neither side of \
+                    the switch"),
+            remedy: "smooth the jump (`tanh(v/0.01)` instead of `sign(v)`), use a suitable kind, such as friction, or set \
                 `relative_tolerance` instead of `step`, which ends steps where forces switch",
             meaning: "A force changes its sign at a threshold and drives the motion back to it from both sides.",
             advice: "Give the jump a width, for example `tanh(v/0.01)` instead of `sign(v)`, use a kind such as friction, or set \
@@ -123,7 +125,7 @@ diagnostics! {
             subject: unknown,
             cause: ("from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most in \
                     the {unknown}"),
-            remedy: "look for a load or drive that jumps there, or allow a larger error",
+            remedy: "check for a load or drive that jumps there, or increase the tolerance",
             meaning: "The estimated error exceeds `relative_tolerance` with the shortest steps, as at a discontinuous load or drive.",
             advice: "Look for a load or drive that jumps at that time, or allow a larger error.",
         }
@@ -136,10 +138,9 @@ diagnostics! {
         } => "chattering" {
             time: *time,
             subject: what,
-            cause: ("at t = {time:.6e} s {what} switches again and again, a thousand times within one step: the motion slides along the \
-                    surface where it switches"),
-            remedy: "give it a width (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a kind made for it, such as \
-                friction",
+            cause: ("at t = {time:.6e} s {what} switches a thousand times within one step: the motion slides along the surface where it \
+                    switches"),
+            remedy: "smooth it (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a suitable kind, such as friction",
             meaning: "A signal, an event or a force switches a thousand times within one step: the motion slides along the surface where it \
                 switches.",
             advice: "Give the switch a width or a hysteresis, or use a kind such as friction.",
@@ -150,7 +151,7 @@ diagnostics! {
             target: f64,
         } => "time-not-finite" {
             cause: ("a session cannot be stepped to the time {target} s"),
-            remedy: "give a finite time",
+            remedy: "specify a finite time",
             meaning: "A session was asked to go to a time that is not finite.",
             advice: "Use a finite time.",
         }
@@ -167,9 +168,9 @@ diagnostics! {
         } => "function-not-finite" {
             time: *time,
             subject: what,
-            cause: ("step to t = {time:.6e} s: {what} is {value} at t = {at:.6e} s, or its derivative is: an argument is outside of what \
-                    its functions allow"),
-            remedy: "keep it within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before",
+            cause: ("step to t = {time:.6e} s: {what} is {value} at t = {at:.6e} s, or its derivative is: an argument is outside of the \
+                    domain of its functions"),
+            remedy: "restrict it, for example by `max(…, 0)` under a root or `clamp`, or end the run before",
             meaning: "A function of time is not finite: a root of a negative number, a division by zero.",
             advice: "Restrict the argument, for example by `max(…, 0)` or `clamp`, or end the run before.",
         }
@@ -182,9 +183,10 @@ diagnostics! {
         } => "constraints-contradict" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time:.6e} s constraints contradict each other: violated are {violated}: a drive asks for a place that the \
-                    joints do not allow, or two of them ask for different ones"),
-            remedy: "remove one, or change what is prescribed",
+            cause: ("at t = {time:.6e} s constraints contradict each other: violated are {violated}: a drive prescribes a position that \
+                    the joints do not allow, or \
+                    two drives prescribe different ones"),
+            remedy: "remove one, or change the prescribed motion",
             meaning: "Constraints cannot be satisfied together: two drives of one coordinate, or a drive beyond the reach of its links.",
             advice: "Remove one of the constraints, or change the prescribed motion.",
         }
@@ -199,9 +201,9 @@ diagnostics! {
         } => "rotation-per-step" {
             time: *time,
             subject: Subject::new("node", node),
-            cause: ("step to t = {time:.6e} s: node `{node}` turns by {angle:.2} rad in it, and angles beyond a quarter of a turn a step \
-                    are not resolved"),
-            remedy: "take a smaller step, or set `relative_tolerance`",
+            cause: ("step to t = {time:.6e} s: node `{node}` rotates by {angle:.2} rad in it, and angles beyond a quarter of a \
+                    revolution per step are not resolved"),
+            remedy: "use a smaller step, or set `relative_tolerance`",
             meaning: "A node rotates by more than a quarter of a turn in a step, which is too long for the angular velocity.",
             advice: "Use a smaller step, or `relative_tolerance`.",
         }
@@ -216,8 +218,8 @@ diagnostics! {
         } => "rotation-in-element" {
             time: *time,
             subject: Subject::new("node", &nodes[0]),
-            cause: ("at t = {time:.6e} s the beam element between `{}` and `{}` turns by {turns:.2} of half a turn or more: beyond half a \
-                    turn it would be taken for a turn the other way", nodes[0], nodes[1]),
+            cause: ("at t = {time:.6e} s the beam element between `{}` and `{}` rotates by {turns:.2} of half a revolution or more: a \
+                    larger rotation is indistinguishable from one in the opposite direction", nodes[0], nodes[1]),
             remedy: "use more elements",
             meaning: "The nodes of a beam element are rotated against each other by nearly half a turn or more: there are too few elements for \
                 the twist or the bend.",
@@ -236,8 +238,9 @@ diagnostics! {
         } => "slider-off-beam" {
             time: *time,
             subject: Subject::new("slider", joint),
-            cause: ("step to t = {time:.6e} s: slider `{joint}` passes the end of its beam: it is at {place:.6e} m of {length:.6e} m"),
-            remedy: "make the beam longer, hold it with a spring of kind `axial_stop`, or end the run before with an event",
+            cause: ("step to t = {time:.6e} s: slider `{joint}` passes the end of its beam: its position is {place:.6e} m of \
+                    {length:.6e} m"),
+            remedy: "make the beam longer, stop it with a spring of kind `axial_stop`, or end the run before with an event",
             meaning: "A slider has left its beam.",
             advice: "Use a longer beam, a stop, or an event before the end.",
         }
@@ -271,10 +274,11 @@ diagnostics! {
         } => "energy-gain" {
             time: *time,
             subject: Subject::new("node", node),
-            cause: ("step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are turned \
-                    over, because the step does not resolve the motion, which is most restless at node `{node}`"),
-            remedy: "make it smaller, set `relative_tolerance`, or choose `scheme = \"radau-iia\"`; `energy_check = false` lets such a run go \
-                on",
+            cause: ("step to t = {time:.6e} s: the energy exceeds the work of loads and drives by {surplus:.3e} J, where \
+                    {turned_over:.3e} J are \
+                    exchanged: the step does not resolve the motion, which is fastest at node `{node}`"),
+            remedy: "use a smaller step, set `relative_tolerance`, or choose `scheme = \"radau-iia\"`; `energy_check = false` continues \
+                such a run",
             meaning: "Energy grew beyond the work of loads and drives: the step is too long, or there is little numerical damping with masses \
                 that differ by orders of magnitude.",
             advice: "Use a smaller step, `relative_tolerance`, or `scheme = \"radau-iia\"`; `energy_check = false` switches the check off.",
@@ -348,15 +352,15 @@ impl StepError {
 /// What to try when numbers of one attempt are not finite.
 pub(crate) const SMALLER: &str = "try a smaller step";
 /// What to try when a step has no solution even in the smallest parts.
-pub(super) const NO_PART_CONVERGES: &str = "the shortest parts of it, a thousandth and less, do not either, so that a smaller `step` will hardly help: look there for a \
-     force that jumps or grows without bound, for units that do not agree, for a joint close to where it cannot go on, and for a small `max_iterations`";
+pub(super) const NO_PART_CONVERGES: &str = "substeps of a thousandth of it and less fail as well, so a smaller `step` is unlikely to help: \
+     check for a force that jumps or grows without bound, for inconsistent units, for a joint that locks, and for a small `max_iterations`";
 /// The same where numbers are not finite.
-pub(super) const NO_PART_IS_FINITE: &str = "nor are they in the shortest parts of it, so that a smaller `step` will hardly help: look there for a force that grows \
-     without bound, for masses or stiffnesses too far apart, and for units that do not agree";
+pub(super) const NO_PART_IS_FINITE: &str = "this also occurs in its shortest substeps, so a smaller `step` is unlikely to help: check for a \
+     force that grows without bound, for masses or stiffnesses of very different magnitude, and for inconsistent units";
 
 /// What to try where an equilibrium path ends: it tries shorter steps itself.
-pub(crate) const NO_STEP_HELPS: &str = "shorter steps along the path find none either: a force or a joint may reach there what it cannot go beyond; end the path \
-     before it, or soften what jumps there";
+pub(crate) const NO_STEP_HELPS: &str = "shorter steps along the path also fail: a force or a joint may have reached its limit; end \
+     the path before it, or smooth forces that jump there";
 
 /// What to try when a step, in motion or in statics, has no solution even in parts.
 fn convergence_hint(is_motion: bool) -> &'static str {
@@ -364,25 +368,24 @@ fn convergence_hint(is_motion: bool) -> &'static str {
         "try a smaller step, or a larger `max_iterations`"
     } else {
         "even the smallest load steps from there find no equilibrium: the load may be at a limit point (snap-through or \
-         buckling), beyond which `kind = \"path\"` can follow it; or take a larger `max_iterations`"
+         buckling), beyond which `kind = \"path\"` can follow it; or use a larger `max_iterations`"
     }
 }
 
 /// What to try when elimination stops at an unknown, a coordinate or a multiplier.
 pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'static str {
     if unknown >= layout.coordinate_count() {
-        return "the joint's equation repeats what other joints hold already: remove or relax one of them";
+        return "the joint's equation is redundant with those of other joints: remove or relax one of them";
     }
     if !augmented {
-        return "a coordinate without mass and stiffness needs the augmented term: set `augmented = true`";
+        return "a coordinate without mass and stiffness requires the augmented term: set `augmented = true`";
     }
     if layout.impulses().next().is_some() {
-        return "nothing holds or carries it there: give it mass, stiffness or a joint, or let an equilibrium be sought from another \
-                place, where weight or a spring holds it; the force of a wheel that rolls repeats what \
-                others hold already: give it a small `creep`";
+        return "it has no resistance in this position: add mass, stiffness or a joint, or start the search for an equilibrium from another \
+                position, where weight or a spring determines it; if the force of a rolling wheel is redundant, specify a small `creep`";
     }
-    "nothing holds or carries it there: give it mass, stiffness or a joint, or let an equilibrium be sought from another \
-     place, where weight or a spring holds it"
+    "it has no resistance in this position: add mass, stiffness or a joint, or start the search for an equilibrium from another position, \
+     where weight or a spring determines it"
 }
 
 /// A failure of Newton's method as that of a step to `time` [s], with names.

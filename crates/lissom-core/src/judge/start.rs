@@ -155,7 +155,7 @@ pub(crate) fn rates(
     } else {
         [
             "because two drives prescribe the same motion differently, or one prescribes what the joints exclude",
-            "remove one, or change what is prescribed",
+            "remove one, or change the prescribed motion",
         ]
     };
     Err(InitialError::RatesContradict { violated: Subject::list(violated), cause, remedy })

@@ -24,8 +24,8 @@ diagnostics! {
             turned_over: f64,
         } => "energy-surplus" {
             time: *time,
-            cause: ("from t = {time:.6e} s on there is more energy than anything put in: a surplus of {surplus:.3e} J where \
-                    {turned_over:.3e} J are turned over; the step does not resolve the motion"),
+            cause: ("from t = {time:.6e} s on the energy exceeds the work of loads and drives: a surplus of {surplus:.3e} J where \
+                    {turned_over:.3e} J are exchanged; the step does not resolve the motion"),
             remedy: "use a smaller step, or set `relative_tolerance`",
             meaning: "Energy grew beyond the work of loads and drives, by more than 5 % of the energy exchanged.",
             advice: "The step does not resolve the motion, or the scheme adds energy to a motion that it does not resolve: use a smaller step, \
@@ -41,12 +41,12 @@ diagnostics! {
             onset: String,
         } => "unstable-equilibrium" {
             time: *time,
-            cause: ("the equilibrium at t = {time:.6e} is unstable in {directions} direction(s){onset}: the model would leave it by itself \
-                    (buckling, or a place of most energy)"),
-            remedy: "disturb it to find where it goes, or hold what is free",
+            cause: ("the equilibrium at t = {time:.6e} is unstable in {directions} direction(s){onset}: the model would leave it \
+                    spontaneously (buckling, or a maximum of energy)"),
+            remedy: "disturb it to find the stable equilibrium, or constrain the free parts",
             meaning: "An equilibrium, of statics or at the start, is unstable in the given number of directions.",
-            advice: "A column beyond its buckling load or an inverted pendulum stays there only in a computation: disturb it, or hold what is \
-                free.",
+            advice: "A column beyond its buckling load or an inverted pendulum stays there only in a computation: disturb it, or \
+                constrain the free parts.",
         }
         /// An equilibrium was found by relaxation, not along a path of equilibria.
         Relaxed {
@@ -56,10 +56,12 @@ diagnostics! {
             distance: f64,
         } => "relaxed-equilibrium" {
             time: *time,
-            cause: ("the equilibrium at t = {time:.6e} was found by relaxation, because Newton's method found none from the places given: \
-                    parts moved by up to {distance:.3e} m, downhill; of several equilibria it is one, and which one depends on where \
-                    parts begin"),
-            remedy: "begin near the one that is meant",
+            cause: ("the equilibrium at t = {time:.6e} was found by relaxation, because Newton's method found none from the given \
+                    positions: \
+                    parts moved by up to {distance:.3e} m with decreasing energy; it may be one of several equilibria, depending on the \
+                    given \
+                    positions"),
+            remedy: "start near the intended one",
             meaning: "Newton's method found no equilibrium from the given positions, for example for a cable without tension. The equilibrium \
                 was found by relaxation: steps from rest with inertia, each of which lowers the energy.",
             advice: "It is one of possibly several equilibria: check that it is the intended one, or start closer to that.",
@@ -74,9 +76,9 @@ diagnostics! {
             work: f64,
         } => "jump" {
             time: *time,
-            cause: ("between t = {start:.6e} and {time:.6e} the model jumps: loads do {work:.3e} J more than it stores, so a limit point \
-                    of the load lies between them, beyond which no equilibrium is near"),
-            remedy: "take more load steps to find it, or follow the path beyond it with `kind = \"path\"`",
+            cause: ("between t = {start:.6e} and {time:.6e} the model jumps: loads do {work:.3e} J more than it stores, so there is a \
+                    limit point of the load between them, beyond which no equilibrium is close"),
+            remedy: "use more load steps to find it, or follow the path beyond it with `kind = \"path\"`",
             meaning: "In one load step the loads did much more work than the model stored.",
             advice: "The step passed a limit point of the load: use more load steps, or follow the path.",
         }
@@ -90,9 +92,9 @@ diagnostics! {
             used: String,
         } => "velocity-replaced" {
             subject: part,
-            cause: ("the initial velocity of {part} was given as {given} and does not agree with the joints and drives: the run starts \
+            cause: ("the initial velocity of {part} was given as {given} and violates the joints and drives: the run starts \
                     with {used}"),
-            remedy: "give velocities that the joints allow, for instance by `[initial] angular_velocity` and `about`",
+            remedy: "specify velocities that the joints allow, for example by `[initial] angular_velocity` and `about`",
             meaning: "The given initial velocities violate joints or drives; they were changed as little as possible.",
             advice: "Give velocities that joints and drives allow; `[initial]` moves the whole model as a rigid body.",
         }
@@ -104,8 +106,9 @@ diagnostics! {
             rate: f64,
         } => "starts-with-jolt" {
             subject: Subject::new("node", part),
-            cause: ("drives and joints set `{part}` into motion at once and bend it by that: at the start it deforms at {rate:.3e} 1/s"),
-            remedy: "give it the velocity it shall start with, or let the drive start from rest",
+            cause: ("drives and joints set `{part}` into motion instantaneously, which bends it: at the start it deforms at {rate:.3e} \
+                    1/s"),
+            remedy: "specify its initial velocity, or start the drive from rest",
             meaning: "Drives or joints set a beam into motion instantaneously, which bends it.",
             advice: "Give the beam its initial velocity, or start the drive from rest.",
         }
@@ -118,10 +121,10 @@ diagnostics! {
         } => "contact-too-short" {
             time: *time,
             subject: what,
-            cause: ("at t = {time:.6e} s {what} stops what meets it within two steps: a contact so short is not resolved, and its energy \
-                    may be lost or won"),
-            remedy: "take steps of at most a fiftieth of the contact, or set `relative_tolerance` instead of `step`, which ends steps where \
-                contacts begin",
+            cause: ("at t = {time:.6e} s {what} stops the colliding part within two steps: such a short contact is not resolved, and its \
+                    energy may be lost or increased"),
+            remedy: "use steps of at most a fiftieth of the contact, or set `relative_tolerance` instead of `step`, which ends steps at \
+                the start of contacts",
             meaning: "With fixed steps, a contact with a stop, a one-sided spring or a kink of an expression ends the motion within two steps, \
                 from a tenth or more of the highest approach speed.",
             advice: "The contact is too short for the steps, and its energy may be lost: use steps of a fiftieth of its duration, or \
@@ -138,9 +141,10 @@ diagnostics! {
         } => "drive-jumps" {
             time: *time,
             subject: Subject::new("drive", drive),
-            cause: ("in the step to t = {time:.6e} s the drive `{drive}` goes by {way:.3e} (m or rad) without a rate that takes it there: \
+            cause: ("in the step to t = {time:.6e} s the drive `{drive}` moves by {way:.3e} (m or rad), which does not follow from its \
+                    rates: \
                     it jumps, or changes faster than steps resolve"),
-            remedy: "let it go there in a time that steps resolve",
+            remedy: "let it move in a time that the steps resolve",
             meaning: "A drive moves in one step by more than twice the distance that follows from its rates at both ends: it jumps, or changes \
                 faster than the steps resolve.",
             advice: "Make the drive smooth on the scale of a step, for example by a spline table or `smoothstep`, or use smaller steps.",
@@ -153,9 +157,9 @@ diagnostics! {
             missed: f64,
         } => "unresolved-rates" {
             time: *time,
-            cause: ("the steps are too long for velocities and forces: from t = {time:.6e} s on places agree with joints and drives, but \
-                    the rates of these miss {:.1} % of the speed of the model, and forces more", 100.0 * missed),
-            remedy: "take smaller steps, or set `relative_tolerance` instead of `step`",
+            cause: ("the steps are too long for velocities and forces: from t = {time:.6e} s on positions satisfy joints and drives, but \
+                    their rates have an error of {:.1} % of the speed of the model, and forces a larger one", 100.0 * missed),
+            remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "Fixed steps satisfy the constraints of joints and drives, but not their rates: the mean error of the constraint rates \
                 over the sampled steps exceeds 2 % of the speed. Velocities have the same error, accelerations and forces a larger one.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
@@ -171,9 +175,10 @@ diagnostics! {
         } => "unresolved-motion" {
             time: *time,
             subject: unknown,
-            cause: ("the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 0.1 % of how far \
-                    the model moves, {:.2} % in the end, most in the {unknown}", 100.0 * error),
-            remedy: "take smaller steps, or set `relative_tolerance` instead of `step`",
+            cause: ("the steps are too long for the motion: from t = {time:.6e} s on their estimated error exceeds 0.1 % of the \
+                    amplitude of motion of the model; it reaches {:.2} % at the end, mostly in the \
+                    {unknown}", 100.0 * error),
+            remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "Fixed steps are too long for the motion: their estimated errors add up to more than 0.1 % of the amplitude of motion of \
                 the model.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
@@ -187,9 +192,9 @@ diagnostics! {
         } => "constraints-yield" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time:.6e} s constraints yield: {violated}; they repeat each other, or others, and hold what loads or drives \
-                    strain, so that results are good to that only"),
-            remedy: "free what is held twice, or look whether units are right",
+            cause: ("at t = {time:.6e} s constraints are violated: {violated}; they are redundant and loaded, so results have an error \
+                    of this size"),
+            remedy: "remove redundant constraints, or check the units",
             meaning: "Constraints are violated by more than 1e-6 of the representative length, or 1e-6 rad, although Newton's method has \
                 converged; from 1e-5 on this is a failure.",
             advice: "Redundant constraints are regularised and yield in proportion to the force that they carry: remove the redundant \
@@ -206,9 +211,9 @@ diagnostics! {
         } => "contact-runs-round" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the wheel of `{joint}` lies nearly flat, and its point of contact runs round by {angle:.2} rad in \
-                    a step, which is too long for it"),
-            remedy: "take smaller steps, or set `relative_tolerance` instead of `step`",
+            cause: ("at t = {time:.6e} s the wheel of `{joint}` is nearly flat, and its contact point moves along the rim by {angle:.2} \
+                    rad in a step, which is too long"),
+            remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "With fixed steps, the contact point of a `rolling` wheel that lies nearly flat moves round the rim by more than 0.5 rad \
                 in a step.",
             advice: "No part rotates as fast as that, but the error of every such step is 1 % of a radius or more: use steps of a fiftieth of \
@@ -227,7 +232,7 @@ diagnostics! {
             subject: function,
             cause: ("around t = {time:.6e} s {function} changes within a step of {step:.3e} s in a way that its values and slopes at the \
                     ends do not show, such as a pulse or an oscillation: the step misses or aliases it"),
-            remedy: "take smaller steps, or set `relative_tolerance` instead of `step`",
+            remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "With fixed steps, a law of time or of the motion changes within a step in a way that its values and slopes at the ends do not \
                 show: a pulse, a narrow peak over a position, or an oscillation with fewer than about four steps per period.",
             advice: "The step misses or aliases it: use smaller steps, or `relative_tolerance`, which adapts the steps to such laws.",
@@ -244,11 +249,11 @@ diagnostics! {
             time: *time,
             subject: Subject::new("joint", joint),
             cause: ("at t = {time:.6e} s the wheel of `{joint}` {doubt}"),
-            remedy: "reduce the speed, or give profiles over the whole width",
+            remedy: "reduce the speed, or specify profiles over the whole width",
             meaning: "A `wheel_on_rail` touches beyond its `tread`, on the flank of the rail's head, at two points simultaneously, or at none \
                 with a common normal.",
-            advice: "A flange or a second contact would carry load from there on, which one constraint cannot represent: reduce the speed, or \
-                give profiles over the whole width.",
+            advice: "A flange or a second contact would carry load from there on, which one constraint cannot represent: reduce the \
+                speed, or specify profiles over the whole width.",
         }
         /// A wheel that rolls is pulled by its plane.
         WheelLifts {
@@ -261,8 +266,8 @@ diagnostics! {
         } => "wheel-lifts" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the plane or rail of `{joint}` pulls its wheel with {force:.3e} N: a wheel that lies on it would \
-                    lift off, and this one cannot"),
+            cause: ("at t = {time:.6e} s the plane or rail of `{joint}` pulls its wheel with {force:.3e} N: a real wheel would lift off, \
+                    but the joint prevents it"),
             remedy: "reduce the speed, or use another contact model",
             meaning: "The plane of a `rolling` joint, or the rail of a `wheel_on_rail`, pulls on its wheel.",
             advice: "A real wheel would lift off: reduce the speed, or use another contact model.",
@@ -280,10 +285,10 @@ diagnostics! {
         } => "wheel-slides" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the wheel of `{joint}` needs {friction:.3e} N of friction at a normal force of {normal:.3e} N: \
-                    more than its coefficient gives, so that it would slide, and this one cannot"),
+            cause: ("at t = {time:.6e} s the wheel of `{joint}` requires {friction:.3e} N of friction at a normal force of {normal:.3e} N: \
+                    this exceeds its coefficient, so a real wheel would slide, but the joint prevents it"),
             remedy: "reduce the driving or braking forces, or use another contact model",
-            meaning: "A `rolling` joint needs more friction than its `friction_coefficient` gives.",
+            meaning: "A `rolling` joint requires more friction than its `friction_coefficient` allows.",
             advice: "A real wheel would slide: from then on the motion is that of a gear wheel on a rack.",
         }
         /// A motion crossed a position at which constraints become redundant.
@@ -295,9 +300,9 @@ diagnostics! {
         } => "singular-position" {
             time: *time,
             subject: joints,
-            cause: ("at t = {time:.6e} s the mechanism is in a singular position: there the equations of {joints} repeat each other, one \
-                    freedom more is free, and there is more than one way to go on, between which round-off decides"),
-            remedy: "start and go on away from it, change the lengths that make it, or couple the joints that must keep their sense",
+            cause: ("at t = {time:.6e} s the mechanism is in a singular position: there the equations of {joints} are dependent, the \
+                    mechanism has an additional degree of freedom, and round-off decides in which way the motion continues"),
+            remedy: "start and stay away from it, change the lengths, or couple the joints that must keep their sense of rotation",
             meaning: "Constraints of a closed loop become dependent at one position, for example where a parallelogram's bars are collinear: \
                 the mechanism gains a degree of freedom there.",
             advice: "The motion can continue in more than one way, and round-off decides: start elsewhere, change the lengths, or couple the \
@@ -310,9 +315,10 @@ diagnostics! {
             /// The redundant directions, in words.
             repeated: String,
         } => "reactions-not-unique" {
-            cause: ("{columns} not unique: constraints repeat each other there ({repeated}), and those reported are the least forces that \
-                    hold the motion; a real mechanism shares them out by its stiffness"),
-            remedy: "replace rigid joints by bushings, or free the directions that repeat",
+            cause: ("{columns} not unique: constraints are redundant there ({repeated}), and the reported reactions are those of minimum \
+                    norm; in a real mechanism they depend \
+                    on the stiffness"),
+            remedy: "replace rigid joints by bushings, or release the redundant directions",
             meaning: "Constraints are redundant, so the listed columns are the reactions of minimum norm.",
             advice: "Real joints share the load according to their stiffness: replace rigid joints by bushings, or release the listed \
                 directions.",
@@ -328,10 +334,11 @@ diagnostics! {
         } => "beyond-linear" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on the superelement's interface `{interface}` is displaced or turned by more than its linear \
-                    matrices are good for: by up to {largest:.2} times 0.2 rad, or 0.15 of the distance between interfaces, from the \
+            cause: ("from t = {time:.6e} s on the superelement's interface `{interface}` is displaced or rotated beyond the \
+                    range of its linear matrices: by up to {largest:.2} times 0.2 rad, or 0.15 of the distance between interfaces, from \
+                    the \
                     floating frame; forces have an estimated error of {:.1} % or more", PERCENT_AT_LIMIT * largest * largest),
-            remedy: "cut the part into several superelements, or model it by beams",
+            remedy: "divide the part into several superelements, or model it by beams",
             meaning: "An interface of a superelement is turned by more than 0.2 rad, or displaced by more than 0.15 of the distance between \
                 interfaces, against its floating frame.",
             advice: "Linear matrices are not valid for such deformations: divide the part into several superelements, or model it by beams.",
@@ -347,10 +354,10 @@ diagnostics! {
         } => "turns-fast" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on the superelement of `{interface}` turns at up to {largest:.2} times the rate that its \
-                    matrices are good for, which is a quarter of its first natural frequency with that interface held, or all of it with \
-                    `geometric` matrices: centrifugal forces change its stiffness by more than they know"),
-            remedy: "make them by `lissom reduce`, cut it into several superelements, or model it by beams",
+            cause: ("from t = {time:.6e} s on the superelement of `{interface}` rotates at up to {largest:.2} times the limit of its \
+                    matrices, which is a quarter of its first natural frequency with that interface fixed, or that frequency with \
+                    `geometric` matrices: centrifugal forces change its stiffness by more than they represent"),
+            remedy: "compute them with `lissom reduce`, divide it into several superelements, or model it by beams",
             meaning: "A superelement rotates at more than a quarter of its first natural frequency with the floating interface fixed, or at \
                 more than that frequency if it has `geometric` matrices.",
             advice: "Centrifugal forces stiffen it by more than a sixteenth, which its matrices do not contain, or by more than they can \
@@ -367,10 +374,10 @@ diagnostics! {
         } => "load-stiffness" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on axial forces and rotation give or take an estimated share of up to {:.2} % of the stiffness \
-                    against what the superelement of `{interface}` bends, which its matrices do not know: it bends by up to that much \
-                    wrongly", 0.5 * largest),
-            remedy: "make its matrices by `lissom reduce`, which finds them to second order, or model it by beams",
+            cause: ("from t = {time:.6e} s on axial forces and rotation change the bending stiffness of the superelement of \
+                    `{interface}` by up to an estimated {:.2} %, which its \
+                    matrices do not contain: its deflection has an error of up to this size", 0.5 * largest),
+            remedy: "compute its matrices with `lissom reduce`, which includes second-order terms, or model it by beams",
             meaning: "Axial forces and rotation change the bending stiffness of a superelement by an estimated 0.5 % or more, which its \
                 matrices do not contain.",
             advice: "The error of its deflection is about half the estimate: compute its matrices with `lissom reduce`, which includes \
@@ -387,9 +394,10 @@ diagnostics! {
         } => "moment-stiffness" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on moments couple bending and twist of the superelement of `{interface}`, which its matrices do \
-                    not know: it is displaced by up to an estimated {:.2} % of its largest deformation otherwise", 0.5 * largest),
-            remedy: "cut it into several superelements, or model it by beams",
+            cause: ("from t = {time:.6e} s on moments couple bending and twist of the superelement of `{interface}`, which its matrices \
+                    do not contain: \
+                    the estimated error of its displacement is up to {:.2} % of its largest deformation", 0.5 * largest),
+            remedy: "divide it into several superelements, or model it by beams",
             meaning: "Moments couple bending and twist of a superelement by an estimated 0.5 % of its largest deformation or more.",
             advice: "Its matrices contain only part of that coupling: divide it into several superelements, or model it by beams.",
         }
@@ -420,9 +428,9 @@ diagnostics! {
         } => "output-lost" {
             time: *time,
             subject: Subject::new("output", output),
-            cause: ("at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be \
-                    followed, and is not a number from there on"),
-            remedy: "take smaller steps; an angle about an axis has no value where the axis is turned by half a turn",
+            cause: ("at t = {time:.6e} s the output `{output}` ends: from one step to the next it changes by more than can be tracked, \
+                    and it is not a number from there on"),
+            remedy: "use smaller steps; an angle about an axis is undefined when the axis is rotated by half a revolution",
             meaning: "An output of kind `angle` changed by too much within a step to be tracked, or its axis was rotated by half a turn; it is \
                 not a number from there on.",
             advice: "Use smaller steps, another axis, or `quaternion` and `cardan_angles` for motions about all axes.",

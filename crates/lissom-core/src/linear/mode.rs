@@ -110,7 +110,7 @@ diagnostics! {
         /// Nothing has mass.
         NoMass {} => "no-mass" {
             cause: ("the model has no mass, and therefore no natural modes"),
-            remedy: "give bodies or sections a mass",
+            remedy: "specify masses of bodies or sections",
             meaning: "A model without mass has no natural modes.",
             advice: "Give bodies or sections a mass.",
         }

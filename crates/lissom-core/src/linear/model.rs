@@ -50,7 +50,7 @@ diagnostics! {
             subject: Subject::new("joint", joint),
             cause: ("`{joint}` rolls, which is a constraint between velocities, and this analysis supports constraints between positions \
                     only"),
-            remedy: "hold the wheel with another joint, or simulate the motion",
+            remedy: "use another joint for the wheel, or simulate the motion",
             meaning: "The analysis does not support rolling, which is a constraint between velocities.",
             advice: "Hold the wheel with another joint, or simulate the motion.",
         }
@@ -62,9 +62,9 @@ diagnostics! {
             subject: Subject::new("coordinate", coordinate),
             cause: ("a latch (`{coordinate}`) is a constraint between velocities, and this analysis supports constraints between positions \
                     only"),
-            remedy: "omit the latch, or hold its joint by a stiff spring",
+            remedy: "remove the latch, or lock its joint by a stiff spring",
             meaning: "The analysis does not support latches, which are constraints between velocities.",
-            advice: "Omit the latch, or hold its joint by a stiff spring.",
+            advice: "Remove the latch, or lock its joint by a stiff spring.",
         }
         /// A pivot vanished or a number is not finite.
         Factor {
@@ -78,7 +78,7 @@ diagnostics! {
             time: *time,
             subject: unknown,
             cause: ("the linear model at t = {time:.6e} s: elimination stops at the {unknown} (pivot {pivot:.1e})"),
-            remedy: "give it mass, stiffness or a joint",
+            remedy: "add mass, stiffness or a joint",
             meaning: "A coordinate of the linear model has neither mass nor stiffness, or a number is not finite.",
             advice: "Give the reported unknown mass, stiffness or a joint.",
         }

@@ -49,8 +49,8 @@ impl NoMultiblade {
     /// The reason in words.
     pub fn words(self) -> &'static str {
         match self {
-            Self::SeveralAxes => "its parts turn at different rates or about different axes",
-            Self::NotPeriodic => "the rotor does not look the same after a third of a turn or less",
+            Self::SeveralAxes => "its parts rotate at different rates or about different axes",
+            Self::NotPeriodic => "the rotor is not periodic over a third of a revolution or less",
             Self::TwoBlades => "a rotor of two blades has no constant coefficients in any coordinates",
         }
     }

@@ -45,27 +45,28 @@ diagnostics! {
     Failure ReductionError {
         /// With the interfaces held the stiffness belongs to no energy, or rates have forces that do not damp.
         NotConservative {} => "reduction-not-conservative" {
-            cause: ("with its interfaces held the assembly is not conservative: a superelement is linear elastic"),
-            remedy: "omit loads that follow and signals, and reduce it at rest",
+            cause: ("the assembly with fixed interfaces is not conservative, but a superelement is linear elastic"),
+            remedy: "remove follower loads and signals, and reduce it at rest",
             meaning: "With its interfaces held the assembly is not conservative, but a superelement is linear elastic.",
             advice: "Omit loads that follow and signals, and reduce the assembly at rest.",
         }
         /// With the interfaces held there is an unstable mode.
         Unstable {} => "reduction-unstable" {
-            cause: ("with its interfaces held the assembly is unstable: the state is beyond buckling, or parts are held by their stress only"),
-            remedy: "reduce it with less load, or hold these parts",
+            cause: ("the assembly with fixed interfaces is unstable: the state is beyond buckling, or parts are stabilised by their \
+                    stress only"),
+            remedy: "reduce it under smaller loads, or constrain these parts",
             meaning: "With its interfaces held the assembly is unstable.",
-            advice: "Reduce it with less load, or hold the parts that only their stress holds.",
+            advice: "Reduce it under smaller loads, or constrain the parts that are stabilised by their stress only.",
         }
         /// Forces act between the interfaces.
         Unbalanced {
             /// Displacement by these forces over the length of the assembly.
             displacement: f64,
         } => "reduction-unbalanced" {
-            cause: ("forces act between the interfaces that nothing in the assembly balances: they would displace it by {displacement:.1e} \
+            cause: ("forces between the interfaces are not balanced within the assembly: they would displace it by {displacement:.1e} \
                     of its length"),
-            remedy: "make what they act on an interface, or remove the load",
-            meaning: "Forces act on the assembly between its interfaces, and nothing in it balances them.",
+            remedy: "declare the loaded node as an interface, or remove the load",
+            meaning: "Forces that act on the assembly between its interfaces are not balanced within it.",
             advice: "Make what they act on an interface, or remove the load.",
         }
         /// Something holds the assembly, or pulls at it, in directions fixed in space.
@@ -79,7 +80,7 @@ diagnostics! {
         } => "reduction-held" {
             subject: unknown,
             cause: ("a rigid motion of the assembly is not free of forces: the {unknown} has {force:.1e} of terms of {terms:.1e}"),
-            remedy: "omit what connects it to the ground, and loads with directions fixed in space",
+            remedy: "remove connections to the ground, and loads with directions fixed in space",
             meaning: "Forces act on the assembly in a rigid motion.",
             advice: "Omit what connects it to the ground, and loads with directions fixed in space.",
         }

@@ -33,7 +33,7 @@ diagnostics! {
             left: f64,
         } => "response-inexact" {
             cause: ("the response at s = {s} 1/s is not determined: the residual of the solution is {left:.1e} of the terms of its equations"),
-            remedy: "check what holds the model there; without damping, choose a rate farther from a natural frequency",
+            remedy: "check the constraints of the model; without damping, choose a frequency farther from a natural frequency",
             meaning: "The equations of a frequency response are nearly singular.",
             advice: "Hold the model, add damping, or choose a frequency farther from a natural frequency.",
         }

@@ -62,7 +62,7 @@ diagnostics! {
         /// Some degrees of freedom have no mass.
         Massless {} => "state-space-massless" {
             cause: ("degrees of freedom without mass remain, whose velocities are no states"),
-            remedy: "give them a mass",
+            remedy: "specify their mass",
             meaning: "The velocities of degrees of freedom without mass are no states.",
             advice: "Give all degrees of freedom a mass.",
         }

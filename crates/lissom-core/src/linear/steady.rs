@@ -55,7 +55,7 @@ diagnostics! {
         /// Nothing rotates.
         AtRest {} => "nothing-rotates" {
             cause: ("nothing rotates at the start"),
-            remedy: "give parts an angular velocity, or use the static equilibrium",
+            remedy: "specify the angular velocity of parts, or use the static equilibrium",
             meaning: "A steady rotation was requested, but all parts are at rest at the start.",
             advice: "Give parts an angular velocity, or use the static equilibrium.",
         }

@@ -20,7 +20,7 @@ const PLANNED_SHARE: f64 = 0.05;
 /// Registry entry.
 pub const KIND: SchemeKind = SchemeKind {
     name: "radau-iia-5",
-    summary: "Three-stage Radau IIA: fifth order, strongly damping; for small errors of smooth motions.",
+    summary: "Three-stage Radau IIA: fifth order, strongly damping; for smooth motions with small errors.",
     tolerance: None,
     build: |_| Ok(three_stages()),
 };

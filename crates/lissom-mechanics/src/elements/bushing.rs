@@ -28,7 +28,7 @@ use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Param
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "bushing",
-    summary: "Springs and dampers along and about three axes, with full matrices; its length may be zero.",
+    summary: "Springs and dampers along and about three axes, with full matrices, also between coincident points.",
     sample: "stiffness = [1e6, 1e6, 1e5, 100.0, 100.0, 10.0]",
     parameters: &[
         Parameter::optional(
@@ -41,13 +41,13 @@ pub const KIND: ElementKind = ElementKind {
             "damping",
             ParameterType::Matrix,
             "N s/m, N s, N m s/rad",
-            "6 x 6 or its diagonal, likewise; default 0.",
+            "6 x 6 or its diagonal, as `stiffness`; default 0.",
         ),
         Parameter::optional(
             "axis",
             ParameterType::DirectionOr(ModelAxis::X),
             "",
-            "First axis at the start, global axes; default global x. The axes turn with the base.",
+            "First axis at the start, global axes; default global x. The axes rotate with the base.",
         ),
         Parameter::optional(
             "second_axis",
@@ -81,7 +81,7 @@ fn build(
     let first = parameters.vector_or("axis", ModelAxis::X.direction())?;
     let second = parameters.vector_or("second_axis", ModelAxis::Y.direction())?;
     let axes = Rotation::from_axis_and_reference(&first, &second).ok_or_else(|| {
-        ParameterError::new("axis", "is parallel to `second_axis`: give both `axis` and `second_axis`")
+        ParameterError::new("axis", "is parallel to `second_axis`: specify both `axis` and `second_axis`")
     })?;
     let frames = [0, 1].map(|side| model.frame(nodes[side]));
     let places = [0, 1].map(|side| Motion::new(axes, frames[side].transform_point(&points[side])));

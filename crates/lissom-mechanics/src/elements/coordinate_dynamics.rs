@@ -50,7 +50,7 @@ pub const KIND: ElementKind = ElementKind {
             "rest",
             ParameterType::Numbers,
             "m or rad",
-            "Values of the coordinates at which `stiffness` is free of force; default zeros.",
+            "Values of the coordinates without force of `stiffness`; default zeros.",
         ),
     ],
     attachment: Attachment::Coordinates,
@@ -78,7 +78,7 @@ fn build(
     let count = coordinates.len();
     if count > MAX_COORDINATES {
         let problem =
-            format!("names {count} coordinates; at most {MAX_COORDINATES} are in one entry: take several");
+            format!("names {count} coordinates; an entry has at most {MAX_COORDINATES}: use several entries");
         return Err(ParameterError::new("coordinates", problem));
     }
     let [mass, damping, stiffness] =
@@ -87,7 +87,7 @@ fn build(
     if !["mass", "damping", "stiffness"].iter().any(|name| parameters.has(name)) {
         return Err(ParameterError::new(
             "mass",
-            "is missing, as are `damping` and `stiffness`: give one of them",
+            "is missing, as are `damping` and `stiffness`: specify one of them",
         ));
     }
     let asymmetry = (&mass - mass.transpose()).amax();

@@ -12,7 +12,7 @@ use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parame
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "force",
-    summary: "Force on a point, dead or following the node's rotation, with a function of time.",
+    summary: "Force on a point, of fixed direction or rotating with the node, scaled by a function of time.",
     sample: "vector = [0.0, 0.0, 1.0]\nscale = \"10*sin(t)\"",
     parameters: LOAD_PARAMETERS,
     attachment: Attachment::OneNode,
@@ -32,7 +32,7 @@ pub(super) const LOAD_PARAMETERS: &[Parameter] = &[
         "follower",
         ParameterType::Flag,
         "",
-        "Whether it turns with the node; default false: it keeps its direction.",
+        "Whether it rotates with the node; default false: its direction is fixed.",
     ),
 ];
 

@@ -21,7 +21,7 @@ pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
     "side",
     ParameterType::Choice(&["both", "tension", "compression"]),
     "",
-    "Where it acts: where it is longer than its free length, where it is shorter, or both; default both.",
+    "Where it acts: beyond its free length (\"tension\"), below it (\"compression\"), or both; default both.",
 );
 
 /// The same for angles.
@@ -29,7 +29,7 @@ pub(crate) const SIDE_OF_ANGLE: Parameter = Parameter::optional(
     "side",
     ParameterType::Choice(&["both", "positive", "negative"]),
     "",
-    "Where it acts: on rotations above the free one, below it, or both; default both.",
+    "Where it acts: above its free rotation (\"positive\"), below it (\"negative\"), or both; default both.",
 );
 
 /// The side on which it acts.

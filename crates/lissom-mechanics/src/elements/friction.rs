@@ -21,7 +21,7 @@ const DEFLECTION: f64 = 1e-4;
 /// Registry entry of friction on a rotation.
 pub const TORSIONAL: ElementKind = ElementKind {
     name: "torsional_friction",
-    summary: "Dry and viscous friction on a joint's relative rotation; it sticks without creeping.",
+    summary: "Dry and viscous friction on a joint's relative rotation; sticking is free of creep.",
     sample: "coulomb = 0.5",
     parameters: &[
         Parameter::required("coulomb", ParameterType::Positive, "N m", "Moment of sliding friction."),
@@ -41,7 +41,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "viscous",
             ParameterType::NotNegative,
             "N m s/rad",
-            "Moment per rate besides; default 0.",
+            "Additional moment per rate; default 0.",
         ),
         Parameter::optional(
             "deflection",
@@ -64,7 +64,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
 /// Registry entry of friction on a displacement.
 pub const AXIAL: ElementKind = ElementKind {
     name: "axial_friction",
-    summary: "Dry and viscous friction on a joint's relative displacement; it sticks without creeping.",
+    summary: "Dry and viscous friction on a joint's relative displacement; sticking is free of creep.",
     sample: "coulomb = 5.0",
     parameters: &[
         Parameter::required("coulomb", ParameterType::Positive, "N", "Force of sliding friction."),
@@ -84,7 +84,7 @@ pub const AXIAL: ElementKind = ElementKind {
             "viscous",
             ParameterType::NotNegative,
             "N s/m",
-            "Force per velocity besides; default 0.",
+            "Additional force per velocity; default 0.",
         ),
         Parameter::optional(
             "deflection",

@@ -28,7 +28,7 @@ pub const KIND: ElementKind = ElementKind {
             "axis",
             ParameterType::Direction,
             "",
-            "Axis of the rotor at the start, global axes; it turns with the node.",
+            "Axis of the rotor at the start, global axes; it rotates with the node.",
         ),
         Parameter::required(
             "inertia",

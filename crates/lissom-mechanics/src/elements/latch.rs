@@ -24,14 +24,14 @@ const PARAMETERS: &[Parameter] = &[
         "engaged",
         ParameterType::Input,
         "",
-        "The input that engages it: above 0.5 it holds, otherwise it is free; events set it.",
+        "Input that engages it: locked above 0.5, otherwise free; set by events.",
     ),
 ];
 
 /// Registry entry for displacements.
 pub const AXIAL: ElementKind = ElementKind {
     name: "axial_latch",
-    summary: "Holds a joint's relative displacement where it is while an input is set: latches and releases.",
+    summary: "Locks a joint's relative displacement at its current value while an input is set: latches and releases.",
     sample: "engaged = \"my_input\"",
     parameters: PARAMETERS,
     attachment: Attachment::Coordinate(Quantity::Length),
@@ -41,7 +41,7 @@ pub const AXIAL: ElementKind = ElementKind {
 /// Registry entry for rotations.
 pub const TORSIONAL: ElementKind = ElementKind {
     name: "torsional_latch",
-    summary: "Holds a joint's relative rotation where it is while an input is set: latches and releases.",
+    summary: "Locks a joint's relative rotation at its current value while an input is set: latches and releases.",
     attachment: Attachment::Coordinate(Quantity::Angle),
     ..AXIAL
 };

@@ -13,7 +13,7 @@ use crate::registry::{ParameterError, Parameters};
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "moment",
-    summary: "Moment on a node, dead or following the node's rotation, with a function of time.",
+    summary: "Moment on a node, of fixed direction or rotating with the node, scaled by a function of time.",
     sample: "vector = [0.0, 0.0, 1.0]\nfollower = true",
     parameters: LOAD_PARAMETERS,
     attachment: Attachment::OneNode,

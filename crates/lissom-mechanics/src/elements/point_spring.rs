@@ -21,7 +21,7 @@ use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
     name: "point",
-    summary: "Spring and damper between two points, along the line that joins them.",
+    summary: "Spring and damper between two points, along the line through them.",
     sample: "stiffness = 100.0\ndamping = 1.0",
     parameters: &[
         Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness; default 0."),
@@ -39,18 +39,18 @@ pub(crate) const KIND: ElementKind = ElementKind {
             "Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
         ),
         SIDE_OF_LENGTH,
-        Parameter::optional("limits", ParameterType::Range, "N", "Least and greatest force; default none."),
+        Parameter::optional("limits", ParameterType::Range, "N", "Minimum and maximum force; default: none."),
         Parameter::optional(
             "backlash",
             ParameterType::NotNegative,
             "m",
-            "Width of the free play about the free length, without force; default 0.",
+            "Width of the backlash about the free length, without force; default 0.",
         ),
         Parameter::optional(
             "length",
             ParameterType::NotNegative,
             "m",
-            "Length at which it is free of force; default: the length at the start.",
+            "Free length; default: the length at the start.",
         ),
     ],
     attachment: Attachment::TwoNodes,

@@ -28,14 +28,14 @@ const STILL: f64 = 1e-9;
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "rolling_contact",
-    summary: "A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.",
+    summary: "A wheel, disc or ball on a compliant plane with friction: it may lift off and slide.",
     sample: "normal = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]\nradius = 0.3\nstiffness = 1e6\nfriction_coefficient = 0.8",
     parameters: &[
         Parameter::required(
             "normal",
             ParameterType::Direction,
             "",
-            "Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane.",
+            "Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane.",
         ),
         Parameter::required(
             "wheel_axis",
@@ -47,39 +47,34 @@ pub const KIND: ElementKind = ElementKind {
             "radius",
             ParameterType::NotNegative,
             "m",
-            "Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 \
-             makes a ball of radius `rim`.",
+            "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for \
+            a ball of radius `rim`.",
         ),
-        Parameter::optional(
-            "rim",
-            ParameterType::NotNegative,
-            "m",
-            "Radius of the rounding of the rim; default 0.",
-        ),
+        Parameter::optional("rim", ParameterType::NotNegative, "m", "Rounding radius of the rim; default 0."),
         Parameter::required("stiffness", ParameterType::Positive, "N/m", "Normal force per penetration."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
             "s/m",
-            "Increase of the normal force per velocity of penetration, relative to it; default 0.",
+            "Relative increase of the normal force per penetration velocity; default 0.",
         ),
         Parameter::optional(
             "friction_coefficient",
             ParameterType::NotNegative,
             "",
-            "Friction over normal force of a wheel that slides; default 0.",
+            "Coefficient of sliding friction; default 0.",
         ),
         Parameter::optional(
             "slip_velocity",
             ParameterType::Positive,
             "m/s",
-            "Velocity v_s of the law μ tanh(v/v_s): below it the wheel creeps; default 0.01.",
+            "Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps; default 0.01.",
         ),
         Parameter::optional(
             "traction",
             ParameterType::FunctionOf("slip"),
             "",
-            "Coefficient of friction over the sliding velocity `slip` [m/s], in place of the law of `friction_coefficient`.",
+            "Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`.",
         ),
     ],
     attachment: Attachment::TwoNodes,
@@ -136,13 +131,13 @@ fn build(
     let [plane, centre] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
     let height = axes.apply_inverse(&(centre - plane)).z;
     if height.abs() <= 0.0 {
-        return Err(ParameterError::new("at_tip", "lies in the plane: it must be the centre of the wheel"));
+        return Err(ParameterError::new("at_tip", "is in the plane: it must be the centre of the wheel"));
     }
     let axis = axes.apply_inverse(&parameters.vector("wheel_axis")?);
     let axis =
         axis.try_normalize(0.0).ok_or_else(|| ParameterError::new("wheel_axis", "has no direction"))?;
     if axis.z.abs() > 1.0 - 1e-6 {
-        let problem = "is across the plane: the wheel lies flat on it, and cannot roll";
+        let problem = "is perpendicular to the plane: the wheel is flat on it and cannot roll";
         return Err(ParameterError::new("wheel_axis", problem));
     }
     let rim = parameters.number_or("rim", 0.0)?;
@@ -184,7 +179,7 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
     }
     for other in ["friction_coefficient", "slip_velocity"] {
         if parameters.has(other) {
-            return wrong(format!("replaces the law with `{other}`: leave one of them out"));
+            return wrong(format!("replaces the law with `{other}`: remove one of them"));
         }
     }
     let function = parameters.function("traction")?;

@@ -27,7 +27,7 @@ use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parame
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
     name: "rope",
-    summary: "Rope that slides over several points without friction: reeving over pulleys, and hoists by its length.",
+    summary: "Rope that slides over several points without friction: pulleys, and hoists by its free length.",
     sample: "stiffness = 1e4\ndamping = 10.0\nlength = \"3 - 0.1*t\"",
     parameters: &[
         Parameter::optional(
@@ -54,18 +54,23 @@ pub const KIND: ElementKind = ElementKind {
             "N",
             "Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
         ),
-        Parameter::optional("limits", ParameterType::Range, "N", "Least and greatest tension; default none."),
+        Parameter::optional(
+            "limits",
+            ParameterType::Range,
+            "N",
+            "Minimum and maximum tension; default: none.",
+        ),
         Parameter::optional(
             "length",
             ParameterType::Function,
             "m",
-            "Free length of the whole rope, over time where a winch changes it; default: the length at the start.",
+            "Free length of the whole rope; a function of time for a winch; default: the length at the start.",
         ),
         Parameter::optional(
             "drum_radii",
             ParameterType::Numbers,
             "m",
-            "Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up.",
+            "Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up.",
         ),
     ],
     attachment: Attachment::Places,
@@ -111,7 +116,7 @@ fn drums(
         return fault("belong to more than two drums: a rope has two ends".to_owned());
     }
     if radii.contains(&0.0) {
-        return fault("must not be zero: such a drum pays nothing out".to_owned());
+        return fault("must not be zero: such a drum pays out no rope".to_owned());
     }
     Ok(radii.iter().zip(drums).map(|(radius, drum)| [*radius, model.coordinate_value(*drum)]).collect())
 }
@@ -159,7 +164,7 @@ fn build(
         1..=MAX_NODES => {}
         _ => {
             return fault(
-                "leads over more than four parts besides the ground: tie two ropes to a part between",
+                "passes over more than four parts in addition to the ground: connect two ropes at an intermediate part",
             );
         }
     }

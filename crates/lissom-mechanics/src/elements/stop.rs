@@ -33,7 +33,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "range",
             ParameterType::Range,
             "rad",
-            "Rotations between the stops; an end that is infinite has none.",
+            "Rotations of the two stops; none at an infinite end.",
         ),
         Parameter::required(
             "stiffness",
@@ -41,7 +41,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "N m/rad^n",
             "Moment at a penetration of 1 rad.",
         ),
-        Parameter::optional("exponent", ParameterType::Positive, "", "n, from 1 on; default 1."),
+        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1; default 1."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
@@ -71,10 +71,10 @@ pub const AXIAL: ElementKind = ElementKind {
             "range",
             ParameterType::Range,
             "m",
-            "Displacements between the stops; an end that is infinite has none.",
+            "Displacements of the two stops; none at an infinite end.",
         ),
         Parameter::required("stiffness", ParameterType::Positive, "N/m^n", "Force at a penetration of 1 m."),
-        Parameter::optional("exponent", ParameterType::Positive, "", "n, from 1 on; default 1."),
+        Parameter::optional("exponent", ParameterType::Positive, "", "Exponent n, at least 1; default 1."),
         Parameter::optional(
             "dissipation",
             ParameterType::NotNegative,
@@ -138,14 +138,17 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
         return parameters.number_or("dissipation", 0.0);
     }
     if parameters.has("dissipation") {
-        return Err(ParameterError::new("dissipation", "and `restitution` say the same: leave one out"));
+        return Err(ParameterError::new(
+            "dissipation",
+            "and `restitution` are alternatives: remove one of them",
+        ));
     }
     let restitution = parameters.number("restitution")?;
     if !(MIN_RESTITUTION..=1.0).contains(&restitution) {
         return Err(ParameterError::new("restitution", format!("must be from {MIN_RESTITUTION} to 1")));
     }
     if !parameters.has("impact_velocity") {
-        let problem = "needs `impact_velocity`, at which it holds: slower impacts lose less";
+        let problem = "requires `impact_velocity`, for which it is valid: slower impacts lose less";
         return Err(ParameterError::new("restitution", problem));
     }
     Ok(relative_dissipation(restitution) / parameters.number("impact_velocity")?)

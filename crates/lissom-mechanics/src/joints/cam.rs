@@ -12,7 +12,7 @@ use crate::registry::{
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "cam",
-    summary: "A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.",
+    summary: "A coordinate of `other` is a function of a coordinate of `joint`, such as the profile of a cam.",
     sample: "profile = \"0.02*(1 - cos(x))\"",
     parameters: &[
         Parameter::required(
@@ -29,7 +29,7 @@ pub const KIND: JointKind = JointKind {
         if let Some(kink) = profile.first_kink() {
             let at = if kink.is_nan() { String::new() } else { format!(" at x = {kink:.6}") };
             let problem = format!(
-                "has a kink{at}: the follower would jump in speed there; give a table `interpolation = \
+                "has a kink{at}: the speed of the follower would jump there; specify a table `interpolation = \
                  \"spline\"`, or another function"
             );
             return Err(ParameterError::new("profile", problem));

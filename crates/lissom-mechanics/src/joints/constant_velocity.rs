@@ -21,13 +21,13 @@ use crate::registry::{Parameter, ParameterError, ParameterType};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "constant_velocity",
-    summary: "Two shafts share a point, may bend against each other, and turn by the same angle.",
+    summary: "Two shafts with a common point and any angle between them rotate by the same angle.",
     sample: "axis = [1.0, 0.0, 0.0]\ntip_axis = [0.9, 0.4, 0.0]",
     parameters: &[Parameter::optional(
         "tip_axis",
         ParameterType::Direction,
         "",
-        "Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft.",
+        "Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft.",
     )],
     build: Build::Relative(Frames::Axis, |parameters, geometry| {
         let shaft = geometry.axes.apply(&Vector3::z());
@@ -38,7 +38,7 @@ pub const KIND: JointKind = JointKind {
         if tip.z.abs() < 1e-6 {
             return Err(ParameterError::new(
                 "tip_axis",
-                "is perpendicular to `axis`: no such joint can turn",
+                "is perpendicular to `axis`: such a joint cannot rotate",
             ));
         }
         Ok(Box::new(ConstantVelocity { tip }))

@@ -20,7 +20,7 @@ const SLIDE: usize = 1;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "cylindrical",
-    summary: "The tip slides along an axis and turns about it; rotation and displacement are coordinates.",
+    summary: "The tip slides along an axis and rotates about it; rotation and displacement are coordinates.",
     sample: "axis = [1.0, 0.0, 0.0]",
     parameters: &[ANGLE_AT_START, DISPLACEMENT_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {

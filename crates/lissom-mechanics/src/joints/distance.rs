@@ -14,7 +14,7 @@ use crate::registry::ParameterError;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "distance",
-    summary: "Keeps the distance of two points: a massless rod with a ball at each end.",
+    summary: "Keeps the distance of two points constant: a massless rod with spherical joints at its ends.",
     sample: "",
     parameters: &[],
     build: Build::Relative(Frames::Span, |_, geometry| {

@@ -6,13 +6,13 @@ use crate::registry::{Parameter, ParameterType};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "equation",
-    summary: "An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.",
+    summary: "An expression of joint coordinates and time is zero: planetary gears, differentials, curves.",
     sample: "equation = \"my_hinge.angle - 2*my_slide.displacement\"",
     parameters: &[Parameter::required(
         "equation",
         ParameterType::Equation,
         "",
-        "What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`.",
+        "The expression that is zero, of coordinates such as `arm.angle` and `slide.displacement`, and of `t`.",
     )],
     build: Build::Coupling(Coupled::Named, |parameters, _| parameters.relation("equation")),
 };

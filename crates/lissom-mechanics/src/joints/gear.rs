@@ -9,14 +9,14 @@ use crate::registry::{OTHER_COORDINATE, Parameter, ParameterType, WHICH_COORDINA
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "gear",
-    summary: "A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.",
+    summary: "A coordinate of `other` changes by `ratio` times the change of a coordinate of `joint`: gears, racks, belts.",
     sample: "ratio = -2.5",
     parameters: &[
         Parameter::required(
             "ratio",
             ParameterType::Number,
             "1, m/rad or rad/m",
-            "Change of the other coordinate per change of the first; negative for gears that mesh outside.",
+            "Change of the dependent coordinate per change of the independent one; negative for external gears.",
         ),
         WHICH_COORDINATE,
         OTHER_COORDINATE,

@@ -9,7 +9,7 @@ use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "generalized_coordinates",
-    summary: "Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.",
+    summary: "Generalised coordinates that belong to no part, for springs, loads, gears and `coordinate_dynamics`.",
     sample: "start = [0.1, 0.0]\n[springs.my_masses]\nkind = \"coordinate_dynamics\"\ncoordinates = [\"my_joint\"]\nmass = [2.0, 1.0]",
     parameters: &[
         Parameter::required(

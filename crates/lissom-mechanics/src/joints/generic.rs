@@ -34,12 +34,12 @@ pub const KIND: JointKind = JointKind {
         "locked",
         ParameterType::Choices(&WORDS),
         "",
-        "What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them.",
+        "Locked motions: x along `axis`, y along `second_axis`, z perpendicular to both; rx, ry, rz about them.",
     )],
     build: Build::Relative(Frames::GivenOrGlobalAxes, |parameters, _| {
         let words = parameters.words("locked")?;
         if words.is_empty() {
-            return Err(ParameterError::new("locked", "is empty: the joint would hold nothing"));
+            return Err(ParameterError::new("locked", "is empty: the joint would have no effect"));
         }
         Ok(locking(WORDS.map(|word| words.iter().any(|given| given == word))))
     }),

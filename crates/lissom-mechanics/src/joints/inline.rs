@@ -6,7 +6,7 @@ use super::kind::{Build, Frames, JointKind};
 /// Registry entry: the generic joint that locks two translations. Unlike `point_on_line` it has no coordinate.
 pub const KIND: JointKind = JointKind {
     name: "inline",
-    summary: "The tip's point moves along a line of the base; like `point_on_line`, but without a coordinate.",
+    summary: "The tip's point moves along a line fixed in the base; like `point_on_line`, but without a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
     parameters: &[],
     build: Build::Relative(Frames::Axis, |_, _| Ok(locking([true, true, false, false, false, false]))),

@@ -17,7 +17,7 @@ use crate::registry::ANGLE_AT_START;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "parallel_axes",
-    summary: "The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.",
+    summary: "The tip rotates only about `axis` and translates freely; the relative rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[ANGLE_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {

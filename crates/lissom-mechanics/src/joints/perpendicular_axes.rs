@@ -6,7 +6,7 @@ use super::kind::{Build, Frames, JointKind};
 /// Registry entry: the generic joint that locks only the rotation about the third axis.
 pub const KIND: JointKind = JointKind {
     name: "perpendicular_axes",
-    summary: "Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.",
+    summary: "Keeps `axis`, fixed in the base, perpendicular to `second_axis`, fixed in the tip.",
     sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 1.0, 0.0]",
     parameters: &[],
     build: Build::Relative(Frames::TwoAxes, |_, _| Ok(locking([false, false, false, false, false, true]))),

@@ -17,7 +17,7 @@ use crate::registry::ANGLE_AT_START;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "planar",
-    summary: "The tip moves in the base's plane perpendicular to `axis` and turns about it; the rotation is a coordinate.",
+    summary: "The tip translates in the plane perpendicular to `axis` and rotates about it; the rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[ANGLE_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {

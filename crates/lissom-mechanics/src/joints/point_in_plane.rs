@@ -6,7 +6,7 @@ use super::kind::{Build, Frames, JointKind};
 /// Registry entry: the generic joint that locks only the translation along the third axis.
 pub const KIND: JointKind = JointKind {
     name: "point_in_plane",
-    summary: "The tip's point moves in the base's plane perpendicular to `axis`; the tip turns freely.",
+    summary: "The tip's point moves in the base's plane perpendicular to `axis`; the tip rotates freely.",
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[],
     build: Build::Relative(Frames::Axis, |_, _| Ok(locking([false, false, true, false, false, false]))),

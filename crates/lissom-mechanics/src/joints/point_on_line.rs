@@ -17,7 +17,7 @@ use crate::registry::DISPLACEMENT_AT_START;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "point_on_line",
-    summary: "The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.",
+    summary: "The tip's point slides along a line fixed in the base; the tip rotates freely; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
     parameters: &[DISPLACEMENT_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {

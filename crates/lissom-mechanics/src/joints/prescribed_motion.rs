@@ -26,15 +26,15 @@ pub const COMPONENTS: [(&str, Quantity); 6] = [
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "prescribed_motion",
-    summary: "Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.",
+    summary: "Prescribes displacements and rotations of the tip as functions of time; omitted ones are zero.",
     sample: "x = \"0.01*(1 - cos(2*pi*t))\"\nrz = \"0.1*t^2\"",
     parameters: &[
         displacement("x", "Displacement along `axis` from the start."),
         displacement("y", "Displacement along `second_axis`."),
-        displacement("z", "Displacement across both."),
+        displacement("z", "Displacement perpendicular to both."),
         rotation("rx", "Rotation about `axis` from the start."),
-        rotation("ry", "Rotation about `second_axis` as turned by `rx`."),
-        rotation("rz", "Rotation about the third axis as turned by `rx` and `ry`."),
+        rotation("ry", "Rotation about `second_axis` after its rotation by `rx`."),
+        rotation("rz", "Rotation about the third axis after its rotations by `rx` and `ry`."),
     ],
     build: Build::Motion,
 };

@@ -20,7 +20,7 @@ const SLIDE: usize = 0;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "prismatic",
-    summary: "The tip slides along an axis without turning; the displacement is a coordinate.",
+    summary: "The tip slides along an axis without rotation; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
     parameters: &[DISPLACEMENT_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {

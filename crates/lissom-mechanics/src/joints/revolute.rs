@@ -17,7 +17,7 @@ use crate::registry::ANGLE_AT_START;
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "revolute",
-    summary: "Two nodes share a point and an axis; the relative rotation is a coordinate.",
+    summary: "The tip rotates about an axis through a common point; the relative rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[ANGLE_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {

@@ -6,7 +6,7 @@ use super::kind::{Build, Frames, JointKind};
 /// Registry entry. The joint frames of a clamp may be anywhere: here, at the tip node.
 pub const KIND: JointKind = JointKind {
     name: "rigid_link",
-    summary: "Joins two nodes at different positions by a massless rigid link.",
+    summary: "Connects two nodes at different positions by a massless rigid link.",
     sample: "",
     parameters: &[],
     build: Build::Relative(Frames::Point, |_, _| Ok(Box::new(Clamp))),

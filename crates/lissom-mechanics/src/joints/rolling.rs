@@ -27,40 +27,40 @@ use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "rolling",
-    summary: "A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.",
+    summary: "A wheel, disc or ball rolls on a plane of the base without sliding or lifting off.",
     sample: "axis = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]",
     parameters: &[
         Parameter::required(
             "wheel_axis",
             ParameterType::Direction,
             "",
-            "Axis of the wheel at the start, global axes; it goes through the tip's position, the wheel's centre.",
+            "Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre.",
         ),
         Parameter::optional(
             "radius",
             ParameterType::NotNegative,
             "m",
-            "Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 \
-             makes a ball of radius `rim`.",
+            "Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for \
+            a ball of radius `rim`.",
         ),
         Parameter::optional(
             "rim",
             ParameterType::NotNegative,
             "m",
-            "Radius of the rounding of the rim; default 0, a sharp edge.",
+            "Rounding radius of the rim; default 0, a sharp edge.",
         ),
         Parameter::optional(
             "friction_coefficient",
             ParameterType::Positive,
             "",
-            "Coefficient of friction: a warning reports when rolling takes more; default: there is no limit.",
+            "Coefficient of friction; a warning reports when rolling requires more; default: no limit.",
         ),
         Parameter::optional(
             "creep",
             ParameterType::NotNegative,
             "m/(N s)",
-            "Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other \
-             on one axle need it.",
+            "Sliding velocity per force, a linear law of creep; default 0: no sliding. Required for several wheels on one axle, which \
+            constrain each other.",
         ),
     ],
     build: Build::Relative(Frames::SpanWithAxis, |parameters, geometry| {
@@ -82,7 +82,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
     let height = geometry.span.z.abs();
     if height <= 0.0 {
         let problem =
-            "lies in the plane: its position must be the centre of the wheel, and `at` a point of the plane";
+            "is in the plane: its position must be the centre of the wheel, and `at` a point of the plane";
         return Err(ParameterError::new("tip", problem));
     }
     let mut contact = Contact {
@@ -97,7 +97,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
     let fitting = (height - rim) / upright;
     contact.radius = parameters.number_or("radius", fitting)?;
     if contact.radius > 0.0 && upright < 1e-3 {
-        let problem = "is across the plane: the wheel lies flat on it, and cannot roll";
+        let problem = "is perpendicular to the plane: the wheel is flat on it and cannot roll";
         return Err(ParameterError::new("wheel_axis", problem));
     }
     let reach = contact.radius * upright + rim;
@@ -107,7 +107,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
     }
     if (reach - height).abs() > CLOSED * height.max(reach) {
         let problem = format!(
-            "says that the wheel's centre is {reach:.9} m from the plane, but at the start it is {height:.9} m from it: \
+            "implies that the wheel's centre is {reach:.9} m from the plane, but at the start it is {height:.9} m from it: \
              move the wheel or the plane's point `at`, or leave `radius` out"
         );
         return Err(ParameterError::new("radius", problem));

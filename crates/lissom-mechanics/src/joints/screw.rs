@@ -19,14 +19,14 @@ use crate::registry::{ANGLE_AT_START, Parameter, ParameterType};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "screw",
-    summary: "The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.",
+    summary: "The tip rotates about an axis and moves along it in proportion; the rotation is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]\nlead = 5e-3",
     parameters: &[
         Parameter::required(
             "lead",
             ParameterType::Number,
             "m",
-            "Displacement along `axis` per turn; negative for a left-handed thread.",
+            "Displacement along `axis` per revolution; negative for a left-handed thread.",
         ),
         ANGLE_AT_START,
     ],

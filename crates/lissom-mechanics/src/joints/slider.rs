@@ -25,14 +25,13 @@ use crate::registry::{Parameter, ParameterType};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "slider",
-    summary: "A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.",
+    summary: "A point of the tip slides along a flexible beam or a chain of beams, across element boundaries.",
     sample: "",
     parameters: &[Parameter::optional(
         "orientation",
         ParameterType::Choice(&["free", "tangent", "section"]),
         "",
-        "What the tip turns with: nothing, \"free\" (default); the line's \"tangent\", about which it turns freely; or the beam's \
-         \"section\", as a spline.",
+        "Rotation of the tip: \"free\" (default); with the line's \"tangent\", about which it rotates freely; or with the beam's \"section\", as on a spline shaft.",
     )],
     build: Build::AlongBeams,
 };

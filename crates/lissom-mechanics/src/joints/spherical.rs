@@ -17,7 +17,7 @@ use super::{
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "spherical",
-    summary: "Two nodes share a point and turn freely about it.",
+    summary: "The tip rotates freely about a common point of both nodes.",
     sample: "",
     parameters: &[],
     build: Build::Relative(Frames::Point, |_, _| Ok(Box::new(Spherical))),

@@ -16,19 +16,19 @@ use crate::registry::{Parameter, ParameterError, ParameterType};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "swing_arm",
-    summary: "A massless arm, hinged to the base about an axis, carries the tip's point.",
+    summary: "A massless link with a revolute joint at the base and a spherical joint at the tip.",
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[Parameter::optional(
         "angle",
         ParameterType::Number,
         "rad",
-        "Value of the arm's angle at the start; default 0.",
+        "Value of the link's angle at the start; default 0.",
     )],
     build: Build::Relative(Frames::SpanWithAxis, |parameters, geometry| {
         let angle = parameters.number_or("angle", 0.0)?;
         let arm = elementary(2, angle).tr_mul(&geometry.span);
         if arm.x.hypot(arm.y) == 0.0 {
-            return Err(ParameterError::new("tip", "lies on the hinge's axis: the arm has no length"));
+            return Err(ParameterError::new("tip", "is on the hinge's axis: the link has no length"));
         }
         Ok(Box::new(SwingArm { arm, angle, equations: if geometry.planar { 2 } else { 3 } }))
     }),

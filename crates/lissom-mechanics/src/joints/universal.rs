@@ -16,7 +16,7 @@ use super::{
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "universal",
-    summary: "Two nodes share a point and a cross of two axes; both rotations are coordinates.",
+    summary: "Two nodes share a point; two perpendicular axes, one fixed in each; both rotations are coordinates.",
     sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 1.0, 0.0]",
     parameters: &[],
     build: Build::Relative(Frames::TwoAxes, |_, _| Ok(Box::new(Universal))),

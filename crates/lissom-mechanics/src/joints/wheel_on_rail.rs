@@ -36,46 +36,47 @@ const OF_CREEP: [&str; 7] =
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "wheel_on_rail",
-    summary: "A wheel runs on a rail of the base, which is straight, without leaving it; it creeps where it is said how.",
+    summary: "A wheel rolls on a straight rail of the base without lifting off, with creep forces if they are specified.",
     sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 0.0, 1.0]\nhead_radius = 0.3",
     parameters: &[
         Parameter::optional(
             "axle",
             ParameterType::Direction,
             "",
-            "Axis of the wheel at the start, global axes; it goes through the tip's position. Default: `axis`.",
+            "Axis of the wheel at the start, global axes, through the tip's position; default: `axis`.",
         ),
         Parameter::optional(
             "radius",
             ParameterType::Positive,
             "m",
-            "Radius of the wheel at its nominal circle; default: so that it touches the rail at the start.",
+            "Radius of the wheel at its nominal circle; default: the one with which it touches the rail at the start.",
         ),
         Parameter::optional(
             "offset",
             ParameterType::Number,
             "m",
-            "Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the \
-             rail's point `at` at the start.",
+            "Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the \
+            rail's point `at` at the start.",
         ),
         Parameter::optional(
             "cone_angle",
             ParameterType::Number,
             "rad",
-            "Angle of the wheel's cone: its radius falls outwards by the tangent; default 0.",
+            "Cone angle of the wheel: its radius decreases outwards; default 0.",
         ),
         Parameter::optional(
             "wheel_profile",
             ParameterType::FunctionOf("y"),
             "m",
-            "Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal \
-             circle; needs `tread`.",
+            "Instead of `cone_angle`: deviation from the nominal radius over the position `y` along the axis, outwards from the nominal \
+            circle; requires `tread`.",
         ),
         Parameter::optional(
             "tread",
             ParameterType::Range,
             "m",
-            "Positions `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides.",
+            "Range of positions `y` at which the wheel may touch the rail; a warning reports contact outside; default: half the radius \
+            in both directions.",
         ),
         Parameter::optional(
             "head_radius",
@@ -99,44 +100,44 @@ pub const KIND: JointKind = JointKind {
             "friction_coefficient",
             ParameterType::Positive,
             "",
-            "Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across.",
+            "Limit of the creep force over the normal force; default: no creep forces.",
         ),
         Parameter::optional(
             "shear_modulus",
             ParameterType::Positive,
             "N/m^2",
-            "Shear modulus of wheel and rail, of creep forces.",
+            "Shear modulus of wheel and rail, for creep forces.",
         ),
         Parameter::optional(
             "poisson_number",
             ParameterType::NotNegative,
             "",
-            "Poisson's number; default 0.28.",
+            "Poisson's ratio; default 0.28.",
         ),
         Parameter::optional(
             "kalker",
             ParameterType::Vector,
             "",
-            "Kalker's coefficients of longitudinal, lateral and spin creep: C11, C22, C23.",
+            "Kalker's coefficients C11, C22 and C23 of longitudinal, lateral and spin creep.",
         ),
         Parameter::optional(
             "ellipse",
             ParameterType::Numbers,
             "",
-            "Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of \
-             Hertz for the nominal curvatures.",
+            "Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the \
+            nominal curvatures.",
         ),
         Parameter::optional(
             "velocity",
             ParameterType::GlobalVector,
             "m/s",
-            "Velocity of the base along the rail in global axes, for models in axes that run with a vehicle; default 0.",
+            "Velocity of the base along the rail in global axes, for models in axes that move with a vehicle; default 0.",
         ),
         Parameter::optional(
             "wheel_spin",
             ParameterType::Number,
             "rad/s",
-            "Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0.",
+            "Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it; default 0.",
         ),
         Parameter::optional(
             "directions",
@@ -165,7 +166,7 @@ fn smooth(parameters: &Parameters, name: &str) -> Result<Function, ParameterErro
         Some(kink) => {
             let at = if kink.is_nan() { String::new() } else { format!(" at y = {kink:.6}") };
             let problem = format!(
-                "has a kink{at}: the normal would jump there; give a table `interpolation = \"spline\"`, or another function"
+                "has a kink{at}: the normal would jump there; specify a table `interpolation = \"spline\"`, or another function"
             );
             Err(ParameterError::new(name, problem))
         }
@@ -177,7 +178,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
         geometry.axes.apply_inverse(&parameters.vector_or("axle", geometry.axes.apply(&Vector3::x()))?);
     let given = given.try_normalize(0.0).ok_or_else(|| ParameterError::new("axle", "has no direction"))?;
     if given.x.abs() < 0.5 {
-        let problem = "must be within 60 degrees of `axis`, which goes across the rail";
+        let problem = "must be within 60 degrees of `axis`, which is across the rail";
         return Err(ParameterError::new("axle", problem));
     }
     let outwards = given.x.signum();
@@ -189,7 +190,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     }
     let exclusive = |one: &str, other: &str| {
         if parameters.has(one) && parameters.has(other) {
-            return Err(ParameterError::new(one, format!("replaces `{other}`: leave one of them out")));
+            return Err(ParameterError::new(one, format!("replaces `{other}`: remove one of them")));
         }
         Ok(())
     };
@@ -203,7 +204,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
     let nominal = parameters.number_or("radius", height.abs())?;
     let tread = parameters.range("tread")?.unwrap_or([-TREAD * nominal, TREAD * nominal]);
     if !(tread[0].is_finite() && tread[1].is_finite() && tread[0] <= 0.0 && tread[1] >= 0.0) {
-        return Err(ParameterError::new("tread", "must be finite and hold the nominal circle, y = 0"));
+        return Err(ParameterError::new("tread", "must be finite and contain the nominal circle, y = 0"));
     }
     let wheel = if parameters.has("wheel_profile") {
         if !parameters.has("tread") {

@@ -1,4 +1,4 @@
-//! What a model file wants computed, and how.
+//! The analysis that a model file requests, with its settings.
 
 use lissom_core::registry::{Parameter, Parameters};
 use lissom_core::solver_features::DisabledFeatures;
@@ -11,7 +11,7 @@ use crate::registry::{ChoiceEntry, Registry};
 use crate::report::{Located, Problem, Span};
 use crate::text::Node;
 
-/// What is computed.
+/// Kind of analysis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AnalysisKind {
     /// Motion in time.
@@ -36,10 +36,10 @@ pub enum AnalysisKind {
         end: f64,
         /// Most steps.
         most_steps: usize,
-        /// The bifurcation at which it goes over to the branch, counted from 1, negative for the other sense; 0 for none.
+        /// Number of the bifurcation at which it continues on the branch, from 1, negative for the opposite direction; 0 for none.
         branch: i32,
     },
-    /// Load factors of buckling, by a linear estimate.
+    /// Buckling load factors, by a linear estimate.
     Buckling {
         /// How many.
         count: usize,
@@ -76,7 +76,7 @@ pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 /// Most steps of a path where they are not given.
 const MAX_STEPS_OF_PATH: usize = 1000;
 
-/// Part of its work that a load step of chosen size may leave unexplained where nothing says otherwise.
+/// Default tolerance of the relative work error of adaptive load steps.
 const TOLERANCE_OF_WORK: f64 = 0.01;
 
 /// How steps are chosen.
@@ -90,10 +90,10 @@ pub struct StepChoice {
     pub output_step: Option<f64>,
 }
 
-/// Error allowed per step where a model names neither step nor tolerance.
+/// Tolerance of the local error if a model specifies neither step nor tolerance.
 const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-5;
-/// Tolerance of Newton's iterations where neither model nor scheme names one, and with chosen steps its part of what these
-/// may err. With a tenth steps of 1e-3 err eight times as much, with a ten-thousandth iterations are a quarter more.
+/// Default tolerance of Newton's iterations. With adaptive steps it is a fraction of their tolerance: with a tenth of that, steps
+/// of 1e-3 have eight times the error; with a ten-thousandth, iterations increase by a quarter.
 const DEFAULT_TOLERANCE: f64 = 1e-8;
 const NEWTON_PART: f64 = 1e-2;
 /// Scheme where steps are chosen and none is named.
@@ -113,7 +113,7 @@ pub enum Scaling {
     None,
 }
 
-/// What is computed, and how.
+/// Kind of analysis and its settings.
 #[derive(Clone, Debug)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the model file")]
 pub struct Analysis {
@@ -141,7 +141,7 @@ pub struct Analysis {
     pub tolerance: f64,
     /// Most iterations of a step.
     pub max_iterations: usize,
-    /// What is omitted from the search for a step's solution, for studies.
+    /// Disabled features of the nonlinear solver, for studies.
     pub disabled: DisabledFeatures,
     /// Steps from one record to the next.
     pub output_every: usize,
@@ -149,7 +149,7 @@ pub struct Analysis {
     pub frames_per_second: Option<f64>,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
-    /// Path in the model file to the number along which a path of equilibria goes; none for the load factor.
+    /// Path in the model file of the number varied along an equilibrium path; none for the load factor.
     pub vary: Option<Located<String>>,
     /// Whether constant loads of statics grow from nothing over the load steps.
     pub ramp: bool,
@@ -178,7 +178,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     let is_run = matches!(word, "dynamics" | "statics");
     let start = number("start", 0.0);
     let end = match (is_run, &start) {
-        // Loads are those of an instant; functions of time are tried a little beyond it.
+        // Loads are those of an instant; functions of time are also evaluated slightly after it.
         (false, Some(start)) => Some(Located::new(start.value + 1.0, name)),
         _ if reader.has("end") => reader.number("end"),
         _ => Some(Located::new(1.0, name)),
@@ -262,7 +262,7 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
         return reader.context.fail(
             reader.name,
             "the path along a number lacks `end`".to_owned(),
-            "give the value of the number at which the path ends",
+            "specify the value of the number at which the path ends",
         );
     }
     let end = if reader.has("end") { reader.number("end")? } else { Located::new(1.0, reader.name) };
@@ -283,7 +283,7 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
         return reader.context.fail(
             reader.node("branch")?.span,
             format!("`branch` must be a whole number, not {branch}"),
-            "1 is the first bifurcation of the path, -1 its branch in the other sense, 0 stays on the path",
+            "1 is the first bifurcation of the path, -1 its branch in the opposite direction; 0 continues the path",
         );
     }
     Some(AnalysisKind::Path { first, end: end.value, most_steps, branch: branch as i32 })
@@ -296,8 +296,8 @@ fn load_steps(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
     if let (Some(node), Some(_)) = (tolerance, steps) {
         return reader.context.fail(
             node.span,
-            "this is for load steps that are chosen, but `steps` gives their number".to_owned(),
-            "leave out one of them",
+            "this is for adaptive load steps, but `steps` specifies their number".to_owned(),
+            "remove one of them",
         );
     }
     let relative_tolerance = match tolerance {
@@ -327,8 +327,8 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     {
         return reader.context.fail(
             stray.span,
-            "this is for steps that are chosen by their error, but `step` is given alone".to_owned(),
-            "add `relative_tolerance`, or leave this out; `output_every` counts steps of one size",
+            "this is for adaptive steps, but only `step` is specified".to_owned(),
+            "add `relative_tolerance`, or remove this; `output_every` is for steps of equal size",
         );
     }
     if tolerance.is_none()
@@ -368,7 +368,7 @@ fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
     let Some(node) = reader.node("frames_per_second") else { return };
     let duration = analysis.end - analysis.start;
     if rate * duration > MAX_FRAMES {
-        let message = format!("`frames_per_second` asks for {:.0} frames of motion", rate * duration);
+        let message = format!("`frames_per_second` requires {:.0} frames of motion", rate * duration);
         let help = format!("at most {MAX_FRAMES} are recorded: choose at most {:e}", MAX_FRAMES / duration);
         reader.context.fail::<()>(node.span, message, help);
     }
@@ -408,10 +408,8 @@ fn scheme_parameters(
                 .map(|entry| entry.name);
             let message = format!("the scheme `{}` has no parameter `{}`", scheme.value, parameter.name);
             let problem = Problem::error(node.span, message).also(scheme.span, "this scheme");
-            let help = format!(
-                "it belongs to {}: leave it out, or choose that scheme",
-                crate::suggest::list(owners)
-            );
+            let help =
+                format!("it belongs to {}: remove it, or choose that scheme", crate::suggest::list(owners));
             reader.context.report(problem.help(help));
         }
     }

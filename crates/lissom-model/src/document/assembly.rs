@@ -1,4 +1,4 @@
-//! Parts that are placed approximately: the table `[assembly]`, and where joints lie on their tips.
+//! Approximate positions of parts: the table `[assembly]`, and the positions of joints on their tips.
 
 use lissom_motion::Vector3;
 
@@ -12,18 +12,18 @@ use crate::report::{Located, Problem, Span};
 /// Gap that counts as closed, relative to the size of the model.
 pub const DEFAULT_ASSEMBLY_TOLERANCE: f64 = 1e-10;
 
-/// What an assembly shall keep to.
+/// Settings of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssemblyRequest {
     /// Bodies, point masses and beams that stay where they are.
     pub fixed: Vec<(String, Span)>,
     /// Gap that counts as closed, relative to the size of the model; for angles [rad].
     pub tolerance: f64,
-    /// Where it is asked for.
+    /// Position of the request in the text.
     pub span: Span,
 }
 
-/// Where a joint lies on its tip, in global axes, with the tip as it is placed.
+/// Position of a joint on its tip, in global axes, for the approximate position of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OnTip {
     /// Location [m].
@@ -41,31 +41,33 @@ pub(super) fn keys() -> Vec<Key> {
             "fixed",
             Shape::Names,
             "",
-            "bodies, point masses, beams, superelements and entries of [parts] that do not move",
+            "bodies, point masses, beams, superelements and entries of [parts] that are not moved",
         ),
         optional(
             "tolerance",
             Shape::Positive,
             "",
-            "gap that counts as closed, relative to the size of the model; for angles [rad]; default 1e-10",
+            "tolerance of closed joints, relative to the size of the model; for angles [rad]; default 1e-10",
         ),
     ]
 }
 
-/// Keys of joints between two nodes that lie apart.
+/// Keys of joints whose positions on both nodes differ.
 pub(super) fn keys_on_tip(rule: FrameRule) -> Vec<Key> {
     let mut keys = vec![optional(
         "at_tip",
         Shape::Place,
         "m",
-        "location on the tip as it is placed, if elsewhere than `at`; needs [assembly]",
+        "location on the tip in its approximate position, if different from `at`; requires [assembly]",
     )];
     if rule != FrameRule::None {
-        let words = "direction of `axis` on the tip as it is placed, if another; needs `at_tip`";
+        let words =
+            "direction of `axis` on the tip in its approximate position, if different; requires `at_tip`";
         keys.push(optional("axis_at_tip", Shape::Direction, "", words));
     }
     if matches!(rule, FrameRule::TwoAxes | FrameRule::GivenOrGlobal) {
-        let words = "direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`";
+        let words =
+            "direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`";
         keys.push(optional("second_axis_at_tip", Shape::Direction, "", words));
     }
     keys
@@ -84,7 +86,7 @@ pub(super) fn assembly(context: &Context<'_>) -> Option<AssemblyRequest> {
     Some(AssemblyRequest { fixed, tolerance, span })
 }
 
-/// Where a joint lies on its tip.
+/// Position of a joint on its tip.
 pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located<OnTip>> {
     let context = reader.context;
     let known: Vec<&str> = keys_on_tip(rule).iter().map(|key| key.name).collect();
@@ -95,7 +97,7 @@ pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located
     let (axis, second_axis) = (direction("axis_at_tip"), direction("second_axis_at_tip"));
     let needs = |key: &str, other: &str, span| {
         let message = format!("{} has `{key}`, but not `{other}`", reader.what);
-        context.fail::<()>(span, message, format!("give `{other}`, too"));
+        context.fail::<()>(span, message, format!("also specify `{other}`"));
     };
     if let (Some(second), None) = (&second_axis, &axis) {
         needs("second_axis_at_tip", "axis_at_tip", second.span);

@@ -1,4 +1,4 @@
-//! Beams of a model file: their lines, which may hang on each other, and the sections along them.
+//! Beams of a model file: their lines, which may depend on each other, and the sections along them.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
 use crate::text::{Node, Value};
 
-/// A beam whose ends are not placed yet.
+/// A beam whose ends have no positions yet.
 struct Draft {
     name: Located<String>,
     form: Form,
@@ -85,7 +85,7 @@ fn form(reader: &Reader<'_, '_>, name: &str) -> Option<Form> {
     if let Some(node) = reader.node("curve") {
         if let Some(other) = ["from", "to", "through"].iter().find_map(|key| reader.node(key)) {
             let message = format!("{} has both a curve and ends", reader.what);
-            return context.fail(other.span, message, "leave out `curve`, or `from`, `to` and `through`");
+            return context.fail(other.span, message, "remove `curve`, or `from`, `to` and `through`");
         }
         let what = reader.words("curve");
         let list = context.list(node, 3, &what)?;
@@ -96,13 +96,14 @@ fn form(reader: &Reader<'_, '_>, name: &str) -> Option<Form> {
     let end = |key| {
         let Some(node) = reader.node(key) else {
             let message = format!("{} lacks `{key}`", reader.what);
-            let help = "give `from` and `to`, or a `curve` of three expressions of s";
+            let help = "write `from` and `to`, or a `curve` of three expressions of s";
             return context.fail(reader.name, message, help);
         };
         let end = context.place_or_node(node, &reader.words(key))?;
         match &end {
             PlaceOrNode::Node(node) if node.value == NodeReference::Ground => {
-                let message = format!("{} cannot start or end at `ground`, which is no place", reader.what);
+                let message =
+                    format!("{} cannot start or end at `ground`, which has no position", reader.what);
                 context.fail(
                     node.span,
                     message,
@@ -111,7 +112,7 @@ fn form(reader: &Reader<'_, '_>, name: &str) -> Option<Form> {
             }
             PlaceOrNode::Node(node) if matches!(&node.value, NodeReference::Beam { beam, .. } if beam == name) =>
             {
-                let message = format!("{} takes its end from itself", reader.what);
+                let message = format!("{} refers to itself for its end", reader.what);
                 context.fail(node.span, message, "name a point or a node of another part")
             }
             _ => Some(end),
@@ -140,7 +141,7 @@ fn stations(reader: &Reader<'_, '_>) -> Option<Vec<Station>> {
     };
     if reader.has("section") {
         let message = format!("{} has both `section` and `stations`", reader.what);
-        return context.fail(node.span, message, "leave one out");
+        return context.fail(node.span, message, "remove one of them");
     }
     let what = reader.words("stations");
     let Value::List(list) = &node.value else {
@@ -186,7 +187,7 @@ impl Context<'_> {
     }
 }
 
-/// Places beams whose ends are known, until nothing moves any more: then the rest hangs on itself.
+/// Determines the lines of beams whose ends are known, until none is left. The remaining ones depend on each other in a cycle.
 fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String, Vector3>) -> Vec<Beam> {
     let order: BTreeMap<String, usize> =
         drafts.iter().enumerate().map(|(index, draft)| (draft.name.value.clone(), index)).collect();
@@ -229,8 +230,8 @@ fn circle(context: &Context<'_>, waiting: &[Draft]) {
     let Some(first) = waiting.first() else { return };
     let names: Vec<&str> = waiting.iter().map(|draft| draft.name.value.as_str()).collect();
     let message =
-        format!("the beams {} take their ends from each other in a circle", crate::suggest::list(names));
-    context.fail::<()>(first.name.span, message, "give one of them ends at points");
+        format!("the ends of the beams {} refer to each other in a cycle", crate::suggest::list(names));
+    context.fail::<()>(first.name.span, message, "specify the ends of one of them as positions");
 }
 
 fn line(
@@ -259,31 +260,32 @@ fn line(
             let (from, to) = (at(from)?, at(to)?);
             if (to - from).norm() <= 1e-12 * from.norm().max(to.norm()) {
                 let message = format!("{what} has no length: it starts and ends at the same position");
-                return context.fail(draft.line_span, message, "give `from` and `to` different positions");
+                return context.fail(
+                    draft.line_span,
+                    message,
+                    "specify different positions for `from` and `to`",
+                );
             }
             match through {
                 None => Line::Straight { from, to },
                 Some(through) => match Line::arc(from, through.value, to) {
                     Ok(arc) => arc,
                     Err(error) => {
-                        let message = format!("{what} is no circular arc: {error}");
-                        return context.fail(
-                            through.span,
-                            message,
-                            "leave out `through` for a straight beam",
-                        );
+                        let message = format!("{what} is not a circular arc: {error}");
+                        return context.fail(through.span, message, "remove `through` for a straight beam");
                     }
                 },
             }
         }
     };
     if let Some(s) = line.fault() {
-        let message =
-            format!("{what} has no direction at s = {s}: its curve stands still or is not finite there");
+        let message = format!(
+            "{what} has no direction at s = {s}: the derivative of its curve is zero or not finite there"
+        );
         return context.fail(
             draft.line_span,
             message,
-            "the curve must move on everywhere from s = 0 to s = 1",
+            "the derivative of the curve must not vanish from s = 0 to s = 1",
         );
     }
     Some(line)
@@ -297,11 +299,11 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
             let inside = own.default_up();
             if let Some(s) = own.parallel_at(&inside) {
                 let message = format!(
-                    "beam `{}` has no default for `up`: its line runs along x, y and z, where axis 3 would flip to the other side",
+                    "beam `{}` has no default for `up`: its line is parallel to x, y and z at some positions, where axis 3 would reverse",
                     draft.name.value
                 );
                 let help = format!(
-                    "give it an `up` that is nowhere along the line; the default is z, parallel near s = {s:.3}"
+                    "specify an `up` that is nowhere parallel to the line; the default is z, parallel near s = {s:.3}"
                 );
                 return context.fail(draft.line_span, message, help);
             }
@@ -314,14 +316,16 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
         Some(up) if line.is_parallel_somewhere(&up.value) => {
             let message = match line.parallel_at(&up.value) {
                 Some(s) if s > 0.0 => format!(
-                    "`up` of beam `{}` is parallel to the beam near s = {s:.3}, where axis 3 would flip to the other side",
+                    "`up` of beam `{}` is parallel to the beam near s = {s:.3}, where axis 3 would reverse",
                     draft.name.value
                 ),
                 _ => format!("`up` of beam `{}` is parallel to the beam", draft.name.value),
             };
             let problem = Problem::error(up.span, message).label("along the beam");
             context.report(
-                problem.help("axis 3 leans to `up`: choose a direction across the beam, or leave it out"),
+                problem.help(
+                    "axis 3 is oriented towards `up`: choose a direction across the beam, or remove it",
+                ),
             );
             return None;
         }
@@ -339,8 +343,7 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
         if let NodeReference::PointMass(name) = &shared.value {
             let message =
                 format!("beam `{}` cannot share the node of the point mass `{name}`", draft.name.value);
-            let help =
-                "a point mass does not turn: end the beam at a point and add a joint of kind \"spherical\"";
+            let help = "a point mass has no rotation: specify the end as a position and add a joint of kind \"spherical\"";
             return context.fail(shared.span, message, help);
         }
     }

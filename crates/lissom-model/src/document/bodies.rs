@@ -53,7 +53,11 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
             let density = own.number("density")?.value;
             let Some(solid) = &solid else {
                 let message = format!("{what} has a density, but `inertia` names no solid");
-                return context.fail(node.span, message, "give inertia = { box = [a, b, c] }, or a mass");
+                return context.fail(
+                    node.span,
+                    message,
+                    "write inertia = { box = [a, b, c] }, or specify a mass",
+                );
             };
             Some(density * solid.volume())
         }
@@ -67,7 +71,7 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
     Some((mass?, inertia?))
 }
 
-/// What is drawn, if it is given; the outer none reports a mistake.
+/// Shape for drawings, if it is specified; the outer `None` stands for an error.
 #[expect(clippy::option_option, reason = "a mistake, or nothing given")]
 fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surface>>> {
     let context = reader.context;
@@ -90,7 +94,7 @@ fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surfa
         }
         (Some(_), Some(node)) => {
             let message = format!("{} has both `shape` and `mesh`", reader.what);
-            context.fail(node.span, message, "leave one out")
+            context.fail(node.span, message, "remove one of them")
         }
     }
 }
@@ -104,7 +108,7 @@ fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
         ["box", "cylinder", "tube", "sphere"].into_iter().filter(|key| own.has(key)).collect();
     let [form] = given.as_slice() else {
         let message = format!("{what} must name one solid, not {}", given.len());
-        return context.fail(node.span, message, "give `box`, `cylinder`, `tube` or `sphere`");
+        return context.fail(node.span, message, "write `box`, `cylinder`, `tube` or `sphere`");
     };
     let axis = match own.choice("axis").map(|word| word.value) {
         Some("x") => 0,
@@ -112,7 +116,7 @@ fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
         _ => 2,
     };
     if own.has("axis") && matches!(*form, "box" | "sphere") {
-        return context.fail(node.span, format!("a {form} has no `axis`"), "leave it out");
+        return context.fail(node.span, format!("a {form} has no `axis`"), "remove it");
     }
     let value = own.node(form)?;
     let solid = match *form {
@@ -131,7 +135,7 @@ fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
         return Some(solid);
     }
     let message = format!(
-        "{what} is no solid: lengths must be greater than zero, and the outer radius above the inner"
+        "{what} is not a valid solid: lengths must be greater than zero, and the outer radius must exceed the inner one"
     );
     context.fail(value.span, message, "check the order of the numbers")
 }
@@ -154,12 +158,12 @@ pub(super) fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })
 }
 
-/// Degrees show as a rotation by more than a turn, which brings axes nowhere that a smaller one does not.
+/// A rotation by more than one revolution indicates degrees, because a smaller one would have the same result.
 fn warn_of_degrees(reader: &Reader<'_, '_>, node: &Node) {
     let what = reader.words("rotation");
     let Some(angle) = reader.context.vector(node, &what).map(|vector| vector.norm()) else { return };
     if angle > TAU * (1.0 + 1e-9) {
-        let message = format!("{what} turns by {:.1} times a whole turn", angle / TAU);
+        let message = format!("{what} is {:.1} revolutions", angle / TAU);
         let help = "angles are in radians: write \"pi/2\" for 90 degrees";
         reader.context.report(Problem::warning(node.span, message).help(help));
     }
@@ -178,7 +182,7 @@ pub(crate) fn body_axes(
     };
     if rotation.is_some() {
         let message = format!("{what} has both `rotation` and `axes`");
-        return context.fail(node.span, message, "leave one out");
+        return context.fail(node.span, message, "remove one of them");
     }
     let what = format!("`axes` of {what}");
     let list = context.list(node, 2, &what)?;
@@ -186,14 +190,14 @@ pub(crate) fn body_axes(
     let second = context.own_direction(&list[1], &format!("the second of {what}"));
     let (first, second) = (first?, second?);
     if are_parallel(&first, &second) {
-        return context.fail(node.span, format!("{what} are parallel"), "give two directions that differ");
+        return context.fail(node.span, format!("{what} are parallel"), "specify two different directions");
     }
     let one = first.normalize();
     let three = one.cross(&second).normalize();
     let exact = one.dot(&second.normalize()).abs() < 1e-6;
     if !exact {
         let message = format!("{what} must be perpendicular to each other");
-        return context.fail(node.span, message, "give the first and the second axis of the body");
+        return context.fail(node.span, message, "specify the first and the second axis of the body");
     }
     Some(Matrix3::from_columns(&[one, three.cross(&one), three]))
 }
@@ -209,9 +213,11 @@ fn global_plane(reader: &Reader<'_, '_>, plane: Plane) -> Option<Plane> {
     let planes = [(Plane::Yz, turned.x), (Plane::Zx, turned.y), (Plane::Xy, turned.z)];
     let found = planes.into_iter().find(|(_, cosine)| cosine.abs() > 1.0 - 1e-12);
     found.map(|(plane, _)| plane).or_else(|| {
-        let message =
-            format!("the plane of {} is none of the global axes, as its part is turned", reader.what);
-        reader.context.fail(reader.name, message, "leave out `plane`, and hold the point mass by a joint")
+        let message = format!(
+            "the plane of {} is not a plane of global axes, because its part is rotated",
+            reader.what
+        );
+        reader.context.fail(reader.name, message, "remove `plane`, and constrain the point mass by a joint")
     })
 }
 

@@ -1,4 +1,4 @@
-//! Joints, springs and loads of a model file: what they are attached to, and the parameters of their kind.
+//! Joints, springs and loads of a model file: their attachment, and the parameters of their kind.
 
 use lissom_core::registry::{Parameters, Value as Held};
 use lissom_motion::Vector3;
@@ -60,8 +60,8 @@ pub(super) fn read(
     })
 }
 
-/// The kinds that entries of `table` name, alone: the forms of all take longer to make than the entries to read, which counts in
-/// sweeps. None where an entry names no kind or an unknown one, so that the complaint can name all.
+/// The kinds in use in `table`: building the forms of all kinds takes longer than reading the entries, which is significant in
+/// sweeps. None if the kind of an entry is missing or unknown, so that the error message can list all of them.
 fn named(context: &Context<'_>, table: &str, kinds: &[KindEntry]) -> Option<Registry> {
     let mut named: Vec<KindEntry> = Vec::new();
     for (_, _, node) in context.entries(table) {
@@ -94,7 +94,11 @@ fn friction(reader: &Reader<'_, '_>) -> Option<Located<Parameters>> {
     if let Some(at_rest) = own.number("static") {
         if at_rest.value < coulomb {
             let message = format!("`static` of {} is below `coulomb`", own.what);
-            return context.fail(at_rest.span, message, "friction at rest is not smaller than in motion");
+            return context.fail(
+                at_rest.span,
+                message,
+                "static friction must not be smaller than sliding friction",
+            );
         }
         if at_rest.value > coulomb {
             parameters.insert("breakaway", Held::Number(at_rest.value - coulomb));
@@ -127,7 +131,7 @@ fn attachment(
             let nodes = two_nodes(reader);
             let (axis, second_axis) = axes(reader, rule)?;
             let (base, tip) = nodes?;
-            // The ground has no position of its own: where it is the tip, the base node's position is meant.
+            // The ground has no position: if it is the tip, the position is that of the base node.
             let place = if tip.value == NodeReference::Ground { at("at", &base) } else { at("at", &tip) };
             Some(Attachment::TwoNodes { at: place?, base, tip, axis, second_axis })
         }
@@ -140,7 +144,7 @@ fn attachment(
             let on = reader.node("on").and_then(|node| reader.context.node(node, &reader.words("on")))?;
             if on.value == NodeReference::Ground {
                 let message = format!("{} acts on the ground, which does not move", reader.what);
-                return reader.context.fail(on.span, message, "name the node of a body or beam");
+                return reader.context.fail(on.span, message, "specify the node of a body or beam");
             }
             Some(Attachment::OneNode { at: at("at", &on)?, on })
         }
@@ -232,7 +236,7 @@ fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Ve
         return context.fail(
             node.span,
             format!("{what} is empty"),
-            "name coordinates, such as \"arm.angle\"",
+            "list coordinates, such as \"arm.angle\"",
         );
     }
     let all: Vec<_> = list.iter().map(read).collect();
@@ -258,7 +262,7 @@ fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located
     let (base, tip) = (node("base"), node("tip"));
     let (base, tip) = (base?, tip?);
     if base.value == tip.value {
-        let message = format!("{} leads from a node to the same node", reader.what);
+        let message = format!("{} connects a node to itself", reader.what);
         let problem = Problem::error(tip.span, message).label("the same").also(base.span, "base");
         context.report(problem.help("`base` and `tip` must be different nodes"));
         return None;
@@ -271,7 +275,7 @@ type Axes = (Option<Located<Vector3>>, Option<Located<Vector3>>);
 /// Cosine between axes that count as perpendicular: digits of a text.
 const PERPENDICULAR: f64 = 1e-5;
 
-/// The directions the frame rule asks for; `None` where one of them is wrong or missing.
+/// The directions required by the frame rule; `None` if one of them is invalid or missing.
 fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
     match rule {
         FrameRule::None => Some((None, None)),
@@ -282,7 +286,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                     (rule, reader.node(key), reader.node(other))
                 {
                     let message = format!("{} has `{other}`, but not `{key}`", reader.what);
-                    return reader.context.fail(given.span, message, "give both axes, or none");
+                    return reader.context.fail(given.span, message, "specify both axes, or none");
                 }
             }
             let (first, second) = (reader.vector("axis"), reader.vector("second_axis"));
@@ -291,7 +295,7 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                 let message = format!("the two axes of {} are parallel", reader.what);
                 let problem =
                     Problem::error(second.span, message).label("parallel").also(first.span, "first axis");
-                reader.context.report(problem.help("give two directions that differ"));
+                reader.context.report(problem.help("specify two different directions"));
                 return None;
             }
             let cosine = first.value.normalize().dot(&second.value.normalize());
@@ -324,7 +328,7 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let is_joint = context.names("joints").contains(&(name, reader.name));
     if is_joint && joint.value == name {
         let message = format!("{} acts on itself", reader.what);
-        return context.fail(joint.span, message, "name the joint whose coordinate it prescribes");
+        return context.fail(joint.span, message, "specify the joint whose coordinate it prescribes");
     }
     let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
     let Value::Text(kind) = &word.value else { return None };
@@ -338,6 +342,6 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);
     let problem = Problem::error(joint.span, message).label("no coordinate");
     let problem = problem.also(word.span, format!("a {kind} joint"));
-    context.report(problem.help("name a joint with an axis, such as a revolute one"));
+    context.report(problem.help("specify a joint with an axis, such as a revolute joint"));
     None
 }

@@ -1,4 +1,4 @@
-//! Checks across tables: where nodes are, what hangs on what, and functions that fail during the analysis.
+//! Checks across tables: positions of nodes, connectivity, and functions that fail during the analysis.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -50,7 +50,7 @@ impl Places {
     }
 }
 
-/// What can only be seen with the whole model at hand.
+/// Checks that require the whole model.
 pub(super) fn check(context: &Context<'_>, document: &Document) {
     free_parts(context, document);
     functions(context, document);
@@ -60,9 +60,9 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     under_sliders(context, document);
 }
 
-/// A slider hands its force to the nodes about it: sections between them do not know where it is. Within one element it
-/// leaves out up to half of its force of the shear, and of the moment the parts of force times length of an element that
-/// `order` says; farther away both are right.
+/// The force of a slider acts on the nodes around it, so sections between them do not depend on its position. Within one element
+/// the shear force lacks up to half of the slider's force, and the moment a fraction of force times element length that depends
+/// on `order`; farther away both are correct.
 fn under_sliders(context: &Context<'_>, document: &Document) {
     for output in &document.outputs {
         let OutputSource::Node { node, .. } = &output.source else { continue };
@@ -87,11 +87,11 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
             slider.name.value
         );
         let problem = Problem::warning(node.span, message).also(slider.name.span, "the slider");
-        context.report(problem.help("read them farther away, or take more elements"));
+        context.report(problem.help("evaluate them farther away, or use more elements"));
     }
 }
 
-/// Statics knows no rates and no samples.
+/// Rejects states and sampled signals in statics.
 fn at_rest(context: &Context<'_>, document: &Document) {
     let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     if !statics && !document.starts_in_equilibrium() {
@@ -99,20 +99,21 @@ fn at_rest(context: &Context<'_>, document: &Document) {
     }
     let what = if statics { "statics" } else { "a start from equilibrium" };
     for state in &document.states {
-        let message = format!("{what} knows no rates, so the state `{}` has no meaning", state.name.value);
-        context.fail::<()>(state.name.span, message, "remove it, or start a dynamic analysis as it is");
+        let message = format!("{what} has no rates, so the state `{}` is undefined", state.name.value);
+        context.fail::<()>(state.name.span, message, "remove it, or use an analysis of kind `dynamics`");
     }
     for signal in document.signals.iter().filter(|signal| signal.sampling.is_some()) {
-        let message = format!("{what} knows no samples, so the signal `{}` has no value", signal.name.value);
+        let message =
+            format!("{what} has no sampling times, so the signal `{}` has no value", signal.name.value);
         context.fail::<()>(
             signal.name.span,
             message,
-            "leave out `sample`, or start a dynamic analysis as it is",
+            "remove `sample`, or use an analysis of kind `dynamics`",
         );
     }
 }
 
-/// A part that was dropped without a word would change the model: whatever else is overlooked, this is reported.
+/// A part that is omitted without a message would change the model, so it is always reported.
 fn complete(context: &Context<'_>, document: &Document) {
     let read = [
         ("materials", document.materials.len()),
@@ -140,7 +141,7 @@ fn complete(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// Groups of parts that hang together; the ground is a part.
+/// Groups of connected parts; the ground is a part.
 #[derive(Default)]
 struct Groups<'d> {
     numbers: HashMap<&'d str, usize>,
@@ -157,7 +158,7 @@ impl<'d> Groups<'d> {
         number
     }
 
-    /// The number that represents a part's group. Halves the way there for those who come later.
+    /// Number that represents a part's group. Halves the path to it for later queries.
     fn root(&mut self, part: &'d str) -> usize {
         let mut number = self.number(part);
         while self.parents[number] != number {
@@ -234,7 +235,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         let free = root != ground;
         if free && statics {
             let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
-            context.fail::<()>(part.span, message, "add a joint or spring that leads to \"ground\"");
+            context.fail::<()>(part.span, message, "add a joint or spring that connects it to \"ground\"");
         } else if free && sizes.get(&root) == Some(&1) && parts.len() > 1 {
             let problem =
                 Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));

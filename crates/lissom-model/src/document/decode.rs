@@ -35,7 +35,7 @@ impl Document {
     /// `("analysis.step", "1e-4")`; a value that is no TOML counts as a text.
     ///
     /// # Errors
-    /// As [`Document::parse`]; also for overrides whose path leads nowhere.
+    /// As [`Document::parse`]; also if the path of an override does not exist.
     pub fn parse_with(
         text: &str,
         file_name: &str,
@@ -131,8 +131,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
 /// The version decides how the file is read, so it is checked before anything else.
 fn version(context: &Context<'_>) -> Option<()> {
     let Some((node, _)) = context.top("lissom") else {
-        let problem =
-            Problem::error(Span::default(), "the file does not say which version of the format it has");
+        let problem = Problem::error(Span::default(), "the file does not specify the version of its format");
         let help = format!("write `lissom = {}` in the first line", tables::VERSION);
         context.report(problem.label("before this").help(help));
         return None;
@@ -152,12 +151,12 @@ fn version(context: &Context<'_>) -> Option<()> {
     context.fail(node.span, message, help)
 }
 
-/// Words at the top, and whether each holds a table or a value as it must.
+/// Checks the keys at the top level and whether each is a table or a value as required.
 fn check_words(context: &Context<'_>) {
     for (word, span, node) in context.tops() {
         let Some(top) = tables::tops().find(|top| top.name == word) else {
             let help = suggest::help(word, tables::tops().map(|top| top.name));
-            let problem = Problem::error(span, format!("`{word}` is not a word of a model file"));
+            let problem = Problem::error(span, format!("`{word}` is not a key of a model file"));
             context.report(problem.label("unknown").maybe_help(help));
             continue;
         };
@@ -230,7 +229,7 @@ fn check_names(context: &Context<'_>) {
             }
             if context.instances.contains_key(name) {
                 let message = format!("the {} `{name}` has the name of a part", singular(table));
-                context.fail::<()>(span, message, "give it, or the entry of [parts], another name");
+                context.fail::<()>(span, message, "rename it, or the entry of [parts]");
             }
         }
     }
@@ -244,7 +243,7 @@ fn title(context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// A parameter may name those above it; one of a part also those around it, if it is not of a file of its own.
+/// A parameter may refer to those above it; one of a part in the same file also to those of enclosing parts.
 fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
     for (scope, own) in context.scopes.iter().enumerate() {
         if let (Some(parent), parts::Outside::All) = (own.parent, &own.outside) {
@@ -258,7 +257,7 @@ fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
             let what = format!("parameter `{name}`");
             if expression::is_reserved(name) {
                 let message = format!("a parameter cannot be called `{name}`");
-                context.fail::<()>(*span, message, "expressions give this word another meaning");
+                context.fail::<()>(*span, message, "this word has another meaning in expressions");
                 continue;
             }
             // A wrong parameter stays known, or every expression that names it would be wrong as well.
@@ -312,7 +311,7 @@ where
     if entries.is_empty() {
         return all;
     }
-    // All forms of a table are made once for its entries: they take longer than an entry.
+    // All forms of a table are built once for its entries: they take longer than an entry.
     let forms = variants(table, registry);
     for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));

@@ -36,7 +36,7 @@ pub(super) fn read(reader: &Reader<'_, '_>) -> Option<Vec<DistributedForce>> {
                     _ => entry.span,
                 };
                 let problem = Problem::error(place, format!("{what} cannot name `{}`", name.text));
-                let help = "it may name `s` from 0 to 1 along the beam, `t` and the parameters";
+                let help = "it may contain `s` from 0 to 1 along the beam, `t` and the parameters";
                 let near = suggest::help(&name.text, ["s", "t"]);
                 context.report(problem.label("unknown here").help(help).maybe_help(near));
                 return None;

@@ -22,27 +22,27 @@ pub struct EventEntry {
     pub direction: Direction,
     /// Whether the run ends there.
     pub stop: bool,
-    /// Inputs that change there, and what they become.
+    /// Inputs changed by the event, with their new values.
     pub set: Vec<(Located<String>, Located<Formula>)>,
 }
 
 /// Keys of an event.
 pub(super) fn keys() -> Vec<Key> {
     vec![
-        required(
-            "zero_of",
-            Shape::Formula,
-            "",
-            "the event happens where this expression passes through zero",
-        ),
+        required("zero_of", Shape::Formula, "", "the event occurs when this expression crosses zero"),
         optional(
             "direction",
             choice(&["both", "rising", "falling"]),
             "",
-            "which way it passes, default `both`",
+            "direction of the crossing, default `both`",
         ),
-        optional("stop", Shape::Flag, "", "whether the run ends there, default `false`"),
-        optional("set", Shape::Table, "", "inputs that change there, and expressions of what they become"),
+        optional("stop", Shape::Flag, "", "whether the run ends at the event, default `false`"),
+        optional(
+            "set",
+            Shape::Table,
+            "",
+            "inputs to be changed by the event, with expressions of their new values",
+        ),
     ]
 }
 
@@ -67,7 +67,7 @@ pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
                         .unwrap_or_else(|| format!("add `{input} = 0` to [inputs]: events set inputs only"));
                     return context.fail(
                         entry.key,
-                        format!("event `{name}` sets `{input}`, which is no input"),
+                        format!("event `{name}` sets `{input}`, which is not an input"),
                         help,
                     );
                 };
@@ -89,7 +89,7 @@ pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
 pub(super) fn check(context: &Context<'_>, analysis: &Analysis) {
     let first: Option<(&str, Span)> = context.names("events").first().copied();
     if let (AnalysisKind::Statics { .. }, Some((name, span))) = (&analysis.kind, first) {
-        let message = format!("event `{name}` cannot happen in statics: there is no motion in time");
+        let message = format!("event `{name}` cannot occur in statics: there is no motion in time");
         context.fail::<()>(span, message, "remove [events], or use `kind = \"dynamics\"`");
     }
 }

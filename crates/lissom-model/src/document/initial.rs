@@ -62,7 +62,7 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
         return reader.context.fail(
             reader.node("steady_rotation")?.span,
             "a start is in equilibrium at rest or in steady rotation, not both".to_owned(),
-            "leave out one of them",
+            "remove one of them",
         );
     }
     let (velocity, angular_velocity) = (vector("velocity")?, vector("angular_velocity")?);
@@ -78,7 +78,7 @@ pub(super) fn parts(reader: &Reader<'_, '_>, key: &str) -> Vec<(String, Span)> {
         return Vec::new();
     };
     if list.is_empty() {
-        context.fail::<()>(node.span, format!("{what} is empty"), "name parts, or leave it out");
+        context.fail::<()>(node.span, format!("{what} is empty"), "list parts, or remove it");
     }
     let mut found = Vec::new();
     for entry in list {
@@ -93,7 +93,7 @@ pub(super) fn parts(reader: &Reader<'_, '_>, key: &str) -> Vec<(String, Span)> {
             known.clone().filter(|known| known == name || (is_part && known.starts_with(&inside))).collect();
         if meant.is_empty() {
             let problem =
-                Problem::error(entry.span, format!("{what} names `{name}`, which is nothing that moves"));
+                Problem::error(entry.span, format!("{what} names `{name}`, which is not a moving part"));
             let known = known.chain(context.instances.keys().map(String::as_str));
             let help = suggest::help(name, known);
             let first = "name bodies, point masses, beams, superelements or entries of [parts]";

@@ -33,7 +33,7 @@ fn warn_of_units(reader: &Reader<'_, '_>, young: &Located<f64>, density: f64) {
     let square = young.value / density;
     if square < SOFTEST {
         let message = format!(
-            "sound would go through {} at {:.2} m/s alone, so soft is it: `E` or `density` may be in other units",
+            "the speed of sound in {} would be only {:.2} m/s: `E` or `density` may be in other units",
             reader.what,
             square.sqrt()
         );
@@ -48,7 +48,7 @@ fn shear_modulus(reader: &Reader<'_, '_>, young: Option<f64>) -> Option<f64> {
     match (reader.node("G"), reader.node("nu")) {
         (Some(_), Some(nu)) => {
             let message = format!("{} has both `G` and `nu`", reader.what);
-            let help = "one of them follows from the other: leave one out";
+            let help = "each determines the other: remove one of them";
             return reader.context.fail(nu.span, message, help);
         }
         (None, None) => {
@@ -194,5 +194,5 @@ fn slice_inertia(inner: &Reader<'_, '_>, node: &crate::text::Node) -> Option<Mat
     if moments.min() > 0.0 {
         return Some(Matrix3::from_diagonal(&Vector3::new(moments.x, moments.y, moments.z)));
     }
-    inner.context.fail(node.span, format!("{what} must be three positive numbers"), "give [J11, J22, J33]")
+    inner.context.fail(node.span, format!("{what} must be three positive numbers"), "write [J11, J22, J33]")
 }

@@ -1,5 +1,5 @@
 //! The model file as plain data: everything named, checked and in SI, with the positions of names and values kept
-//! for later complaints. Knows no system, no unknowns and no time scheme.
+//! for later error messages. Independent of system, unknowns and time scheme.
 
 pub(crate) mod analysis;
 mod analysis_tables;
@@ -106,19 +106,19 @@ pub struct Document {
     pub signals: Vec<SignalEntry>,
     /// First-order states.
     pub states: Vec<StateEntry>,
-    /// What happens when expressions pass through zero.
+    /// Actions when expressions cross zero.
     pub events: Vec<EventEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
     /// Rigid motions at the start of parts that move otherwise, by the names of bodies, point masses and beams.
     pub initial_of_parts: BTreeMap<String, InitialMotion>,
-    /// What to do about parts that are placed approximately; none where all joints must fit.
+    /// Correction of approximate positions; none if all joints must be closed.
     pub assembly: Option<AssemblyRequest>,
-    /// What is recorded.
+    /// Quantities to be recorded.
     pub outputs: Vec<Output>,
-    /// What is computed.
+    /// Kind of analysis.
     pub analysis: Analysis,
-    /// What may not be meant as it is written.
+    /// Warnings about probable mistakes.
     pub warnings: Report,
     sources: Sources,
 }
@@ -134,7 +134,7 @@ impl Document {
         self.sources.within(whole, text, range)
     }
 
-    /// The rigid motion at the start of the body, point mass or beam called `part`; none where nothing is said of it.
+    /// Initial rigid motion of the body, point mass or beam `part`; none if it is not specified.
     pub fn initial_motion(&self, part: &str) -> Option<&InitialMotion> {
         self.initial_of_parts.get(part).or(self.initial.as_ref())
     }
@@ -194,7 +194,7 @@ pub struct Material {
 pub struct Section {
     /// Name.
     pub name: Located<String>,
-    /// What is drawn.
+    /// Shape for drawings.
     pub outline: Outline,
     /// Stiffness, mass and damping.
     pub properties: SectionProperties,
@@ -228,7 +228,7 @@ pub struct Beam {
     pub elements: Located<usize>,
     /// Polynomial order: elements of `order + 1` nodes.
     pub order: usize,
-    /// Direction that local axis 3 leans to; nowhere parallel to the line.
+    /// Direction towards which local axis 3 is oriented; nowhere parallel to the line.
     pub up: Vector3,
     /// Turn about the tangent [rad], an expression of the fraction `s`.
     pub twist: Expression,
@@ -271,7 +271,7 @@ pub struct Body {
     pub axes: Matrix3,
     /// Centre of mass in body axes [m].
     pub center_of_mass: Vector3,
-    /// What is drawn, where it is given.
+    /// Shape for drawings, if it is specified.
     pub surface: Option<Arc<Surface>>,
     /// Velocity of the reference point at the start, global axes [m/s]; `None` leaves it to the initial motion.
     pub velocity: Option<Located<Vector3>>,
@@ -320,7 +320,7 @@ pub struct Superelement {
     pub floating: usize,
     /// Its matrices, checked.
     pub matrices: ReducedMatrices,
-    /// What makes outputs of its unknowns, a row each.
+    /// Matrix for outputs from its unknowns, one row per output.
     pub recovery: Option<Arc<DMatrix<f64>>>,
 }
 
@@ -374,7 +374,7 @@ pub enum NodeReference {
 /// A joint, with the word of one of its coordinates, or with all of them.
 pub type CoordinateName = (Located<String>, Option<String>);
 
-/// What a joint, spring or load is attached to.
+/// Attachment of a joint, spring or load.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attachment {
     /// Two nodes at one location.
@@ -426,7 +426,7 @@ pub enum Attachment {
     NamedCoordinates,
     /// Joints, each with the word of one of its coordinates, or with all of them.
     Coordinates(Vec<CoordinateName>),
-    /// Beams one after the other, and what slides along them.
+    /// A chain of beams, and the node that slides along them.
     AlongBeams {
         /// Names of the beams.
         beams: Vec<Located<String>>,
@@ -446,7 +446,7 @@ pub struct Component {
     pub name: Located<String>,
     /// Word of its kind.
     pub kind: Located<String>,
-    /// What it is attached to.
+    /// Its attachment.
     pub attachment: Attachment,
     /// The parameters of its kind that were given.
     pub parameters: Parameters,
@@ -460,7 +460,7 @@ pub struct Component {
     pub release: Option<Located<Formula>>,
     /// Friction in a joint: the parameters of a friction element on its coordinate.
     pub friction: Option<Located<Parameters>>,
-    /// Where a joint lies on its tip, if elsewhere than on its base.
+    /// Position of a joint on its tip, if different from that on its base.
     pub on_tip: Option<Located<OnTip>>,
 }
 

@@ -1,6 +1,6 @@
-//! The kinds of recorded quantities: what a model file calls them, what they refer to and which keys they accept.
+//! The kinds of recorded quantities: their names in a model file, the parts to which they refer and their keys.
 
-/// What an output refers to.
+/// Part to which an output refers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Subject {
     /// Any node.
@@ -83,11 +83,11 @@ pub enum OutputKind {
     SectionForce,
     /// Torsion and bending moments in a beam [N m], local axes.
     SectionMoment,
-    /// Places of all nodes of a beam [m].
+    /// Positions of all nodes of a beam [m].
     Line,
     /// Modal coordinates of a superelement and their rates.
     Modal,
-    /// What the recovery matrix of a superelement makes of its deformation.
+    /// Product of a superelement's recovery matrix and its deformation.
     Recovered,
     /// Force and moment of a joint on its tip [N, N m], global axes.
     Reaction,
@@ -97,7 +97,7 @@ pub enum OutputKind {
     RelativeAcceleration,
     /// Place [m] and rotation vector [rad] of a joint's tip frame in its base frame.
     RelativeMotion,
-    /// Where a wheel touches its rail, and what acts there.
+    /// Contact position of a wheel on its rail, and the forces there.
     Contact,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
@@ -118,7 +118,7 @@ pub enum OutputKind {
 /// Name and unit of a component.
 pub(crate) type OutputComponent = (&'static str, &'static str);
 
-/// A kind of output: what the model file calls it, what it refers to, and its components.
+/// A kind of output: its name in the model file, the part to which it refers, and its components.
 ///
 /// Components that depend on the subject are in `channel_components.rs`.
 struct Declaration {
@@ -155,7 +155,7 @@ const KINDS: &[Declaration] = {
             &[Observer, Axes, Point],
             Feeds::Signals,
             &[("x", "m"), ("y", "m"), ("z", "m")],
-            "Place of a node or of a point it carries.",
+            "Position of a node, or of a point fixed to it.",
         ),
         declare(
             Kind::Displacement,
@@ -164,7 +164,7 @@ const KINDS: &[Declaration] = {
             &[Observer, Axes, Point],
             Feeds::Signals,
             &[("u1", "m"), ("u2", "m"), ("u3", "m")],
-            "Change of place since the start.",
+            "Displacement since the start.",
         ),
         declare(
             Kind::Rotation,
@@ -182,7 +182,7 @@ const KINDS: &[Declaration] = {
             &[],
             Feeds::Signals,
             &[("q0", ""), ("q1", ""), ("q2", ""), ("q3", "")],
-            "Axes of a node as a unit quaternion, q0 not negative.",
+            "Orientation of a node as a unit quaternion with non-negative q0.",
         ),
         declare(
             Kind::CardanAngles,
@@ -191,7 +191,7 @@ const KINDS: &[Declaration] = {
             &[],
             Feeds::Signals,
             &[("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")],
-            "Axes of a node as angles about x, the turned y and the twice turned z.",
+            "Orientation of a node as Cardan angles: rotations about x, the rotated y and the twice rotated z.",
         ),
         declare(
             Kind::Angle,
@@ -200,7 +200,7 @@ const KINDS: &[Declaration] = {
             &[AngleAxis, Observer, Accumulated],
             ACCUMULATED,
             &[("angle", "rad")],
-            "Angle of a node about an axis since the start, continued beyond half a turn.",
+            "Rotation angle of a node about an axis since the start, continuous beyond half a revolution.",
         ),
         declare(
             Kind::Velocity,
@@ -209,7 +209,7 @@ const KINDS: &[Declaration] = {
             &[Observer, Axes, Point, Rates],
             Feeds::Signals,
             &[("v1", "m/s"), ("v2", "m/s"), ("v3", "m/s")],
-            "Velocity of a node or of a point it carries.",
+            "Velocity of a node, or of a point fixed to it.",
         ),
         declare(
             Kind::AngularVelocity,
@@ -227,7 +227,7 @@ const KINDS: &[Declaration] = {
             &[Observer, Axes, Point, Rates],
             SOLUTION,
             &[("a1", "m/s²"), ("a2", "m/s²"), ("a3", "m/s²")],
-            "Acceleration of a node or of a point it carries.",
+            "Acceleration of a node, or of a point fixed to it.",
         ),
         declare(
             Kind::SectionForce,
@@ -236,7 +236,7 @@ const KINDS: &[Declaration] = {
             &[Fatigue],
             WITHOUT_GRADIENT,
             &[("f1", "N"), ("f2", "N"), ("f3", "N")],
-            "Axial and shear forces in a beam, local axes.",
+            "Axial and shear forces in a beam, section axes.",
         ),
         declare(
             Kind::SectionMoment,
@@ -245,7 +245,7 @@ const KINDS: &[Declaration] = {
             &[Fatigue],
             WITHOUT_GRADIENT,
             &[("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
-            "Torsion and bending moments in a beam, local axes.",
+            "Torsion and bending moments in a beam, section axes.",
         ),
         declare(
             Kind::Line,
@@ -254,7 +254,7 @@ const KINDS: &[Declaration] = {
             &[],
             Feeds::Signals,
             &[],
-            "Places of all nodes of a beam along its axis, from its start to its end.",
+            "Positions of all nodes of a beam, from its start to its end.",
         ),
         declare(
             Kind::Modal,
@@ -290,7 +290,7 @@ const KINDS: &[Declaration] = {
             &[Rates],
             Feeds::Signals,
             &[],
-            "Relative coordinate of a joint.",
+            "Relative coordinates of a joint.",
         ),
         declare(
             Kind::RelativeAcceleration,
@@ -308,7 +308,7 @@ const KINDS: &[Declaration] = {
             &[],
             Feeds::Signals,
             &[("x", "m"), ("y", "m"), ("z", "m"), ("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
-            "Place and rotation vector of a joint's tip frame, in the axes of its base frame.",
+            "Position and rotation vector of a joint's tip frame, in the axes of its base frame.",
         ),
         declare(
             Kind::Contact,
@@ -327,7 +327,7 @@ const KINDS: &[Declaration] = {
                 ("creepage2", ""),
                 ("spin", "1/m"),
             ],
-            "Place of contact of a wheel on a rail, its normal force, creep forces and creepages.",
+            "Contact position of a wheel on a rail, with normal force, creep forces and creepages.",
         ),
         declare(
             Kind::Spring,
@@ -345,7 +345,7 @@ const KINDS: &[Declaration] = {
             &[Rates],
             WITHOUT_GRADIENT,
             &[("power", "W")],
-            "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.",
+            "Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.",
         ),
         declare(
             Kind::Work,
@@ -354,7 +354,7 @@ const KINDS: &[Declaration] = {
             &[Accumulated],
             ACCUMULATED,
             &[("work", "J")],
-            "Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.",
+            "Work that a spring, a load, a drive or the friction of a joint has delivered to the rest of the model.",
         ),
         declare(
             Kind::Energy,
@@ -414,8 +414,7 @@ impl OutputKind {
     pub fn summary(self) -> &'static str {
         self.declaration().summary
     }
-
-    /// What it refers to.
+    /// Part to which it refers.
     pub(crate) fn subject(self) -> Subject {
         self.declaration().subject
     }

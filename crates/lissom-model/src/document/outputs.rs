@@ -1,4 +1,4 @@
-//! What a model file wants recorded.
+//! The outputs of a model file.
 
 use lissom_motion::Vector3;
 
@@ -80,7 +80,7 @@ pub struct Output {
     pub axes: ReactionAxes,
     /// The node in whose axes its vectors are reported; global axes, or those of the observer, where there is none.
     pub seen_in: Option<Located<NodeReference>>,
-    /// The node as seen from which it is; the ground where there is none.
+    /// The node relative to which it is measured; the ground if there is none.
     pub relative_to: Option<Located<NodeReference>>,
     /// The axis of an angle, at the start, global axes.
     pub axis: Option<Vector3>,
@@ -128,7 +128,7 @@ fn node(reader: &Reader<'_, '_>, kind: OutputKind) -> Option<OutputSource> {
     let node = context.node(reader.node("of")?, &reader.words("of"))?;
     if kind.subject() == Subject::Section && !matches!(node.value, NodeReference::Beam { .. }) {
         let message = format!("{} is of a node that is not on a beam", reader.what);
-        return context.fail(node.span, message, "name a place on a beam, such as \"beam@0.5\"");
+        return context.fail(node.span, message, "specify a position on a beam, such as \"beam@0.5\"");
     }
     let point = match kind.has(Feature::Point).then(|| reader.node("point")).flatten() {
         None => None,
@@ -137,7 +137,7 @@ fn node(reader: &Reader<'_, '_>, kind: OutputKind) -> Option<OutputSource> {
     if matches!(node.value, NodeReference::PointMass(_)) && point.is_some() {
         let message = format!("{} names a point, but a point mass carries none", reader.what);
         let span = reader.node("point").map_or(node.span, |point| point.span);
-        return context.fail(span, message, "leave out `point`");
+        return context.fail(span, message, "remove `point`");
     }
     Some(OutputSource::Node { node, point })
 }
@@ -147,7 +147,7 @@ fn fatigue(reader: &Reader<'_, '_>) -> Option<Fatigue> {
     let (exponent, cycles) = (reader.number("woehler_exponent"), reader.number("reference_cycles"));
     if let (Some(cycles), false) = (&cycles, reader.has("woehler_exponent")) {
         let message = format!("{} has `reference_cycles` without `woehler_exponent`", reader.what);
-        return reader.context.fail(cycles.span, message, "add `woehler_exponent`, or leave this out");
+        return reader.context.fail(cycles.span, message, "add `woehler_exponent`, or remove this");
     }
     exponent.map(|exponent| Fatigue { exponent: exponent.value, cycles: cycles.map(|cycles| cycles.value) })
 }
@@ -157,7 +157,7 @@ fn frame(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Located<Node
     let found = reader.context.node(node, &reader.words(key))?;
     if let NodeReference::PointMass(name) = &found.value {
         let message = format!("{} names the point mass `{name}`, which has no axes", reader.words(key));
-        return reader.context.fail(node.span, message, "name the ground, a body or a place on a beam");
+        return reader.context.fail(node.span, message, "specify the ground, a body or a position on a beam");
     }
     Some(found)
 }
@@ -171,7 +171,8 @@ fn name_of_one(reader: &Reader<'_, '_>, tables: &[&str], what: &str) -> Option<L
     if let Some(full) = reader.context.resolve(name.value, scope, &exists) {
         return Some(Located::new(full, name.span));
     }
-    let message = format!("{} names `{}`, which is no {what}", reader.words("of"), name.value);
+    let message =
+        format!("{} names `{}`, but there is no {what} of this name", reader.words("of"), name.value);
     let help = suggest::help(name.value, known()).unwrap_or_else(|| format!("add it to [{}]", tables[0]));
     reader.context.fail(name.span, message, help)
 }

@@ -3,36 +3,46 @@
 use super::tables::{TOP, has_named_entries};
 use crate::keys::{Key, Shape, optional, required};
 
-/// The key that names the part in whose frame an entry is placed.
+/// Key of the part in whose frame an entry is placed.
 pub(super) fn placed_in() -> Key {
     optional(
         "in",
         Shape::Text,
         "",
-        "body, point mass or part in whose frame at the start positions and directions are given; default the one around",
+        "body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part",
     )
 }
 
 /// Keys of a part.
 pub(crate) fn part() -> Vec<Key> {
     let mut keys = vec![
-        optional("include", Shape::Text, "", "path of the file that it is made of, relative to this file"),
-        optional("like", Shape::Text, "", "part of the same table of which it is a copy, turned and shifted"),
+        optional("include", Shape::Text, "", "path of the file with its contents, relative to this file"),
+        optional(
+            "like",
+            Shape::Text,
+            "",
+            "part of the same table of which it is a copy, at another position and orientation",
+        ),
         optional(
             "count",
             Shape::Count(1, 20_000),
             "",
-            "an array `name1`, `name2` …; `index` and `count` are parameters in it",
+            "number of copies `name1`, `name2` …; `index` and `count` are parameters in each",
         ),
         placed_in(),
         optional("position", Shape::Place, "m", "position of its origin"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
-        optional("parameters", Shape::Table, "", "its parameters, in place of the defaults of its file"),
+        optional(
+            "parameters",
+            Shape::Table,
+            "",
+            "values of its parameters, instead of the defaults in its file",
+        ),
         optional(
             "names",
             Shape::Table,
             "",
-            "names in the included file that mean something outside, as { hub = \"hub\" }",
+            "names in the included file that refer to entries outside, such as { hub = \"hub\" }",
         ),
     ];
     let tables = TOP.iter().filter(|top| has_named_entries(top.name) && top.name != "parameters");
@@ -48,13 +58,13 @@ pub(super) fn superelement() -> Vec<Key> {
             "interfaces",
             Shape::Interfaces,
             "",
-            "[{ name = \"root\" }, { name = \"tip\", at = [1, 0, 0] }]: what joints hold it by, in the order of the matrices",
+            "[{ name = \"root\" }, { name = \"tip\", at = [1, 0, 0] }]: nodes for joints, in the order of the matrices",
         ),
         optional(
             "matrices",
             Shape::Text,
             "",
-            "NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, where these are not given",
+            "NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, instead of these keys",
         ),
         optional(
             "mass",
@@ -68,36 +78,41 @@ pub(super) fn superelement() -> Vec<Key> {
             "modal_damping",
             Shape::NotNegative,
             "",
-            "instead: ratio to critical damping of every mode of the free part",
+            "instead of `damping`: damping ratio of every mode of the free part",
         ),
-        optional("stiffness_damping", Shape::NotNegative, "s", "instead: times the stiffness"),
+        optional(
+            "stiffness_damping",
+            Shape::NotNegative,
+            "s",
+            "instead of `damping`: factor of the stiffness",
+        ),
         optional(
             "recovery",
             Shape::Text,
             "",
-            "file of a matrix that makes outputs of kind `recovered` of its unknowns: a row each, stresses or displacements between interfaces",
+            "file of a matrix for outputs of kind `recovered`: each row yields a stress or displacement from the unknowns",
         ),
         optional(
             "preload",
             Shape::Text,
             "",
-            "Matrix Market file of one column: forces of the undeformed part, which turn with it",
+            "Matrix Market file of one column: forces on the undeformed part, which rotate with it",
         ),
         optional(
             "geometric",
             Shape::Text,
             "",
-            "Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take",
+            "Matrix Market file of `lissom reduce`: terms of second order in the deformation, such as geometric stiffness",
         ),
         optional(
             "floating",
             Shape::Text,
             "",
-            "the interface that carries the floating frame, default the first",
+            "interface to which the floating frame is attached; default: the first",
         ),
         optional("position", Shape::Place, "m", "position of the origin of the part"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
-        optional("axes", Shape::Axes, "", "instead of rotation: first and second axis"),
+        optional("axes", Shape::Axes, "", "instead of `rotation`: first and second axis"),
     ]
 }
 
@@ -107,7 +122,7 @@ pub(crate) fn part_motion() -> Vec<Key> {
         "parts",
         Shape::Names,
         "",
-        "bodies, point masses, beams, superelements and entries of [parts] that move in this way",
+        "bodies, point masses, beams, superelements and entries of [parts] with this motion",
     )];
     keys.extend(initial().into_iter().filter(|key| !matches!(key.name, "equilibrium" | "steady_rotation")));
     keys
@@ -123,13 +138,13 @@ pub(crate) fn initial() -> Vec<Key> {
             "equilibrium",
             Shape::Flag,
             "",
-            "start from static equilibrium under the loads of the first instant, default false",
+            "start from static equilibrium under the loads at the start, default false",
         ),
         optional(
             "steady_rotation",
             Shape::Flag,
             "",
-            "start from the positions at which the model keeps turning with its velocities, default false",
+            "start from the relative equilibrium in which the model rotates steadily with its velocities, default false",
         ),
     ]
 }

@@ -1,4 +1,4 @@
-//! Positions and nodes as they are named in a model file.
+//! References to positions and nodes in a model file.
 
 use lissom_motion::Vector3;
 
@@ -76,8 +76,7 @@ impl Context<'_> {
         let text = full.as_deref().unwrap_or(&written);
         self.node_named(text, node.span, what).map(|found| Located::new(found, node.span))
     }
-
-    /// The name in the whole model of a node, or of a part without a node of its own.
+    /// Name in the whole model of a node, or of a part that is not a node.
     fn node_resolved(&self, text: &str, scope: ScopeId) -> Option<String> {
         self.resolve(text, scope, &|full| {
             let is_there = |name: &str| PARTS.iter().any(|table| self.has(table, name));
@@ -110,7 +109,7 @@ impl Context<'_> {
         }
         if self.has("joints", text) {
             let message = format!("{what} names the joint `{text}`, which is not a node");
-            let help = "name one of the nodes that it joins; what a joint does is recorded by outputs of the kinds `relative` and \
+            let help = "use one of the nodes that it connects; quantities of a joint are recorded by outputs of the kinds `relative` and \
                         `reaction`";
             return self.fail(span, message, help);
         }
@@ -130,8 +129,8 @@ impl Context<'_> {
                 Some(NodeReference::Beam { beam: beam.to_owned(), fraction })
             }
             None if self.has("beams", beam) => {
-                let message = format!("{what} names `{text}`, which is no position on the beam `{beam}`");
-                self.fail(span, message, "the fraction after `@` goes from 0 (start) to 1 (end)")
+                let message = format!("{what} names `{text}`, which is not a position on the beam `{beam}`");
+                self.fail(span, message, "the fraction after `@` must be from 0 (start) to 1 (end)")
             }
             _ => {
                 let known = self.node_names();
@@ -159,8 +158,7 @@ impl Context<'_> {
         }
         names
     }
-
-    /// The superelement and the interface of a name that is like one.
+    /// The superelement and the interface of a name of this form.
     fn interface_in<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
         if self.has("superelements", text) {
             return Some((text, ""));
@@ -168,7 +166,7 @@ impl Context<'_> {
         text.rsplit_once('.').filter(|(element, _)| self.has("superelements", element))
     }
 
-    /// Names of the interfaces of a superelement, as far as they can be read.
+    /// Names of the interfaces of a superelement, if they can be read.
     fn interface_names(&self, element: &str) -> impl Iterator<Item = &str> {
         let table = self.entry("superelements", element).and_then(Node::table);
         let list = table.and_then(|table| match &table.get("interfaces")?.node.value {
@@ -191,7 +189,7 @@ impl Context<'_> {
         let message = if interface.is_empty() {
             format!("{what} names the superelement `{element}`, not one of its interfaces")
         } else {
-            format!("{what} names `{interface}`, which is no interface of the superelement `{element}`")
+            format!("{what} names `{interface}`, which is not an interface of the superelement `{element}`")
         };
         let known: Vec<String> =
             self.interface_names(element).map(|known| format!("\"{element}.{known}\"")).collect();

@@ -48,22 +48,23 @@ pub(super) fn check_names(context: &Context<'_>) {
                 && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
             if !is_word {
                 let message =
-                    format!("`{name}` cannot be the name of a {what}: expressions could not write it");
+                    format!("`{name}` cannot be the name of a {what}, because expressions cannot contain it");
                 context.fail::<()>(span, message, "use letters, digits and `_`, a letter first");
             } else if node.scope != ROOT && context.parameters_of(node.scope).contains_key(local) {
-                let message = format!("the {what} `{name}` has the name of a parameter that is known there");
+                let message = format!("the {what} `{name}` has the name of a parameter");
                 context.fail::<()>(
                     span,
                     message,
-                    "parameters, inputs, signals and states need different names",
+                    "parameters, inputs, signals and states must have different names",
                 );
             } else if expression::is_reserved(local) {
                 let message = format!("a {what} cannot be called `{local}`");
-                context.fail::<()>(span, message, "expressions give this word another meaning");
+                context.fail::<()>(span, message, "this word has another meaning in expressions");
             } else if let Some((first, other)) = known.insert(name, (span, what)) {
                 let message = format!("the {what} `{name}` has the name of a {other}");
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
-                context.report(problem.help("parameters, inputs, signals and states need different names"));
+                context
+                    .report(problem.help("parameters, inputs, signals and states must have different names"));
             }
         }
     }

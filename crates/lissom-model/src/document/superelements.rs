@@ -34,7 +34,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
         let (damping, ratio) = damping?;
         if let Some(node) = reader.node("floating").filter(|_| stacked.is_some() && floating > 0) {
             let message =
-                format!("{} has `geometric` matrices, which hold for the first interface", reader.what);
+                format!("{} has `geometric` matrices, which are valid for the first interface", reader.what);
             return context.fail(
                 node.span,
                 message,
@@ -48,7 +48,8 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
                 reader.what,
                 recovery.ncols()
             );
-            let help = "give a column for each row of the mass: six of each interface, then the modes";
+            let help =
+                "it must have a column for each row of the mass: six for each interface, then the modes";
             return context.fail(
                 reader.node("recovery").map_or(reader.name, |node| node.span),
                 message,
@@ -110,7 +111,7 @@ fn interfaces(reader: &Reader<'_, '_>) -> Option<Vec<Interface>> {
         return context.fail(
             node.span,
             format!("{what} is empty"),
-            "give at least one, as { name = \"root\" }",
+            "specify at least one, such as { name = \"root\" }",
         );
     }
     let mut all: Vec<Interface> = Vec::new();
@@ -125,7 +126,7 @@ fn interfaces(reader: &Reader<'_, '_>) -> Option<Vec<Interface>> {
         }
         if all.iter().any(|known| known.name == name.value) {
             let message = format!("two interfaces of {} are called `{}`", reader.what, name.value);
-            return context.fail(name.span, message, "give each a name of its own");
+            return context.fail(name.span, message, "use distinct names");
         }
         let place = match own.node("at") {
             None => Vector3::zeros(),
@@ -166,7 +167,7 @@ fn damping(reader: &Reader<'_, '_>) -> Option<(Damping, Option<f64>)> {
         [first, others @ ..] => {
             let second = others.first().unwrap_or(first);
             let message = format!("{} has both `{first}` and `{second}`", reader.what);
-            reader.context.fail(reader.node(second)?.span, message, "leave one out")
+            reader.context.fail(reader.node(second)?.span, message, "remove one of them")
         }
     }
 }
@@ -218,7 +219,7 @@ fn matrix(reader: &Reader<'_, '_>, key: &str) -> Option<Option<DMatrix<f64>>> {
         Ok(matrix) => Some(Some(matrix)),
         Err(error) => {
             let help = "the Matrix Market format is that of SciPy's `mmwrite`, MATLAB's `mmwrite` and `lissom reduce`";
-            fail(format!("`{path}` is no matrix: {error}"), Some(help.to_owned()))
+            fail(format!("`{path}` is not a valid matrix: {error}"), Some(help.to_owned()))
         }
     }
 }

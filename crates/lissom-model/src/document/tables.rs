@@ -1,4 +1,4 @@
-//! The tables of a model file and their keys, in one place: what the decoder asks for, what the schema says.
+//! The tables of a model file and their keys, for the decoder, the schema and the reference.
 
 use std::borrow::Cow;
 
@@ -12,7 +12,7 @@ use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
 use crate::sections::{GENERAL, KINDS, NAMES};
 
-/// What is at the top of a model file under one word.
+/// Contents of a key at the top level of a model file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Holds {
     /// A value.
@@ -48,30 +48,35 @@ pub(crate) static TOP: [Top; 22] = [
         "gravity",
         Holds::Value(Shape::GlobalVector),
         false,
-        "Acceleration of gravity [m/s²]; none when omitted.",
+        "Acceleration of gravity [m/s²]; default: none.",
     ),
-    top("parameters", Holds::Values(Shape::Number), false, "Numbers that expressions may name."),
+    top("parameters", Holds::Values(Shape::Number), false, "Numbers for use in expressions."),
     top("materials", Holds::Entries, false, "Isotropic elastic materials."),
-    top("sections", Holds::Entries, false, "Cross sections; axis 1 along the beam, 2 and 3 across."),
+    top(
+        "sections",
+        Holds::Entries,
+        false,
+        "Cross sections; axis 1 along the beam, 2 and 3 perpendicular to it.",
+    ),
     top("points", Holds::Values(Shape::Point), false, "Named positions [m]."),
     top(
         "parts",
         Holds::Entries,
         false,
-        "Sub-assemblies that are named, placed and repeated; names inside are `part.name`.",
+        "Sub-assemblies, which may be placed and repeated; their entries are named `part.name`.",
     ),
     top("beams", Holds::Entries, false, "Flexible beams."),
     top("bodies", Holds::Entries, false, "Rigid bodies."),
-    top("point_masses", Holds::Entries, false, "Masses without extension."),
-    top("superelements", Holds::Entries, false, "Linear elastic parts that are given by reduced matrices."),
-    top("joints", Holds::Entries, false, "What holds nodes together."),
-    top("springs", Holds::Entries, false, "What pulls nodes or joints back."),
-    top("loads", Holds::Entries, false, "Forces and moments from outside, and of actuators."),
+    top("point_masses", Holds::Entries, false, "Point masses."),
+    top("superelements", Holds::Entries, false, "Linear elastic parts, specified by reduced matrices."),
+    top("joints", Holds::Entries, false, "Constraints between nodes, or between coordinates of joints."),
+    top("springs", Holds::Entries, false, "Springs, dampers, friction, stops and latches."),
+    top("loads", Holds::Entries, false, "Applied forces and moments, and those of actuators."),
     top(
         "inputs",
         Holds::Values(Shape::Number),
         false,
-        "Numbers that are set from outside while a simulation runs, with their values at the start.",
+        "Numbers that are set during a simulation by events or by the calling program, with their initial values.",
     ),
     top(
         "signals",
@@ -83,26 +88,26 @@ pub(crate) static TOP: [Top; 22] = [
         "states",
         Holds::Entries,
         false,
-        "First-order states: numbers whose derivative by time is an expression.",
+        "First-order states: numbers whose time derivative is an expression.",
     ),
-    top("events", Holds::Entries, false, "What happens when expressions pass through zero."),
+    top("events", Holds::Entries, false, "Actions when expressions cross zero."),
     top(
         "initial",
         Holds::Table,
         false,
-        "How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium.",
+        "Initial conditions: a rigid motion of all parts, or of those listed in an entry [initial.…]; static equilibrium.",
     ),
     top(
         "assembly",
         Holds::Table,
         false,
-        "Parts are placed approximately: they are moved as little as possible until all joints close and have the values they are given at the start.",
+        "Corrects approximate positions of parts: they are moved by the smallest amount that closes all joints at their initial values.",
     ),
-    top("outputs", Holds::Entries, false, "What is recorded."),
+    top("outputs", Holds::Entries, false, "Quantities to be recorded."),
 ];
 
-/// The table of the analysis, apart because the model is useless without it.
-pub(crate) static ANALYSIS: Top = top("analysis", Holds::Table, true, "What is computed, and how.");
+/// The table of the analysis, separate because it is required.
+pub(crate) static ANALYSIS: Top = top("analysis", Holds::Table, true, "Kind of analysis and its settings.");
 
 /// Every word at the top, the analysis last.
 pub(crate) fn tops() -> impl Iterator<Item = &'static Top> {
@@ -166,9 +171,9 @@ fn single(keys: Vec<Key>) -> Variant {
 fn material() -> Vec<Key> {
     vec![
         required("E", Shape::Positive, "Pa", "Young's modulus"),
-        optional("nu", Shape::Number, "", "Poisson's ratio; give it or `G`"),
-        optional("G", Shape::Positive, "Pa", "shear modulus; give it or `nu`"),
-        required("density", Shape::Positive, "kg/m³", "mass per volume"),
+        optional("nu", Shape::Number, "", "Poisson's ratio; either it or `G` is required"),
+        optional("G", Shape::Positive, "Pa", "shear modulus; either it or `nu` is required"),
+        required("density", Shape::Positive, "kg/m³", "mass density"),
     ]
 }
 
@@ -197,44 +202,59 @@ fn sections() -> Vec<Variant> {
         ),
     ];
     let shapes = KINDS.iter().map(|kind| form(kind.name, kind.summary, (kind.keys)()));
-    shapes.chain([form(GENERAL, "Given by its stiffness and mass.", general)]).collect()
+    shapes.chain([form(GENERAL, "Specified by its stiffness and mass matrices.", general)]).collect()
 }
 
 fn beam() -> Vec<Key> {
     vec![
         placed_in(),
-        optional("section", Shape::Name("sections"), "", "name of a section; give it or `stations`"),
+        optional(
+            "section",
+            Shape::Name("sections"),
+            "",
+            "name of a section; either it or `stations` is required",
+        ),
         optional(
             "stations",
             Shape::Stations,
             "",
-            "[{ at = 0, section = \"a\" }, …, { at = 1, … }], linear between",
+            "[{ at = 0, section = \"a\" }, …, { at = 1, … }], interpolated linearly",
         ),
         optional(
             "from",
             Shape::PlaceOrNode,
             "m",
-            "start: a point, or a node of another part, which is shared",
+            "start: a position, or a node of another part, which is then shared",
         ),
-        optional("to", Shape::PlaceOrNode, "m", "end: a point, or a node of another part, which is shared"),
-        optional("through", Shape::Place, "m", "a point between: the beam is a circular arc"),
-        optional("curve", Shape::Curve, "m", "instead of from and to: three expressions of s in 0..1"),
+        optional(
+            "to",
+            Shape::PlaceOrNode,
+            "m",
+            "end: a position, or a node of another part, which is then shared",
+        ),
+        optional("through", Shape::Place, "m", "an intermediate point: the beam is a circular arc"),
+        optional("curve", Shape::Curve, "m", "instead of `from` and `to`: three expressions of s in 0..1"),
         required("elements", Shape::Count(1, 100_000), "", "number of elements"),
         optional("order", Shape::Count(1, 3), "", "1, 2 or 3 (default): elements of 2, 3 or 4 nodes"),
-        optional("up", Shape::Direction, "", "direction that local axis 3 leans to"),
+        optional("up", Shape::Direction, "", "direction towards which local axis 3 is oriented"),
         optional(
             "force_per_length",
             Shape::Distribution,
             "N/m",
-            "along global axes, which it keeps: three numbers or expressions of s and t",
+            "in global axes, fixed in direction: three numbers or expressions of s and t",
         ),
         optional(
             "section_force_per_length",
             Shape::SectionDistribution,
             "N/m",
-            "along the section's axes 1, 2 and 3, with which it turns: three numbers or expressions of s and t",
+            "in the section's axes 1, 2 and 3, with which it rotates: three numbers or expressions of s and t",
         ),
-        optional("twist", Shape::Profile, "rad", "turn about the tangent, a number or an expression of s"),
+        optional(
+            "twist",
+            Shape::Profile,
+            "rad",
+            "rotation about the tangent, a number or an expression of s",
+        ),
     ]
 }
 
@@ -246,23 +266,23 @@ fn body() -> Vec<Key> {
             "inertia",
             Shape::Inertia,
             "kg m²",
-            "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] }",
+            "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { box = [a, b, c] }",
         ),
         optional("position", Shape::Place, "m", "position of the reference frame"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of the reference frame"),
-        optional("axes", Shape::Axes, "", "instead of rotation: first and second body axis"),
+        optional("axes", Shape::Axes, "", "instead of `rotation`: first and second body axis"),
         optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
         optional(
             "shape",
             Shape::Solid,
             "",
-            "drawn about the centre of mass, instead of what has its inertia",
+            "solid to be drawn about the centre of mass; default: one with its inertia",
         ),
         optional(
             "mesh",
             Shape::Text,
             "",
-            "instead of `shape`: an STL or glTF file in metres and body axes; relative to the file that names it",
+            "instead of `shape`: an STL or glTF file in metres and body axes; path relative to this file",
         ),
         optional("velocity", Shape::GlobalVector, "m/s", "of the reference point at the start, global axes"),
         optional("angular_velocity", Shape::Vector, "rad/s", "at the start, body axes"),
@@ -274,7 +294,7 @@ fn point_mass() -> Vec<Key> {
         placed_in(),
         required("mass", Shape::Positive, "kg", "mass"),
         optional("position", Shape::Place, "m", "position at the start"),
-        optional("plane", choice(&["xy", "yz", "zx"]), "", "move in this plane only"),
+        optional("plane", choice(&["xy", "yz", "zx"]), "", "restricts the motion to this plane"),
         optional("velocity", Shape::GlobalVector, "m/s", "at the start, global axes"),
     ]
 }
@@ -298,10 +318,9 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
         if !matches!(entry.acts_on, ActsOn::JointCoordinate(_) | ActsOn::Nothing) {
             let words = "friction on its only coordinate";
             variant.keys.push(optional("friction", Shape::Friction, "", words));
-            let words =
-                "a latch that engages where its only coordinate is first `at` a value, and holds it there";
+            let words = "latch that engages when its only coordinate first reaches the value `at`, and locks it there";
             variant.keys.push(optional("latch", Shape::Latch, "", words));
-            let words = "the latch lets go where this expression rises through zero; without `latch` it holds from the start";
+            let words = "the latch releases when this expression rises through zero; without `latch` it is engaged from the start";
             variant.keys.push(optional("release", Shape::Formula, "", words));
         }
         if let ActsOn::TwoNodes(rule) = entry.acts_on {
@@ -314,13 +333,8 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
 fn attachment(acts_on: ActsOn) -> Vec<Key> {
     let nodes = || {
         vec![
-            required(
-                "base",
-                Shape::Node,
-                "",
-                "the node it starts from: \"ground\", \"body\", \"beam.end\" …",
-            ),
-            required("tip", Shape::Node, "", "the node it leads to"),
+            required("base", Shape::Node, "", "first node: \"ground\", \"body\", \"beam.end\" …"),
+            required("tip", Shape::Node, "", "second node"),
         ]
     };
     let axis = |name, words| required(name, Shape::Direction, "", words);
@@ -361,17 +375,22 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
         }
         ActsOn::Places => {
             vec![
-                required("along", Shape::Places, "m", "the points it passes over, from one end to the other"),
+                required(
+                    "along",
+                    Shape::Places,
+                    "m",
+                    "points over which it passes, from one end to the other",
+                ),
                 optional(
                     "drums",
                     Shape::Coordinates,
                     "",
-                    "coordinates of joints that pay it out, such as \"drum.angle\"; a joint's name alone means all of its",
+                    "coordinates of joints that pay it out, such as \"drum.angle\"; the name of a joint stands for all its coordinates",
                 ),
             ]
         }
         ActsOn::OneNode => vec![
-            required("on", Shape::Node, "", "the node it acts on"),
+            required("on", Shape::Node, "", "node on which it acts"),
             optional("at", Shape::Place, "m", "location; default: the node's position"),
         ],
         ActsOn::JointCoordinate(quantity) => {
@@ -387,7 +406,7 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
                 "beams",
                 Shape::Names,
                 "",
-                "beams along which it slides, each from the end of the one before",
+                "beams along which it slides; each starts at the end of the previous one",
             ),
             required("tip", Shape::Node, "", "the node that slides"),
             optional(
@@ -401,12 +420,12 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             "coordinates",
             Shape::Coordinates,
             "",
-            "coordinates that it acts on, such as \"arm.angle\", in the order of its matrices; a joint's name alone means all of its",
+            "coordinates on which it acts, such as \"arm.angle\", in the order of its matrices; the name of a joint stands for all its coordinates",
         )],
         ActsOn::TwoJointCoordinates => {
             vec![
-                required("joint", Shape::Name("joints"), "", "the joint whose coordinate leads"),
-                required("other", Shape::Name("joints"), "", "the joint whose coordinate follows"),
+                required("joint", Shape::Name("joints"), "", "joint with the independent coordinate"),
+                required("other", Shape::Name("joints"), "", "joint with the dependent coordinate"),
             ]
         }
     }
@@ -414,13 +433,13 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
 
 fn state() -> Vec<Key> {
     vec![
-        required("derivative", Shape::Formula, "1/s", "its derivative by time"),
+        required("derivative", Shape::Formula, "1/s", "time derivative"),
         optional("start", Shape::Number, "", "value at the start, default 0"),
         optional(
             "magnitude",
             Shape::Positive,
             "",
-            "how large it usually is: errors are measured by this, or by its value where that is larger; default 1",
+            "typical magnitude, relative to which errors are measured unless its value is larger; default 1",
         ),
     ]
 }
@@ -436,10 +455,10 @@ fn outputs() -> Vec<Variant> {
     OutputKind::all().map(variant).collect()
 }
 
-/// The key that names what an output refers to; none for the whole model.
+/// Key with the part to which an output refers; none for the whole model.
 fn output_subject(subject: Subject) -> Option<Key> {
     Some(match subject {
-        Subject::Node | Subject::Section => required("of", Shape::Node, "", "the node, as in \"beam@0.5\""),
+        Subject::Node | Subject::Section => required("of", Shape::Node, "", "the node, such as \"beam@0.5\""),
         Subject::Joint => required("of", Shape::Name("joints"), "", "the joint"),
         Subject::Spring => required("of", Shape::Name("springs"), "", "the spring"),
         Subject::Actor => {
@@ -450,7 +469,7 @@ fn output_subject(subject: Subject) -> Option<Key> {
         Subject::Superelement => required("of", Shape::Name("superelements"), "", "the superelement"),
         Subject::Signal => required("of", Shape::Text, "", "the name of a signal, an input or a state"),
         Subject::Expression => {
-            let words = "as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs";
+            let words = "expression such as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs";
             required("value", Shape::Formula, "", words)
         }
         Subject::Model => return None,
@@ -464,20 +483,20 @@ fn output_option(feature: Feature) -> Vec<Key> {
             "axes",
             choice(&super::ReactionAxes::WORDS),
             "",
-            "global axes, or those of the joint frame that base or tip carries; default ground",
+            "global axes, or those of the joint frame fixed in base or tip; default ground",
         )],
         Feature::AngleAxis => vec![required(
             "axis",
             Shape::Direction,
             "",
-            "the axis at the start, global axes; `relative_to` carries it",
+            "axis at the start, global axes; it is fixed in `relative_to`",
         )],
         Feature::Fatigue => vec![
             optional(
                 "woehler_exponent",
                 Shape::Positive,
                 "",
-                "exponent of Woehler's line: the summary then has `damage_equivalent` of each component",
+                "exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component",
             ),
             optional(
                 "reference_cycles",
@@ -487,8 +506,7 @@ fn output_option(feature: Feature) -> Vec<Key> {
             ),
         ],
         Feature::Observer => {
-            let words =
-                "body, or place on a beam, from which the motion is seen, in its axes; default the ground";
+            let words = "body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground";
             vec![optional("relative_to", Shape::Node, "", words)]
         }
         Feature::Axes => {
@@ -496,7 +514,12 @@ fn output_option(feature: Feature) -> Vec<Key> {
             vec![optional("in", Shape::Node, "", words)]
         }
         Feature::Point => {
-            vec![optional("point", Shape::Place, "m", "a place at the start, carried by the node")]
+            vec![optional(
+                "point",
+                Shape::Place,
+                "m",
+                "position at the start of a point fixed to the node; default: the node",
+            )]
         }
         Feature::Rates | Feature::Accumulated => Vec::new(),
     }

@@ -7,9 +7,8 @@ use super::Document;
 
 impl Document {
     /// The same model without gravity, forces per length of beams, and sizes of loads.
-    ///
-    /// Loads stay, of size zero, so that outputs and inputs that name them keep their meaning and the pattern of the
-    /// matrices is the same. What has no size stays as it is: the spin of a gyrostat is no load from outside.
+    /// Loads remain with size zero, so that outputs and inputs can refer to them and the pattern of the matrices is the same.
+    /// Entries without a size are unchanged: the spin of a gyrostat is not an applied load.
     #[must_use]
     pub fn without_loads(&self) -> Self {
         let mut document = self.clone();

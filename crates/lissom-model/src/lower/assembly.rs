@@ -1,4 +1,4 @@
-//! Moves parts that are placed approximately until all joints close, and reports what has moved.
+//! Corrects approximate positions of parts until all joints close, and reports the displacements.
 
 use lissom_core::analysis::assembly::{AssemblyError, Gap, Request, assemble};
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
@@ -158,11 +158,11 @@ fn problem(document: &Document, asked: &AssemblyRequest, error: &AssemblyError) 
     let span = component.map_or(asked.span, |component| component.name.span);
     let help = match error {
         AssemblyError::UpsideDown { .. } => {
-            "draw the parts nearer to how they fit, or turn the axis on base or tip round"
+            "place the parts closer to their final positions, or reverse the axis on base or tip"
         }
         _ => {
-            "no positions of the parts near the drawn ones close them: look at lengths and positions of these joints, at values \
-             they are given at the start, and at `fixed`; or draw the parts nearer to how they fit"
+            "no positions close to the specified ones close them: check the lengths between these joints, their positions and \
+             initial values, and `fixed`; or place the parts closer to their final positions"
         }
     };
     Problem::error(span, format!("the model cannot be assembled: {error}")).label("stays open").help(help)

@@ -48,7 +48,7 @@ pub(super) fn add(
     }
     super::signals::add(document, builder, names, problems);
     if !problems.is_empty() {
-        // Whatever names a signal that could not be read would be wrong as well.
+        // Expressions that refer to an unreadable signal would be wrong as well.
         return;
     }
     for component in sorted_joints {
@@ -188,7 +188,7 @@ fn friction(component: &Component, builder: &mut Builder, names: &mut Names) -> 
     Ok(())
 }
 
-/// The coordinate of a joint that a drive or a spring acts on: the one it names, or the first of the kind it wants.
+/// Joint coordinate on which a drive or a spring acts: the specified one, or the first of the required kind.
 fn coordinate(
     component: &Component,
     joint: &Located<String>,

@@ -113,7 +113,7 @@ fn kinked(name: &str, formula: &Located<Formula>, kink: &Kink) -> Problem {
         .help("use a smooth function, such as `smoothstep` or a cam with a spline table; for stops and one-sided contact, springs")
 }
 
-/// The coordinate of a joint that has one, or the one that `key` chooses.
+/// The only coordinate of a joint, or the one specified by `key`.
 fn only(
     component: &Component,
     joint: &Located<String>,
@@ -178,7 +178,7 @@ fn named(
     }
 }
 
-/// Rejects relations that do not hold at the start.
+/// Rejects relations that are not satisfied at the start.
 pub(super) fn check(document: &Document, system: &System, state: &State, problems: &mut Vec<Problem>) {
     for coupling in system.couplings() {
         let Some(component) = document.joints.iter().find(|joint| joint.name.value == coupling.name) else {

@@ -45,7 +45,7 @@ pub(super) fn steady_rotation(
     Ok(turning)
 }
 
-/// How far beside a kink functions are looked at, relative to the whole run.
+/// Distance from a breakpoint at which functions are evaluated, relative to the whole run.
 const ASIDE: f64 = 1e-9;
 /// Speeds that differ by less than this fraction of the largest speed are the same.
 const SAME_SPEED: f64 = 1e-3;
@@ -112,7 +112,7 @@ fn begins_elsewhere(
 fn jumps(component: &Component, drive: &Drive, (start, end): (f64, f64)) -> Option<Warning> {
     let function = &drive.prescribed.value;
     let aside = ASIDE * (end - start);
-    // A speed that begins or ends at zero has no size of its own: its change is measured against the largest one.
+    // A speed that starts or ends at zero has no magnitude: its change is compared with the largest one.
     let speeds = (0..=INSTANTS)
         .map(|index| start + (end - start) * f64::from(index) / f64::from(INSTANTS))
         .chain(function.breakpoints().into_iter().flat_map(|kink| [kink - aside, kink + aside]))

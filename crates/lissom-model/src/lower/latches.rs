@@ -1,4 +1,4 @@
-//! The short form of a latch: an input that is its own, an event that sets it, and one that lets go.
+//! The short form of a latch: expands to an input, an event that sets it, and one that releases it.
 
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ pub(super) fn add(
     let coordinates = names.coordinates.get(name).map_or(&[][..], Vec::as_slice);
     let &[coordinate] = coordinates else {
         let message = match coordinates.len() {
-            0 => format!("joint `{name}` has no relative coordinate for a latch to hold"),
+            0 => format!("joint `{name}` has no relative coordinate for a latch"),
             count => format!("joint `{name}` has {count} coordinates: which is latched?"),
         };
         let help = "add springs of the kinds torsional_latch and axial_latch on its coordinates, and events that set their inputs";
@@ -64,7 +64,7 @@ pub(super) fn add(
     let fault = |error| Problem::error(span, format!("latch of joint `{name}`: {error}"));
     let parameters = Parameters::new().with("engaged", Value::Input(engaged));
     builder.add_of_kind(kind, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
-    // A latch that has let go does not engage again: its coordinate leaves the position from where it was held.
+    // A released latch does not engage again, although its coordinate starts from the position at which it was locked.
     let released = builder.add_held(&format!("{name}, released"), 0.0);
     let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {
         let signal = Signal {

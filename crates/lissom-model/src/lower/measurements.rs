@@ -45,7 +45,7 @@ pub(super) fn measure(
                 relative_components(coordinates, builder).iter().any(|(known, ..)| known == component);
             if is_of_joint && !same {
                 let message = format!("`{owner}.{component}` may mean the joint or the output `{owner}`");
-                return fault(message, Some("give the output another name".to_owned()));
+                return fault(message, Some("rename the output".to_owned()));
             }
             if is_of_joint {
                 of_coordinates(owner, coordinates, builder, component)
@@ -109,7 +109,7 @@ fn of_output(
         source.and_then(|source| source.measurements().map(|measurements| (source, measurements)))
     else {
         let message =
-            format!("`{owner}` lies between nodes of a beam, where only sampled signals can measure");
+            format!("`{owner}` is between nodes of a beam, where only sampled signals can be measured");
         return of_solution(message);
     };
     let quantity = |coordinate| builder.coordinate_quantity(coordinate);
@@ -126,8 +126,9 @@ impl From<Problem> for Fault {
     }
 }
 
-/// A fault of what sampled signals can depend on.
+/// An error for a quantity on which only sampled signals can depend.
 fn of_solution<T>(message: String) -> Result<T, Fault> {
-    let help = "add `sample` to the signal, or name a joint or an output at a node, such as its position or velocity";
+    let help =
+        "add `sample` to the signal, or use a joint or an output at a node, such as its position or velocity";
     Err(Fault { message, help: Some(help.to_owned()), is_of_solution: true })
 }

@@ -1,5 +1,4 @@
-//! From a checked document to a system that can be simulated. Knows the core's builder and the registry;
-//! does no mechanics of its own.
+//! Conversion of a checked document to a system, with the core's builder and the registry. Contains no mechanics.
 
 mod analysis;
 mod assembly;
@@ -47,7 +46,7 @@ pub use resource_limits::check_run;
 /// A model ready to run. Copies share the system.
 #[derive(Clone)]
 pub struct Lowered {
-    /// What is simulated.
+    /// The simulated system.
     pub system: Arc<System>,
     /// Positions and velocities at the start.
     pub state: State,
@@ -55,17 +54,17 @@ pub struct Lowered {
     pub settings: Settings,
     /// From when to when, in how many steps.
     pub plan: Plan,
-    /// What is recorded.
+    /// Quantities to be recorded.
     pub channels: Vec<Channel>,
-    /// What channels need added up along the steps.
+    /// Quantities to be accumulated over the steps, for channels.
     pub accumulated: Vec<Arc<dyn Accumulated>>,
     /// Names of the columns that are not unique because constraints repeat each other at the start.
     pub not_unique: Vec<String>,
     /// Where the parts of the model are among the nodes and coordinates, and its signals.
     pub names: Names,
-    /// What is worth knowing of the model before it runs.
+    /// Information about the model before the run.
     pub warnings: Vec<Warning>,
-    /// What was done about parts that are placed approximately, where that was asked for.
+    /// Result of the assembly, if requested.
     pub assembly: Option<Assembly>,
 }
 
@@ -93,7 +92,7 @@ pub struct Names {
     pub nodes: BTreeMap<String, NodeId>,
     /// Nodes of each superelement, in the order of its interfaces; they are also among `nodes`, as `superelement.interface`.
     pub superelements: BTreeMap<String, Vec<NodeId>>,
-    /// What each superelement is deformed by.
+    /// Deformation of each superelement.
     pub deformations: BTreeMap<String, Deformed>,
     /// Nodes and elements of each beam.
     pub lines: BTreeMap<String, BeamLine>,

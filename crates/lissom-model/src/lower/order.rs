@@ -1,5 +1,5 @@
-//! The order in which what a model consists of is numbered: by name, whatever the order of the file. Sums are then taken in the
-//! same order, and a file with its sections in another order gives the same bits.
+//! Numbering of the entries of a model: by name, independent of the order of the file. Sums are then taken in the same order,
+//! and a file with its tables in another order gives bitwise identical results.
 
 use std::cmp::Ordering;
 use std::iter::Peekable;
@@ -32,7 +32,7 @@ fn compare(a: &str, b: &str) -> Ordering {
     }
 }
 
-/// The digits that come next, without zeros before them.
+/// The next digits, without leading zeros.
 fn number(text: &mut Peekable<Chars<'_>>) -> String {
     let mut digits = String::new();
     while let Some(digit) = text.next_if(char::is_ascii_digit) {

@@ -16,7 +16,7 @@ pub(super) struct NamedReading {
     pub(super) held: HeldId,
     pub(super) output: String,
     pub(super) component: String,
-    /// Where it is named, and by what.
+    /// Position and subject of the reference.
     pub(super) place: Span,
     pub(super) reader: String,
 }

@@ -23,7 +23,7 @@ const DECAY: Parameter = Parameter::optional(
     "Spectral radius at infinite frequency: 1 preserves energy, 0 (default) annihilates.",
 );
 
-/// The registry of everything the core knows.
+/// The registry of all kinds of the core.
 pub fn registry() -> Registry {
     Registry {
         joints: joints::KINDS.iter().map(joint).collect(),

@@ -1,5 +1,5 @@
-//! How much memory and disk a model asks for, estimated before anything is built: a slip of the pen in a number of
-//! elements or in a step would otherwise end the program without a word.
+//! Estimates of the memory and disk space that a model requires, before it is built: a typing error in a number of elements or
+//! in a step would otherwise end the program without a message.
 
 use crate::document::{AnalysisKind, Document};
 use crate::files;
@@ -10,13 +10,13 @@ use crate::report::{Problem, Report};
 const PER_NODE: f64 = 5e4;
 /// Memory that every machine has [bytes].
 const SMALL: f64 = 1e8;
-/// Memory that no machine is asked for [bytes].
+/// Upper limit of memory on any machine [bytes].
 const MAX_MEMORY: f64 = 1e12;
 /// Bytes of a number in the table of results.
 const PER_NUMBER: f64 = 20.0;
 /// Largest table of results [bytes].
 const MAX_TABLE: f64 = 5e10;
-/// Most planned steps: at a microsecond each, which no model reaches, they take three hours.
+/// Maximum number of planned steps: at a microsecond each, which no model reaches, they take three hours.
 const MAX_STEPS: f64 = 1e10;
 
 /// Complaints about a model that is too large.
@@ -24,7 +24,7 @@ pub(super) fn check(document: &Document, problems: &mut Vec<Problem>) {
     elements(document, || files::available_memory().unwrap_or(MAX_MEMORY), problems);
 }
 
-/// Whether a run to the end is of a size that can be meant. Who takes single steps need not ask.
+/// Checks whether a run to the end has a plausible size. Not required by callers that take single steps.
 ///
 /// # Errors
 /// If it would take hours, or fill the disk.
@@ -37,7 +37,7 @@ pub fn check_run(document: &Document) -> Result<(), Report> {
 fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut Vec<Problem>) {
     let nodes = |beam: &crate::document::Beam| beam.elements.value as f64 * beam.order as f64;
     let memory = PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
-    // The system is not asked for every small model: that would take a tenth of what a member of a sweep costs.
+    // The available memory is not queried for small models: that would take a tenth of the time of a sweep's member.
     if memory <= SMALL {
         return;
     }
@@ -47,7 +47,7 @@ fn elements(document: &Document, available: impl FnOnce() -> f64, problems: &mut
     }
     let Some(largest) = document.beams.iter().max_by(|a, b| nodes(a).total_cmp(&nodes(b))) else { return };
     let message = format!(
-        "the model needs about {} of memory, most of it for the {} elements of beam `{}`; there are {}",
+        "the model requires about {} of memory, most of it for the {} elements of beam `{}`; available are {}",
         size(memory),
         largest.elements.value,
         largest.name.value,
@@ -69,12 +69,12 @@ fn steps(document: &Document, problems: &mut Vec<Problem>) {
     let columns = 1.0 + 3.0 * document.outputs.len() as f64;
     let table = PER_NUMBER * rows * columns;
     if steps > MAX_STEPS {
-        let message = format!("the analysis asks for {steps:.1e} steps: at 10 µs each they take {} hours", {
+        let message = format!("the analysis requires {steps:.1e} steps: at 10 µs each they take {} hours", {
             (steps * 1e-5 / 3600.0).round()
         });
         problems.push(Problem::error(span, message).help("choose a larger `step` or an earlier `end`"));
     } else if table > MAX_TABLE {
-        let message = format!("{rows:.1e} rows of results would take about {} on the disk", size(table));
+        let message = format!("{rows:.1e} rows of results would require about {} of disk space", size(table));
         let help = "record fewer of them with `output_every`, or choose a larger `step` or an earlier `end`";
         problems.push(Problem::error(span, message).help(help));
     }

@@ -1,4 +1,4 @@
-//! Inputs, signals and states: names in expressions become held values, earlier signals and measurements.
+//! Inputs, signals and states: resolves names in expressions to discrete values, earlier signals and measurements.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -42,7 +42,7 @@ pub(super) fn add(
     for entry in by_name(&document.signals, |entry| &entry.name.value) {
         if let Err(problem) = order.visit(entry) {
             problems.push(problem);
-            // Whatever names a signal of a loop would be wrong as well.
+            // Expressions that refer to a signal of a loop would be wrong as well.
             return;
         }
     }
@@ -93,7 +93,7 @@ fn add_event(
     builder.add_event(event).map_err(|error| Problem::error(entry.name.span, error.to_string()))
 }
 
-/// Sorts signals so that each comes after those it names.
+/// Sorts signals such that each follows those to which it refers.
 struct Order<'d> {
     document: &'d Document,
     /// Whether a signal that was met is done.
@@ -160,7 +160,7 @@ fn add_signal(
         .add_signal(Signal { sampling: own, ..signal })
         .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
     names.signals.insert(name.clone(), Argument::Signal(signal));
-    // Between samples it is constant, and what it is then is not known beforehand.
+    // Between samples it is constant, with a value that is not known in advance.
     names.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
     Ok(())
 }
@@ -180,7 +180,7 @@ pub(super) fn add_formula(
 
 /// An expression that names quantities.
 pub(super) struct Reader<'a> {
-    /// What messages are about.
+    /// Subject of messages.
     pub(super) subject: &'a Subject,
     pub(super) expression: &'a Located<Formula>,
     /// Whether it is evaluated at samples alone.
@@ -221,7 +221,7 @@ fn formula(
     Ok((signal, line))
 }
 
-/// What a name in an expression means.
+/// Meaning of a name in an expression.
 fn resolve(
     document: &Document,
     builder: &mut Builder,
@@ -248,7 +248,7 @@ fn resolve(
         let is_owner =
             owners.chain(names.coordinates.keys().map(String::as_str)).any(|owner| owner == name.text);
         let help = if is_owner {
-            Some(format!("name a component, as in `{}.rate` or `{}.u1`", name.text, name.text))
+            Some(format!("write a component, such as `{}.rate` or `{}.u1`", name.text, name.text))
         } else {
             suggest::help(&name.text, known)
         };
@@ -262,7 +262,7 @@ fn resolve(
         }
         if names.open_expressions.contains(output) {
             return Err(problem(format!("the output `{output}` is an expression of itself"))
-                .help("leave one of these names out"));
+                .help("remove one of these names"));
         }
         names.open_expressions.push(output.clone());
         let found = output_value(document, builder, names, of, is_sampled);

@@ -8,7 +8,7 @@ use super::{Names, parameter_problem};
 use crate::document::{Beam, Component, Document, NodeReference};
 use crate::report::{Located, Problem};
 
-/// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: a smooth line goes through their nodes.
+/// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: the line through their nodes is smooth.
 const SMOOTH: f64 = 0.999_39;
 
 /// Adds a slider.
@@ -46,8 +46,10 @@ pub(super) fn add(
             arc_lengths(beam, &line.places).into_iter().map(|own| from + own).collect();
         if let (Some(before), Some(end)) = (last, nodes.last()) {
             if end.node != own[0].node {
-                let message =
-                    format!("beam `{}` does not begin where `{}` ends", reference.value, before.name.value);
+                let message = format!(
+                    "beam `{}` does not start at the end of `{}`",
+                    reference.value, before.name.value
+                );
                 return Err(Problem::error(reference.span, message)
                     .help("let it start at the node of the other, as `from = \"other.end\"`, and name them in order"));
             }
@@ -66,10 +68,10 @@ pub(super) fn add(
             let [one, other] = [before.frame(1.0), beam.frame(0.0)].map(|own| own.column(1).into_owned());
             if orientation == Some("section") && one.dot(&other) < SMOOTH {
                 let message = format!(
-                    "the sections of beams `{}` and `{}` are turned against each other where they meet",
+                    "the sections of beams `{}` and `{}` differ in orientation at their common node",
                     before.name.value, reference.value
                 );
-                return Err(Problem::error(reference.span, message).help("give both the same `up` there"));
+                return Err(Problem::error(reference.span, message).help("specify the same `up` for both"));
             }
             own.remove(0);
             lengths.remove(0);

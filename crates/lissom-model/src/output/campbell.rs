@@ -12,7 +12,7 @@ const NAME: &str = "campbell";
 pub struct CampbellPlot {
     /// Above the drawing.
     pub title: String,
-    /// What is varied.
+    /// Varied paths.
     pub x_label: String,
     /// Values and frequencies [Hz] of each line.
     pub lines: Vec<Vec<(f64, f64)>>,

@@ -22,7 +22,7 @@ impl Stretch {
         let by_value = |a: &&Point, b: &&Point| a.1.total_cmp(&b.1);
         let first = points[0];
         let least = points.iter().min_by(by_value).copied().unwrap_or(first);
-        // Of equal ones the first is kept, as for the least.
+        // Of equal values the first is kept, as for the minimum.
         let most = points.iter().rev().max_by(by_value).copied().unwrap_or(first);
         Self(if least.0 <= most.0 { [least, most] } else { [most, least] })
     }
@@ -42,12 +42,12 @@ pub struct CurveRecord {
 }
 
 impl CurveRecord {
-    /// What each column holds.
+    /// Content of each column.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// Says anew what the columns hold: a table that was read back has names alone.
+    /// Sets the contents of the columns: a table read from a file has only their names.
     pub fn set_columns(&mut self, columns: &[Column]) {
         self.columns = columns.to_vec();
     }
@@ -76,7 +76,7 @@ impl CurveRecord {
         }
         let begins = self.begun == 0;
         for (curve, &value) in self.curves.iter_mut().zip(values) {
-            // What is no number has no position in a drawing, and is dropped there; here it would hide the extremes.
+            // Values that are not numbers are not drawn; here they would hide the extremes.
             let point = (time, value);
             match curve.last_mut() {
                 Some(last) if !begins && !value.is_nan() => {

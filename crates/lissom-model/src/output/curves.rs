@@ -1,4 +1,4 @@
-//! Plots that are asked for: chosen columns of one or several results over time, over another column or over frequency.
+//! Requested plots: chosen columns of one or several results over time, over another column or over frequency.
 
 use super::plot::{Axis, Figure, Panel, file_name, quantity_of};
 use super::spectrum::Spectrum;
@@ -13,7 +13,7 @@ pub struct Source<'a> {
     pub record: &'a Record,
 }
 
-/// What curves are drawn over.
+/// Abscissa of curves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over<'a> {
     /// Time.
@@ -56,12 +56,12 @@ pub enum CurveError {
     NoSpectrum(String),
 }
 
-/// Figures, and what was omitted from them, in words.
+/// Figures, and messages about omitted curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Plots {
     /// The figures.
     pub figures: Vec<Figure>,
-    /// What is not in them.
+    /// Omitted curves.
     pub left_out: Vec<String>,
 }
 

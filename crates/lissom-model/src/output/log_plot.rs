@@ -1,4 +1,4 @@
-//! Plots of studies: curves over logarithmic axes, with a mark at every point. Knows no study.
+//! Plots of studies: curves over logarithmic axes, with a mark at every point. Independent of the study.
 
 use lissom_drawing::{Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 

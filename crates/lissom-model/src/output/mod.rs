@@ -1,4 +1,4 @@
-//! Where results go: columns of numbers over time, to tables, summaries and plots. Knows no mechanics.
+//! Output of results: columns of numbers over time, to tables, summaries and plots. Independent of mechanics.
 
 mod bode;
 mod campbell;
@@ -32,7 +32,7 @@ pub use sweep_plot::{SweepAxis, SweepPicture, SweepPlot};
 use crate::channel_components::component_position;
 use crate::sweep::Fatigue;
 
-/// What a column of results holds.
+/// Content of a column of results.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Name of the output it belongs to, such as `midspan`; columns of one output are drawn together.
@@ -82,15 +82,14 @@ impl Column {
     }
 }
 
-/// Takes results row by row.
+/// Receives results row by row.
 pub trait Writer {
     /// Starts with the columns after the time.
     ///
     /// # Errors
     /// If it cannot be written.
     fn begin(&mut self, columns: &[Column]) -> io::Result<()>;
-
-    /// Takes the values of all columns at `time` [s].
+    /// Receives the values of all columns at `time` [s].
     ///
     /// # Errors
     /// If it cannot be written.

@@ -47,7 +47,7 @@ pub struct Figure {
     panels: Vec<Panel>,
 }
 
-/// What curves are drawn over.
+/// Abscissa of curves.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     label: String,
@@ -95,7 +95,7 @@ pub(super) fn file_name(name: &str) -> String {
     name.replace(|c: char| !c.is_alphanumeric() && c != '-' && c != '.', "_")
 }
 
-/// What is beside an axis: some kinds of output record several quantities, which their units distinguish.
+/// Label of an axis: some kinds of output record several quantities, which are distinguished by their units.
 pub(super) fn quantity_of(column: &Column) -> String {
     let quantity = column.quantity.as_str();
     let word = match (quantity, column.unit.as_str()) {
@@ -134,7 +134,7 @@ fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, tit
         let known = figures.iter().position(|(known, _)| *known == output);
         let index = known.unwrap_or_else(|| {
             let name = output.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
-            // Names that differ in characters which no file name takes get a number.
+            // Names that differ only in characters that file names cannot contain get a number.
             let alike = |name: &str| figures.iter().any(|(_, figure)| figure.name == name);
             let name = std::iter::once(name.clone())
                 .chain((2..figures.len() + 3).map(|number| format!("{name}_{number}")))
@@ -202,7 +202,7 @@ fn thinned_path(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 }
 
 impl Figure {
-    /// A figure of panels whose curves hold all their points.
+    /// A figure of panels whose curves contain all their points.
     pub(super) fn of(name: &str, title: &str, axis: Axis, mut panels: Vec<Panel>) -> Self {
         for (_, points) in panels.iter_mut().flat_map(|panel| &mut panel.curves) {
             let all = std::mem::take(points);

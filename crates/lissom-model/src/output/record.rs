@@ -7,7 +7,7 @@ use super::{Column, Writer};
 /// Results in memory.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
-    /// What each column holds.
+    /// Content of each column.
     pub columns: Vec<Column>,
     /// Times [s].
     pub times: Vec<f64>,
@@ -32,7 +32,7 @@ impl Record {
         Column::of(&self.columns, output, component).map(|index| self.values[index].as_slice())
     }
 
-    /// Reads what a [`CsvWriter`](super::CsvWriter) has written. Quantities and units are not in the text:
+    /// Reads the text of a [`CsvWriter`](super::CsvWriter). Quantities and units are not in the text:
     /// quantities are taken as the outputs' names.
     ///
     /// # Errors

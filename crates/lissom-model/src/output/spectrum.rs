@@ -61,7 +61,7 @@ impl Spectrum {
         Some(Self { lines: (1..=count).map(amplitude).collect(), nyquist })
     }
 
-    /// The greatest frequency that was looked at [Hz].
+    /// Largest frequency of the range [Hz].
     pub fn end(&self) -> f64 {
         self.lines.last().map_or(0.0, |line| line.0)
     }

@@ -18,7 +18,7 @@ impl Summary {
     /// Adds or replaces a fact. Numbers that are not finite become `null`, which is all that JSON has.
     ///
     /// # Errors
-    /// If the fact cannot be said in JSON, such as a map whose keys are no texts.
+    /// If the value cannot be written as JSON, such as a map whose keys are not texts.
     pub fn insert(&mut self, name: &str, fact: impl Serialize) -> Result<(), serde_json::Error> {
         let value = serde_json::to_value(fact)?;
         self.facts.insert(name.to_owned(), value);

@@ -1,4 +1,4 @@
-//! Pictures of a sweep's table: what is collected over what is varied, and all of it as parallel coordinates.
+//! Plots of a sweep's table: collected scalars over varied numbers, and all of them as parallel coordinates.
 
 use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 
@@ -19,12 +19,12 @@ pub struct SweepAxis {
     pub name: String,
     /// Its value in each member; of words, their number among those that occur.
     pub values: Vec<f64>,
-    /// Whether even ratios are evenly far apart.
+    /// Whether the scale is logarithmic.
     pub is_logarithmic: bool,
 }
 
 impl SweepAxis {
-    /// A column of words, which are numbered as they come.
+    /// A column of words, numbered in the order of their occurrence.
     pub fn of_words(name: &str, words: &[String]) -> Self {
         let mut known: Vec<&String> = Vec::new();
         let mut number = |word| {
@@ -47,14 +47,14 @@ impl SweepAxis {
 pub struct SweepPlot {
     /// Above the drawings.
     pub title: String,
-    /// What is varied.
+    /// Varied paths.
     pub varied: Vec<SweepAxis>,
-    /// What is collected.
+    /// Collected scalars.
     pub collected: Vec<SweepAxis>,
 }
 
 impl SweepPlot {
-    /// What is collected, row by row, over what is varied, column by column. Of many, the first six each.
+    /// Collected scalars, by row, over varied numbers, by column; of many, the first six each.
     ///
     /// # Errors
     /// If there are no members to draw.
@@ -144,14 +144,14 @@ impl SweepPlot {
 }
 
 impl SweepAxis {
-    /// Least and greatest value of members that have one.
+    /// Minimum and maximum over members that have a value.
     fn range(&self, members: &[usize]) -> [f64; 2] {
         let values = members.iter().map(|&member| self.values[member]).filter(|value| value.is_finite());
         values
             .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
     }
 
-    /// Share of the range that lies below a value; the middle for values that are all the same.
+    /// Fraction of the range below a value; one half if all values are equal.
     fn share(&self, [low, high]: [f64; 2], value: f64) -> f64 {
         if high - low <= 1e-12 * high.abs().max(low.abs()) {
             return if value.is_finite() { 0.5 } else { f64::NAN };

@@ -1,5 +1,5 @@
-//! Puts what parts are made of into the model's tables, once for each part. Works on the tree of values: nothing is
-//! evaluated here.
+//! Inserts the contents of parts into the model's tables, once for each part. Operates on the tree of values without evaluating
+//! them.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::text::{self, Entry, Node, Table, Tree, Value, in_order};
 /// How deep parts may contain parts.
 const DEPTH: usize = 32;
 
-/// Puts all parts of `tree` in their places.
+/// Expands all parts of `tree`.
 ///
 /// # Errors
 /// All that is wrong with them, and the texts in which it is.
@@ -61,7 +61,7 @@ fn in_list(table: &Table) -> Vec<(String, Span, Node)> {
     in_order(table).into_iter().map(|(name, key, node)| (name.to_owned(), key, node.clone())).collect()
 }
 
-/// Gives entries with `in` a scope of their own, placed as the part they name.
+/// Creates a scope for each entry with `in`, placed as that part.
 fn place_entries(expanded: &mut Expanded) {
     let Expanded { root, scopes, .. } = expanded;
     for word in PLACED_TABLES {
@@ -83,7 +83,7 @@ fn place_entries(expanded: &mut Expanded) {
     }
 }
 
-/// A table `parts` and what is around it.
+/// A table `parts` and its context.
 struct Level {
     scope: ScopeId,
     /// Path of the file it is written in, empty for the model's.
@@ -92,7 +92,7 @@ struct Level {
     chain: Vec<String>,
 }
 
-/// What a part is made of.
+/// Contents of a part.
 struct Content {
     table: Table,
     /// Path and text of the file, if it is one.
@@ -106,7 +106,7 @@ struct Content {
     is_own: bool,
 }
 
-/// A file's text and what it holds.
+/// A file's text and its contents.
 type Read = (Arc<str>, Arc<Table>);
 
 struct Expansion<'l> {
@@ -192,7 +192,7 @@ impl Expansion<'_> {
         }
     }
 
-    /// What the part `name` is made of; `path` are the parts that are like each other on the way here.
+    /// Contents of the part `name`; `path` is the chain of `like` references that leads to it.
     fn content(
         &mut self,
         (name, key, table): (&str, Span, &Table),
@@ -426,7 +426,7 @@ impl Expansion<'_> {
         Some(())
     }
 
-    /// The content's parameters, those that are given in place of its own.
+    /// Parameters of the contents, where specified values replace its own.
     fn parameters(
         &mut self,
         full: &str,
@@ -494,7 +494,7 @@ impl Expansion<'_> {
     }
 }
 
-/// What is wrong with a word at the top of an included file, if anything.
+/// Error of a key at the top level of an included file, if there is one.
 fn wrong_word(word: &str, node: &Node) -> Option<(String, String)> {
     match word {
         "title" | "parameters" | "parts" => None,
@@ -511,7 +511,7 @@ fn wrong_word(word: &str, node: &Node) -> Option<(String, String)> {
         word => {
             let help = suggest::help(word, tables::tops().map(|top| top.name))
                 .unwrap_or_else(|| "leave it out".to_owned());
-            Some((format!("`{word}` is not a word of a model file"), help))
+            Some((format!("`{word}` is not a key of a model file"), help))
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Where parts are: the frame of a scope, of a body, and the positions of points, each found when it is first asked for.
+//! Frames of scopes and bodies, and positions of points, each computed when it is first requested.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -170,7 +170,7 @@ impl Context<'_> {
     /// A position given in `scope`, in global axes.
     pub(crate) fn to_global(&self, scope: ScopeId, place: &Vector3) -> Option<Vector3> {
         let frame = self.frame(scope)?;
-        // What is not placed stays as it was written, to the last bit.
+        // Values without placement are unchanged, to the last bit.
         Some(if frame == Motion::IDENTITY { *place } else { frame.transform_point(place) })
     }
 
@@ -180,7 +180,7 @@ impl Context<'_> {
         Some(if frame.rotation == Rotation::IDENTITY { *direction } else { frame.rotation.apply(direction) })
     }
 
-    /// Finds a frame once; what is needed for itself is an error.
+    /// Computes a frame once; a frame that depends on itself is an error.
     fn once(&self, wanted: Wanted, place: Span, find: impl FnOnce() -> Option<Motion>) -> Option<Motion> {
         let known = self.frames.0.borrow().get(&wanted).copied();
         match known {

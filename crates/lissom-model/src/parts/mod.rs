@@ -1,5 +1,5 @@
-//! Parts that repeat: sub-assemblies from files or from the model itself, named, placed and put into the model's tables
-//! under names such as `leg2.rod`. What a name, a parameter or a position means depends on the scope it was written in.
+//! Expansion of parts: sub-assemblies from files or from the model itself, placed and inserted into the model's tables under
+//! names such as `leg2.rod`. The meaning of a name, a parameter or a position depends on its scope.
 
 mod expand;
 mod frames;
@@ -29,12 +29,12 @@ const MAX_PARTS: usize = 20_000;
 const PLACED_TABLES: [&str; 8] =
     ["points", "bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads"];
 
-/// Where a text was written: what its names, parameters and positions mean.
+/// Scope of a text, which determines the meaning of its names, parameters and positions.
 #[derive(Clone, Debug)]
 pub(crate) struct Scope {
     /// The scope around it; none for the model's.
     pub(crate) parent: Option<ScopeId>,
-    /// What its names begin with in the whole model, such as `leg2.`.
+    /// Prefix of its names in the whole model, such as `leg2.`.
     pub(crate) prefix: String,
     /// Names of the scope around it that are known here.
     pub(crate) outside: Outside,
@@ -42,13 +42,13 @@ pub(crate) struct Scope {
     pub(crate) parameters: Vec<(String, Span, Node)>,
     /// The number of the part among all of its array, from 1, and their count.
     pub(crate) index: Option<(usize, usize)>,
-    /// How it is placed in the scope around it, the inmost first.
+    /// Its placements in the enclosing scopes, the innermost first.
     pub(crate) placements: Vec<Placement>,
-    /// Where it is asked for.
+    /// Position of the request in the text.
     pub(crate) place: Span,
 }
 
-/// What is known of the names around a scope.
+/// Names of the scopes around a scope.
 #[derive(Clone, Debug)]
 pub(crate) enum Outside {
     /// All of them.

@@ -1,4 +1,4 @@
-//! What names mean where they are: those of a part are known inside of it without the part's name.
+//! Resolution of names in their scope: inside a part, its own names are used without the part's name.
 
 use std::borrow::Cow;
 
@@ -64,7 +64,7 @@ impl Context<'_> {
         Some(Cow::Owned(whole))
     }
 
-    /// The name in the whole model that `text` has where it is, of those that `exists` knows.
+    /// Name in the whole model of `text` in its scope, among those for which `exists` is true.
     pub(crate) fn resolve(&self, text: &str, from: ScopeId, exists: &dyn Fn(&str) -> bool) -> Option<String> {
         let mut text = text.to_owned();
         let mut scope = from;
@@ -98,7 +98,7 @@ impl Context<'_> {
     pub(crate) fn entry_named(&self, table: &str, text: &str, node: &Node, what: &str) -> Option<String> {
         let written = self.written(text, (node.span, node.scope), what)?;
         let found = self.resolve(&written, node.scope, &|full| self.has(table, full));
-        // A name that is not there is reported by whoever asks for it.
+        // A missing name is reported by the caller.
         Some(found.unwrap_or_else(|| written.into_owned()))
     }
 
@@ -117,7 +117,7 @@ impl Context<'_> {
                     .rsplit_once('.')
                     .is_some_and(|(owner, _)| OWNERS.iter().any(|table| self.has(table, owner)))
         };
-        // What is unknown inside must stay unknown: it may be the name of something else outside.
+        // A name unknown inside must remain unknown: it may be the name of another entry outside.
         self.resolve(text, scope, &exists).unwrap_or_else(|| format!("{}{text}", self.scopes[scope].prefix))
     }
 }

@@ -1,4 +1,4 @@
-//! Overrides of what is inside of parts, such as `leg2.rod.mass`.
+//! Overrides inside parts, such as `leg2.rod.mass`.
 
 use super::Expanded;
 use crate::context::singular;

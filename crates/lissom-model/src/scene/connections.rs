@@ -152,7 +152,7 @@ pub(super) fn beam_loads(document: &Document, places: &Places<'_>) -> Vec<BeamLo
                     let arguments = vec![line.places[k]; formula.arguments().len()];
                     let function = formula.with_arguments(&arguments);
                     let grows = document.analysis.ramp && !formula.depends_on_time();
-                    // In statics what is constant grows with the load.
+                    // In statics constant loads are ramped as well.
                     let share = if grows { (time - start) / (end - start) } else { 1.0 };
                     share * function.value(time)
                 });

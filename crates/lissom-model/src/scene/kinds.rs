@@ -1,5 +1,5 @@
-//! The symbols of all kinds of joints, springs and loads: one line for each. What turns is round about its axis, what
-//! slides lies along it. A kind that is not here has no picture, and a test asks for it.
+//! Symbols of all kinds of joints, springs and loads, one line for each. Rotating symbols are round about their axis, sliding
+//! ones are parallel to it. A test fails for kinds without a symbol.
 
 use super::solids::{Axes, Form, Solid, Tone};
 
@@ -11,9 +11,9 @@ pub(super) type Both = [Axes; 2];
 /// How a kind is drawn.
 #[derive(Clone, Copy)]
 pub(super) enum Drawn {
-    /// By solids on the base and on the tip, and by what leads from one to the other.
+    /// Solids on base and tip, and the connection between them.
     Solids(fn(&Both) -> [Vec<Solid>; 2]),
-    /// Likewise, with a rod from base to tip.
+    /// The same with a rod from base to tip.
     WithRod(fn(&Both) -> [Vec<Solid>; 2]),
     /// By a coil from base to tip.
     Coil,

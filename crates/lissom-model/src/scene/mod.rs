@@ -1,5 +1,5 @@
-//! What a model looks like: parts with their shapes, joints with their axes, springs and loads, each at its position in
-//! the frames of the nodes. Together with the poses of the nodes it is all that a picture needs. Knows no pictures.
+//! Scene of a model: parts with their shapes, joints with their axes, springs and loads, each at its position in
+//! the frames of the nodes. With the poses of the nodes it determines a picture. Independent of drawing.
 //!
 //! Serialises to `scene.json`. Lengths are in metres, angles in radians; positions and directions are in the frame of the
 //! node they name. Node 0 is the ground.
@@ -30,7 +30,7 @@ pub use symbols::{Rod, Symbol};
 
 pub use crate::surface::Surface;
 
-/// Version of what is written.
+/// Version of the format.
 const VERSION: usize = 2;
 
 /// A text that is no scene of this version.
@@ -69,7 +69,7 @@ pub struct Scene {
     pub point_masses: Vec<PointMass>,
     /// Beams.
     pub beams: Vec<Beam>,
-    /// Joints and drives, and superelements, which hold their interfaces.
+    /// Joints, drives, and superelements, which connect their interfaces.
     pub joints: Vec<Joint>,
     /// Springs.
     pub springs: Vec<Spring>,
@@ -77,11 +77,11 @@ pub struct Scene {
     pub loads: Vec<Load>,
     /// Forces per length of beams.
     pub beam_loads: Vec<BeamLoad>,
-    /// What joints, springs and loads look like.
+    /// Symbols of joints, springs and loads.
     pub symbols: Vec<Symbol>,
-    /// Rods of joints that hold two positions apart.
+    /// Rods of joints that keep the distance of two positions.
     pub rods: Vec<Rod>,
-    /// What is recorded, and of which part.
+    /// Outputs with their parts.
     pub outputs: Vec<Output>,
 }
 
@@ -94,7 +94,7 @@ pub struct Anchor {
     pub position: [f64; 3],
 }
 
-/// What is recorded.
+/// Quantities to be recorded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
     /// Name; its columns in the table begin with it.
@@ -138,7 +138,7 @@ impl Scene {
         }
     }
 
-    /// Reads what [`to_json`](Self::to_json) has written.
+    /// Reads the result of [`to_json`](Self::to_json).
     ///
     /// # Errors
     /// If it is something else, or of another version.
@@ -155,7 +155,7 @@ impl Scene {
         serde_json::from_str(text).map_err(damaged)
     }
 
-    /// The greatest number of a node that is named.
+    /// Largest number of a node in it.
     pub fn most_node(&self) -> NodeId {
         let anchors = (self.joints.iter().filter_map(|joint| joint.anchors))
             .chain(self.springs.iter().filter_map(|spring| spring.anchors))
@@ -177,9 +177,9 @@ impl Scene {
     /// As a JSON text.
     ///
     /// # Panics
-    /// Never: plain numbers and texts can always be said in JSON.
+    /// Never: plain numbers and texts can always be written as JSON.
     pub fn to_json(&self) -> String {
-        serde_json::to_string(self).expect("plain numbers and texts can always be said in JSON")
+        serde_json::to_string(self).expect("plain numbers and texts can always be written as JSON")
     }
 }
 

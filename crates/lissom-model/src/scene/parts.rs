@@ -22,7 +22,7 @@ pub struct Body {
     pub inertia: [[f64; 3]; 3],
     /// The box that has this mass and inertia.
     pub shape: InertiaBox,
-    /// What is drawn instead, where the model gives it.
+    /// Shape to be drawn instead, if the model specifies it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub surface: Option<Surface>,
 }
@@ -94,7 +94,7 @@ pub(super) fn bodies(document: &Document, places: &Places<'_>) -> Vec<Body> {
     document.bodies.iter().filter_map(drawn).collect()
 }
 
-/// Without what rounding has left between the halves.
+/// Without differences of the halves due to round-off.
 fn symmetric(matrix: &Matrix3) -> Matrix3 {
     0.5 * (matrix + matrix.transpose())
 }

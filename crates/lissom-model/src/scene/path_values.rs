@@ -8,7 +8,7 @@ use super::Scene;
 /// Lengths at which the size of a load is sampled, less one.
 const SAMPLES: u32 = 600;
 
-/// What changes along an equilibrium path: the load factor, or a number of the model file.
+/// Parameter of an equilibrium path: the load factor, or a number of the model file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PathValues {
     /// `load factor`, or the path to the number.
@@ -20,7 +20,7 @@ pub struct PathValues {
 }
 
 impl PathValues {
-    /// None yet, of what is called so.
+    /// No values yet, for the parameter of this name.
     pub fn new(name: &str) -> Self {
         Self { name: name.to_owned(), ..Self::default() }
     }
@@ -48,7 +48,7 @@ impl Scene {
     #[must_use]
     pub fn along(mut self, path: PathValues, scales_loads: bool) -> Self {
         let length = path.lengths.last().copied().unwrap_or(0.0);
-        // Pictures divide by the length of what they show.
+        // Pictures divide by the length of their range.
         (self.start, self.end) = (0.0, if length > 0.0 { length } else { 1.0 });
         if scales_loads {
             let factors: Vec<f64> =

@@ -104,7 +104,7 @@ mod tests {
             for (side, wanted) in sides.iter().zip([a, b, c]) {
                 assert!((side - wanted).abs() < 1e-12, "{found:?}");
             }
-            // The longest side lies along the third axis.
+            // The longest side is along the third axis.
             let longest = found.sides.iter().position(|side| (side - c).abs() < 1e-12).unwrap();
             let principal = Rotation::from_quaternion(found.quaternion).unwrap().matrix();
             assert!((principal.column(longest).dot(&axes.column(2)).abs() - 1.0).abs() < 1e-12);

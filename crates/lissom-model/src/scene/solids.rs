@@ -1,11 +1,11 @@
-//! Solids that symbols are made of, and what places them: axes of a joint in the frame of the node that carries it.
+//! Solids of symbols, and their placement: the axes of a joint in the frame of its node.
 //!
 //! Lengths are multiples of the radius at which a symbol is drawn, which depends on the size of the picture.
 
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// The form of a solid; what its three sizes are.
+/// Form of a solid, with the meaning of its three sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
@@ -23,7 +23,7 @@ pub enum Form {
     Octahedron,
 }
 
-/// What a solid is coloured as.
+/// Role of a solid, which determines its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tone {
@@ -31,7 +31,7 @@ pub enum Tone {
     Light,
     /// A pin or shaft of a joint.
     Dark,
-    /// What prescribes a motion.
+    /// Prescribed motion.
     Drive,
     /// A spring.
     Spring,
@@ -54,7 +54,7 @@ pub struct Solid {
     pub place: [f64; 3],
     /// Its axis in the frame of the node, of length one. It leads there from the solid's second axis by the shortest turn.
     pub axis: [f64; 3],
-    /// What it is coloured as.
+    /// Its role, for its colour.
     pub tone: Tone,
 }
 
@@ -89,7 +89,7 @@ impl Axes {
         self.solid(Form::Cylinder, [radius, length, 0.0], (along, [0.0; 3]), tone)
     }
 
-    /// A block whose second side lies along the first axis.
+    /// A block whose second side is along the first axis.
     pub(super) fn block(&self, size: [f64; 3], place: [f64; 3], tone: Tone) -> Solid {
         self.solid(Form::Block, size, (0, place), tone)
     }

@@ -1,4 +1,4 @@
-//! Superelements as they look: their interfaces, joined by lines to the one that carries the floating frame.
+//! Drawing of superelements: their interfaces, connected by lines to the one with the floating frame.
 
 use lissom_motion::Vector3;
 
@@ -7,7 +7,7 @@ use super::symbols::{Rod, Symbol};
 use super::{Anchor, Joint, Places};
 use crate::document::Document;
 
-/// What they are listed as, symbols of the interfaces, and the lines between them.
+/// Their entries, symbols of the interfaces, and the lines between them.
 pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Joint>, Vec<Symbol>, Vec<Rod>) {
     let (mut joints, mut symbols, mut rods) = (Vec::new(), Vec::new(), Vec::new());
     let axes = Axes::of(&Vector3::x(), None);

@@ -19,7 +19,7 @@ pub struct Symbol {
     pub anchor: Anchor,
     /// Half the thickness [m] of the thickest beam that ends there, which a symbol must not hide in.
     pub around: f64,
-    /// What it is made of.
+    /// Its solids.
     pub solids: Vec<Solid>,
 }
 
@@ -90,7 +90,7 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             let on_tip =
                 given("tip_axis").or_else(|| given("wheel_axis")).or_else(|| given("axle")).unwrap_or(first);
             let at_tip = match component.kind.value.as_str() {
-                // The arm leads from the hinge to the tip's own position, and a wheel's centre lies there.
+                // The arm connects the hinge to the tip's position, which is also the centre of a wheel.
                 "swing_arm" | "rolling" => places.frame(places.node(&tip.value)?).position,
                 // A wheel of a wheelset is beside the tip's position, outwards along the axle.
                 "wheel_on_rail" => {
@@ -123,7 +123,7 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             Some(vec![of(joint)?, of(other)?])
         }
         Attachment::AlongBeams { tip, at, .. } => Some(vec![end(tip, at, &Vector3::z(), None)?]),
-        // What has no position is not drawn.
+        // Elements without a position are not drawn.
         Attachment::Nothing => None,
         Attachment::Coordinates(coordinates) => {
             let mut joints: Vec<&str> = coordinates.iter().map(|(joint, _)| joint.value.as_str()).collect();

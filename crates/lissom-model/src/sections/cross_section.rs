@@ -1,4 +1,4 @@
-//! What a shape of cross sections consists of.
+//! Interface of the shapes of cross sections.
 
 use super::ShearTheory;
 use crate::keys::Key;
@@ -23,12 +23,11 @@ pub(crate) trait CrossSection {
 
     /// Shear coefficients for shear along axes 2 and 3 [–].
     fn shear_coefficients(&self, theory: ShearTheory, poisson: f64) -> [f64; 2];
-
-    /// What is drawn.
+    /// Shape for drawings.
     fn outline(&self) -> Outline;
 }
 
-/// A kind of shape, as the model file knows it.
+/// A kind of shape in the model file.
 pub(crate) struct SectionKind {
     /// Name in the model file.
     pub(crate) name: &'static str,
@@ -36,6 +35,6 @@ pub(crate) struct SectionKind {
     pub(crate) summary: &'static str,
     /// Its keys.
     pub(crate) keys: fn() -> Vec<Key>,
-    /// Reads it from its table; what is wrong is reported.
+    /// Reads it from its table and reports errors.
     pub(crate) read: fn(&Reader<'_, '_>) -> Option<Box<dyn CrossSection>>,
 }

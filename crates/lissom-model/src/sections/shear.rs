@@ -70,7 +70,7 @@ mod tests {
         let close = |found: f64, wanted: f64| assert!((found - wanted).abs() < 1e-4, "{found} {wanted}");
         close(ShearTheory::Cowper.rectangle(1.0, 2.0, 0.3), 13.0 / 15.3);
         close(ShearTheory::Cowper.ring(0.0, 0.3), 7.8 / 8.8);
-        // A thin tube: Cowper 2(1+ν)/(4+3ν), Renton 1/2 whatever ν.
+        // A thin tube: Cowper 2(1+ν)/(4+3ν), Renton 1/2 for any ν.
         close(ShearTheory::Cowper.ring(1.0, 0.3), 2.6 / 4.9);
         close(ShearTheory::Renton.ring(1.0, 0.3), 0.5);
         // Solid circle after Renton: 6(1+ν)²/(7+14ν+8ν²).

@@ -1,5 +1,5 @@
 //! glTF 2.0 files, `.glb` or `.gltf`: the triangles of the scene at rest, as the nodes place them. Colours, textures and
-//! animations are omitted; what would be drawn in the wrong position (skins, compressed meshes) is rejected.
+//! animations are omitted; features that would be drawn incorrectly (skins, compressed meshes) are rejected.
 
 use nalgebra::{Matrix4, Quaternion, UnitQuaternion, Vector4};
 use serde_json::Value;
@@ -233,7 +233,7 @@ impl<'a> File<'a> {
         Ok(entries.map(number).collect())
     }
 
-    /// The entries of an accessor, as bytes; `bytes` says how many an entry has, by the kind of its numbers.
+    /// The entries of an accessor, as bytes; `bytes` returns the length of an entry for the type of its numbers.
     fn accessor(
         &self,
         index: usize,

@@ -13,12 +13,12 @@ use crate::solid::Solid;
 /// The corners of a triangle.
 type Triangle = [[f32; 3]; 3];
 
-/// Sides of what is round.
+/// Number of sides of round solids.
 const ROUND: usize = 32;
 /// Most triangles of a file.
 const MAX_TRIANGLES: usize = 500_000;
 
-/// A surface of triangles in body axes. Seen from outside their points run counterclockwise.
+/// A surface of triangles in body axes, with vertices counterclockwise as seen from outside.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Surface {
     /// Positions [m].

@@ -15,7 +15,7 @@ use crate::suggest;
 use crate::text::{self, Node, Value, in_order};
 use crate::toml_text::{inline, key};
 
-/// Columns of the table besides the varied paths and what is collected.
+/// Columns of the table in addition to the varied paths and the collected scalars.
 const OTHER_COLUMNS: [&str; 6] =
     ["member", "state", "time", "steps", "max_constraint_violation", "diagnosis"];
 
@@ -51,12 +51,17 @@ fn keys() -> Vec<Key> {
         required("lissom_sweep", Shape::Version, "", "version of the format of sweep files"),
         optional("model", Shape::Text, "", "path of the model file, relative to this file"),
         optional("sampling", choice(&WORDS), "", "how values are combined or drawn, default grid"),
-        optional("members", Shape::Count(1, MAX_MEMBERS), "", "number of members, where values are drawn"),
+        optional(
+            "members",
+            Shape::Count(1, MAX_MEMBERS),
+            "",
+            "number of members, for random and quasi-random sampling",
+        ),
         optional("seed", Shape::Count(0, 1 << 53), "", "start of the random numbers, default 0"),
         optional("set", Shape::Table, "", "paths of the model and the value each has in all members"),
-        required("vary", Shape::Table, "", "paths of the model and the values each takes"),
-        required("collect", Shape::Table, "", "names and what each collects, as max(tip.u2)"),
-        optional("histories", Shape::Words, "", "columns whose whole histories are kept, as [\"tip.u2\"]"),
+        required("vary", Shape::Table, "", "paths of the model and the values of each"),
+        required("collect", Shape::Table, "", "scalars to be collected by name, such as max(tip.u2)"),
+        optional("histories", Shape::Words, "", "columns whose histories are written, such as [\"tip.u2\"]"),
     ]
 }
 
@@ -98,7 +103,7 @@ fn version(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<()> {
     context.fail(node.span, "this version of the format of sweep files is not supported", help)
 }
 
-/// Leaves of nested tables with the paths that lead to them. `is_leaf` says where a table is one itself.
+/// Leaves of nested tables with their paths. `is_leaf` states whether a table itself is a leaf.
 fn leaves<'n>(
     node: &'n Node,
     path: &str,
@@ -155,7 +160,7 @@ fn vary(
     if found.is_empty() {
         return context.fail(
             node.span,
-            "the sweep varies nothing",
+            "the sweep varies no values",
             "add for example vary.\"analysis.step\" = [1e-3, 1e-4]",
         );
     }
@@ -201,7 +206,7 @@ fn variation(context: &Context<'_>, (path, span): (&str, Span), node: &Node) -> 
     let reader = open(vec![
         required("from", Shape::Number, "", "the first value"),
         required("to", Shape::Number, "", "the last value"),
-        optional("count", Shape::Count(2, MAX_MEMBERS), "", "how many, where values are not drawn"),
+        optional("count", Shape::Count(2, MAX_MEMBERS), "", "number of values, for grids and lists"),
         optional("spacing", choice(&["linear", "logarithmic"]), "", "default linear"),
     ])?;
     let (from, to) = (reader.number("from"), reader.number("to"));
@@ -209,36 +214,30 @@ fn variation(context: &Context<'_>, (path, span): (&str, Span), node: &Node) -> 
     let logarithmic = reader.choice("spacing").is_some_and(|word| word.value == "logarithmic");
     let (from, to) = (from?, to?);
     if from.value == to.value {
-        let help = "give two different numbers, or put a fixed value below [set]";
+        let help = "write two different numbers, or a fixed value below [set]";
         return context.fail(to.span, format!("{what} ends where it begins"), help);
     }
     if logarithmic && !(from.value > 0.0 && to.value > 0.0) {
         let message = format!("{what} is logarithmic and must be greater than zero");
-        return context.fail(
-            from.span,
-            message,
-            "give two numbers greater than zero, or leave out `spacing`",
-        );
+        return context.fail(from.span, message, "write two numbers greater than zero, or remove `spacing`");
     }
     Some(Variation::Range { from: from.value, to: to.value, count, logarithmic })
 }
 
 fn listed(context: &Context<'_>, list: &[Node], span: Span, what: &str) -> Option<Variation> {
     if list.is_empty() {
-        return context.fail(span, format!("{what} has no values"), "give at least one");
+        return context.fail(span, format!("{what} has no values"), "write at least one");
     }
     let value = |node: &Node| match &node.value {
         Value::Number(number) if number.is_finite() => Some(SweepValue::Number(*number)),
         Value::Number(_) => {
-            context.fail(node.span, format!("{what} has a number that is not finite"), "leave it out")
+            context.fail(node.span, format!("{what} has a number that is not finite"), "remove it")
         }
         Value::Text(text) if text.contains(['\n', '\r']) => {
             context.fail(node.span, format!("{what} has a text of several lines"), "write it on one line")
         }
         Value::Text(text) => Some(SweepValue::Text(text.clone())),
-        Value::Date => {
-            context.fail(node.span, format!("{what} has a date"), "no key of a model holds a date")
-        }
+        Value::Date => context.fail(node.span, format!("{what} has a date"), "no value of a model is a date"),
         _ => Some(SweepValue::Toml(inline(node))),
     };
     let values: Vec<Option<SweepValue>> = list.iter().map(value).collect();
@@ -255,17 +254,17 @@ fn check_sampling(
     let name = sampling.name;
     match (&sampling.draw, variation) {
         (Draw::Indices(_), variation) if variation.count().is_none() => {
-            let message = format!("the sampling `{name}` needs to know how many values `{path}` takes");
+            let message = format!("the sampling `{name}` requires the number of values of `{path}`");
             context.fail::<()>(
                 span,
                 message,
-                "list them, or give `from`, `to` and `count`; or choose another `sampling`",
+                "list them, or specify `from`, `to` and `count`; or choose another `sampling`",
             );
         }
         (Draw::Fractions(_), Variation::Range { count: Some(_), .. }) => {
             let message =
                 format!("`count` of `{path}` has no meaning: the sampling `{name}` draws the values");
-            context.fail::<()>(span, message, "leave out `count`; `members` says how many there are");
+            context.fail::<()>(span, message, "remove `count`: `members` specifies the number");
         }
         _ => {}
     }
@@ -277,7 +276,7 @@ fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collec
     if entries.is_empty() {
         return context.fail(
             node.span,
-            "the sweep collects nothing",
+            "the sweep collects no values",
             "add for example collect.tip = \"final(tip.u2)\"",
         );
     }
@@ -304,7 +303,7 @@ fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collec
         let Some(found) = statistic::find(word) else {
             let known = STATISTICS.iter().map(|statistic| statistic.name);
             let help = suggest::help(word, known).unwrap_or_else(words);
-            return context.fail(node.span, format!("`{word}` is no statistic"), help);
+            return context.fail(node.span, format!("`{word}` is not a statistic"), help);
         };
         let (name, column) = (name.to_owned(), column.to_owned());
         Some((Collected { name, statistic: found.name, column }, span))
@@ -317,7 +316,7 @@ fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collec
 fn histories(context: &Context<'_>, reader: &Reader<'_, '_>) -> Vec<String> {
     let Some(node) = reader.node("histories") else { return Vec::new() };
     let Value::List(entries) = &node.value else {
-        context.wrong_type::<()>(node, "`histories`", "a list of columns, as [\"tip.u2\"]");
+        context.wrong_type::<()>(node, "`histories`", "a list of columns, such as [\"tip.u2\"]");
         return Vec::new();
     };
     let mut all: Vec<String> = Vec::new();
@@ -340,7 +339,7 @@ fn histories(context: &Context<'_>, reader: &Reader<'_, '_>) -> Vec<String> {
     all
 }
 
-/// Every column of the table needs a name of its own, and a path has either one value or several.
+/// Every column of the table requires a distinct name, and a path has either one value or several.
 fn check_columns(
     context: &Context<'_>,
     vary: &[(Varied, Span)],
@@ -363,7 +362,7 @@ fn check_columns(
     for (varied, span) in vary {
         if set.iter().any(|(path, _)| *path == varied.path) {
             let message = format!("`{}` is set and varied", varied.path);
-            context.fail::<()>(*span, message, "leave it out below [set]");
+            context.fail::<()>(*span, message, "remove it below [set]");
         }
     }
 }
@@ -385,8 +384,8 @@ fn samples(
             for key in
                 ["members", "seed"].into_iter().filter_map(|key| reader.node(key).map(|node| (key, node)))
             {
-                let message = format!("`{}` has no meaning: the sampling `{name}` draws nothing", key.0);
-                context.fail::<()>(key.1.span, message, "leave it out, or choose another `sampling`");
+                let message = format!("`{}` has no effect: the sampling `{name}` is not random", key.0);
+                context.fail::<()>(key.1.span, message, "remove it, or choose another `sampling`");
             }
             let counts: Vec<usize> = vary.iter().filter_map(|(varied, _)| varied.variation.count()).collect();
             let indices = draw(&counts).map_err(fail);
@@ -400,7 +399,7 @@ fn samples(
                     Some(_) => None,
                     None => context.fail(
                         span,
-                        format!("the sampling `{name}` needs the number of members"),
+                        format!("the sampling `{name}` requires the number of members"),
                         "add `members = 64`",
                     ),
                 };
@@ -472,20 +471,20 @@ mod tests {
         let cases = [
             ("vary.a = 3", "must be a list of values or a table"),
             ("vary.a = []", "has no values"),
-            ("vary.a = { from = 1, to = 2 }", "needs to know how many values"),
+            ("vary.a = { from = 1, to = 2 }", "requires the number of values"),
             ("vary.a = { from = 1, to = 1, count = 3 }", "ends where it begins"),
             ("vary.a = { from = 0, to = 1, count = 3, spacing = \"logarithmic\" }", "greater than zero"),
             ("vary.a = { from = 1, too = 2, count = 3 }", "unknown key `too`"),
             ("sampling = \"gird\"\nvary.a = [1]", "did you mean `grid`"),
-            ("sampling = \"sobol\"\nvary.a = { from = 0, to = 1 }", "needs the number of members"),
-            ("sampling = \"list\"\nvary.a = [1, 2]\nvary.b = [1]", "as many values"),
-            ("members = 4\nvary.a = [1, 2]", "has no meaning"),
+            ("sampling = \"sobol\"\nvary.a = { from = 0, to = 1 }", "requires the number of members"),
+            ("sampling = \"list\"\nvary.a = [1, 2]\nvary.b = [1]", "the same number of values"),
+            ("members = 4\nvary.a = [1, 2]", "has no effect"),
             ("vary.a = [1, 2]\nset.a = 1", "is set and varied"),
             ("vary.member = [1, 2]", "two columns `member`"),
-            ("collect.b = \"maximum(b.x)\"\nvary.a = [1]", "is no statistic"),
+            ("collect.b = \"maximum(b.x)\"\nvary.a = [1]", "is not a statistic"),
             ("collect.b = \"b.x\"\nvary.a = [1]", "cannot be read"),
             ("vary.a = [1]\nworkers = 3", "unknown key `workers`"),
-            ("[vary]", "varies nothing"),
+            ("[vary]", "varies no values"),
         ];
         for (text, words) in cases {
             let text = format!("{head}{text}\n");

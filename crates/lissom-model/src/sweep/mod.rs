@@ -1,5 +1,5 @@
 //! The sweep file: which values of a model are varied, how they are sampled, and which scalars are collected from the
-//! histories. Becomes the overrides of every member. Knows no simulation.
+//! histories. It yields the overrides of every member and is independent of simulation.
 //!
 //! ```
 //! use lissom_model::sweep::SweepFile;
@@ -35,7 +35,7 @@ pub const VERSION: usize = 1;
 /// Most members of a sweep.
 pub const MAX_MEMBERS: usize = 10_000_000;
 
-/// A path of the model and the values it takes.
+/// A path of the model and its values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Varied {
     /// Path into the model file, such as `point_masses.bob.mass`.
@@ -49,7 +49,7 @@ pub struct Varied {
 pub struct Collected {
     /// Name of its column in the table.
     pub name: String,
-    /// What is taken of the history.
+    /// Statistic of the history.
     pub statistic: &'static str,
     /// Name of the history's column, such as `midspan.u2`, or of an event.
     pub column: String,
@@ -59,7 +59,7 @@ impl Collected {
     /// The statistic that [`statistic`](Self::statistic) names.
     ///
     /// # Panics
-    /// Never for what was read from a file: the name was looked up there.
+    /// Never for a sweep that was read from a file, where the name was checked.
     pub fn kind(&self) -> &'static Statistic {
         statistic::find(self.statistic).expect("the name was looked up when it was read")
     }
@@ -70,21 +70,21 @@ impl Collected {
     }
 }
 
-/// A sweep as it was written, checked. Serialises to what defines its members and results.
+/// A sweep as written, checked. Its serialisation defines its members and results.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SweepFile {
     /// Path of the model file as it was written, if it was; relative to the sweep file.
     #[serde(skip)]
     pub model: Option<String>,
-    /// What is changed in every member, as paths and TOML values.
+    /// Values changed in every member, as paths and TOML values.
     pub set: Vec<(String, String)>,
     /// Word of the sampling.
     pub sampling: &'static str,
     /// Start of the random numbers.
     pub seed: u64,
-    /// What is varied.
+    /// Varied paths.
     pub vary: Vec<Varied>,
-    /// What is collected.
+    /// Collected scalars.
     pub collect: Vec<Collected>,
     /// Columns whose whole histories are kept.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -118,7 +118,7 @@ impl SweepFile {
         }
     }
 
-    /// What is changed in `member` besides [`set`](Self::set).
+    /// Values changed in `member` in addition to [`set`](Self::set).
     ///
     /// # Panics
     /// If there is no such member.

@@ -1,7 +1,7 @@
 //! Cycles of a history by rainflow counting, and the range of the cycles of one size that damage as much.
 //!
 //! Counting as in ASTM E1049-85 (2017), section 5.4.4: X is the newest range between two reversals, Y the one before it. Where X is
-//! not less than Y, Y is a cycle, or half a one where it begins at the first reversal there still is. What is left at the end counts half.
+//! not less than Y, Y is a cycle, or half a one where it begins at the first reversal there still is. Ranges that remain at the end count half.
 //!
 //! Legend: S range of a cycle, n how often it counts, m exponent of Woehler's line, N number of cycles of the equivalent range:
 //!
@@ -34,8 +34,7 @@ impl Rainflow {
     pub(crate) fn new(exponent: f64) -> Self {
         Self { exponent, reversals: Vec::new(), damage: 0.0 }
     }
-
-    /// Takes the next value.
+    /// Adds the next value.
     pub(crate) fn add(&mut self, value: f64) {
         match self.reversals[..] {
             [.., last] if last == value => return,
@@ -47,7 +46,7 @@ impl Rainflow {
         self.reversals.push(value);
     }
 
-    /// Counts what the reversals close, and passes ranges and counts to `count_cycle`.
+    /// Counts the cycles closed by the reversals, and passes ranges and counts to `count_cycle`.
     fn close(&mut self, count_cycle: &mut dyn FnMut(f64, f64)) {
         while let [.., a, b, c] = self.reversals[..] {
             let range = (b - a).abs();
@@ -70,7 +69,7 @@ impl Rainflow {
         count_cycle(range, count);
     }
 
-    /// Σ n S^m, with what is left counted half.
+    /// Σ n S^m, where remaining ranges count half.
     fn damage(&self, count_cycle: &mut dyn FnMut(f64, f64)) -> f64 {
         let mut rest = self.clone();
         rest.close(count_cycle);

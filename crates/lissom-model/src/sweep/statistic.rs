@@ -1,4 +1,4 @@
-//! What is taken of a history: one number from a column of values over time. A new statistic is a line in
+//! Statistics of a history: one number from a column of values over time. A new statistic is a line in
 //! [`STATISTICS`].
 
 use serde::{Deserialize, Serialize};
@@ -48,7 +48,7 @@ pub static STATISTICS: [Statistic; 11] = [
     Statistic { name: "final", summary: "Last recorded value.", of: |history| history.last.1 },
     Statistic {
         name: OF_FATIGUE,
-        summary: "Range of equal cycles that damage as much, by rainflow counting, of outputs with `woehler_exponent`.",
+        summary: "Damage equivalent range, by rainflow counting, of outputs with `woehler_exponent`.",
         of: Accumulator::damage_equivalent,
     },
     Statistic {
@@ -58,7 +58,7 @@ pub static STATISTICS: [Statistic; 11] = [
     },
 ];
 
-/// The statistic of events: what it names in brackets is no column.
+/// The statistic of events, whose argument is not a column.
 pub(super) const OF_EVENTS: &str = "time_of_event";
 
 /// The statistic of fatigue, of columns whose output has an exponent of Woehler's line.
@@ -70,14 +70,14 @@ pub(super) fn find(name: &str) -> Option<&'static Statistic> {
 }
 
 impl Statistic {
-    /// Its value for a history that was gone through; none where there is no record, or one that is not finite.
+    /// Its value for a history; none if there is no record, or one that is not finite.
     pub fn of(&self, history: &Accumulator) -> Option<f64> {
         let value = (self.of)(history);
         (history.records > 0 && history.fault.is_none() && value.is_finite()).then_some(value)
     }
 }
 
-/// Goes through a history record by record, and keeps what all statistics need.
+/// Accumulates the data of all statistics over a history, record by record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accumulator {
     records: usize,
@@ -113,7 +113,7 @@ impl Accumulator {
         Self { fatigue: fatigue.map(|fatigue| (fatigue, Rainflow::new(fatigue.exponent))), ..Self::default() }
     }
 
-    /// Takes the value at `time` [s].
+    /// Adds the value at `time` [s].
     pub fn add(&mut self, time: f64, value: f64) {
         let now = (time, value);
         if !value.is_finite() && self.fault.is_none() {

@@ -1,4 +1,4 @@
-//! The values that a varied path takes: listed ones, a range, a normal distribution.
+//! The values of a varied path: a list, a range, a normal distribution.
 
 use serde::Serialize;
 

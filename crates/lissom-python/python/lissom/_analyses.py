@@ -1,4 +1,4 @@
-"""What the analyses around motion find: the tables of the command line as arrays."""
+"""Results of modes, buckling, gradients and other analyses: the tables of the command line as arrays."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class _Found:
         self._texts = dict(texts)
         #: The facts of `summary.json`.
         self.summary: dict[str, Any] = json.loads(summary)
-        #: What may be wrong with it.
+        #: Warnings.
         self.warnings = warnings
 
     @property
@@ -44,7 +44,7 @@ class _Shapes(_Found):
         rows = len(table) // max(1, count)
         #: Names of the nodes.
         self.nodes = [str(node) for node in table["node"][:rows]]
-        #: Their places in the state of linearisation [m], of shape (nodes, 3).
+        #: Their positions in the state of linearisation [m], of shape (nodes, 3).
         self.positions: Array = np.column_stack([table[axis][:rows] for axis in ("x", "y", "z")]).astype(np.float64)
         motion = ("u1", "u2", "u3", "r1", "r2", "r3")
         shapes = np.column_stack([table[name] for name in motion]).astype(np.float64)
@@ -199,7 +199,7 @@ class Path(Result):
 
     Where the analysis varies a number, the column is called after it, and critical points have `value` for `load_factor`.
 
-    The length along the path [-] stands where results of a run have the time.
+    The length along the path [-] replaces the time of the results of a run.
     """
 
     @property

@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 class Animation:
-    """One HTML page with everything in it, which asks nothing of any network. A notebook shows it in its cell."""
+    """A self-contained HTML page, which requires no network. A notebook shows it in its cell."""
 
     def __init__(self, page: str, height: int = 600) -> None:
         #: The page.

@@ -26,7 +26,7 @@ Specification = tuple[str, str, tuple[tuple[str, str], ...], tuple[tuple[str, st
 
 
 def _specification(*parts: Any) -> Any:
-    """As a task of its own, so that a worker that lost it gets it again."""
+    """A separate task, so that it is repeated if a worker loses it."""
     return parts
 
 
@@ -70,7 +70,7 @@ def _read(path: Path) -> SweepTable:
 
 
 def _write_histories(outcomes: list[Outcome], folder: Path) -> None:
-    """The histories that were asked for, a file per member. Readers of the folder of parts pass over names with `_`."""
+    """The requested histories, one file per member. Readers of the folder of parts ignore names with `_`."""
     for outcome in outcomes:
         if outcome[7] is not None:
             path = folder / "_histories" / f"member-{outcome[0]:08}.parquet"
@@ -81,7 +81,7 @@ def _write_histories(outcomes: list[Outcome], folder: Path) -> None:
 
 
 def _batch(folder: Path | None, definition: str, restart: bool, batch: int) -> int:
-    """Members per batch: what the folder has, if it holds this sweep."""
+    """Members per batch: the number stored in the folder, if it contains this sweep."""
     if folder is None:
         return batch
     folder.mkdir(parents=True, exist_ok=True)
@@ -116,7 +116,7 @@ def sweep_on_cluster(
     batch: int | None,
     progress: Progress,
 ) -> SweepTable:
-    """Solves the members that `out` does not hold, and gives the table of all."""
+    """Solves the members that are missing in `out`, and returns the table of all."""
     from distributed import as_completed
 
     members = len(native)

@@ -1,4 +1,4 @@
-"""Runs whose inputs are functions of Python, asked at equal distances of time."""
+"""Runs whose inputs are Python functions, evaluated at equal intervals of time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from ._lissom import NativeModel, Simulation, SolutionError, __version__
 from ._result import Result
 
-#: What an input is to be from now on, of the simulation as it stands.
+#: Function that returns the next value of an input for the current state of the simulation.
 InputFunction = Callable[[Simulation], float]
 
 
@@ -19,7 +19,7 @@ def driven(
     sample: float,
     show: Callable[[float, float], object] | None,
 ) -> Result:
-    """Simulates a model to its end. Rows are recorded at the samples, with the inputs that hold from there on."""
+    """Simulates a model to its end. Rows are recorded at the samples, with the inputs that are valid after them."""
     if not (np.isfinite(sample) and sample > 0):
         raise ValueError(f"`sample` is {sample}: it must be a time in seconds, greater than zero")
     sim = native.simulation()

@@ -37,7 +37,7 @@ class LinearModel:
         self._texts = texts
         #: The facts of `summary.json`.
         self.summary = summary
-        #: What may be wrong with it.
+        #: Warnings.
         self.warnings = warnings
         #: The rows: columns `row` (from 1), `unknown`, `unit`.
         self.unknowns = Table._of(texts["unknowns.csv"])
@@ -76,14 +76,14 @@ class LinearModel:
 
     @property
     def F(self) -> Any:
-        """Right-hand sides for a unit of each input, those of the constraints last; shape (coordinates + multipliers, inputs)."""
+        """Right-hand sides for unit inputs, those of the constraints last; shape (coordinates + multipliers, inputs)."""
         if "inputs.mtx" not in self._texts:
             return scipy("sparse").csr_matrix((self.coordinates + self.multipliers, 0))
         return sparse(self._texts["inputs.mtx"])
 
     @property
     def B(self) -> Any:
-        """The same as `F`: what the equations of second order have as input matrix. That of first order is `state_space.B`."""
+        """The same as `F`: the input matrix of the second-order equations. That of first order is `state_space.B`."""
         return self.F
 
     def output_matrix(self, by: str) -> Any:
@@ -104,7 +104,7 @@ class LinearModel:
 
     @property
     def state_space(self) -> StateSpace:
-        """First-order equations without constraints, as `scipy.signal.StateSpace(*linear.state_space)` takes them.
+        """First-order equations without constraints, for `scipy.signal.StateSpace(*linear.state_space)`.
 
         Raises:
             ValueError: if there are none, as for models of more than 600 coordinates; with the reason.
@@ -125,5 +125,5 @@ class LinearModel:
 
 
 def linear_model(files: Files) -> LinearModel:
-    """From what the compiled part gives."""
+    """From the result of the compiled part."""
     return LinearModel._of(*files)

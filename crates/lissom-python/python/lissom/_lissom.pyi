@@ -1,6 +1,6 @@
 """The compiled part of the package."""
 
-from typing import Any, Callable, Optional, Sequence, Union, final
+from typing import Any, Callable, Mapping, Optional, Sequence, Union, final
 
 from ._linear import LinearModel
 from ._tables import Files
@@ -11,32 +11,37 @@ _Progress = Optional[Callable[[float, float], object]]
 __version__: str
 
 class LissomError(Exception):
-    """What all exceptions of this package are.
+    """Base class of the exceptions of this package.
 
-    The text is that of the command line; `time`, `part` and `remedy` are parts of it, or None.
+    The text is that of the command line. `code` identifies the failure, as in `lissom explain`; `values` has its numbers and
+    names, in SI units. `time`, `part` and `remedy` are parts of the text. They are None if absent.
     """
 
+    code: Optional[str]
+    """Code in the catalogue of failures, such as `not-converged`."""
+    values: Mapping[str, Union[float, int, bool, str]]
+    """Values by name, without the time."""
     time: Optional[float]
-    """When [s]."""
+    """Time of the failure [s]."""
     part: Optional[str]
-    """What is blamed first: a table of the model file, as `joints.hinge`, or a name."""
+    """Part concerned: a table of the model file, such as `joints.hinge`, or a name."""
     remedy: Optional[str]
-    """What to try."""
+    """Remedy."""
 
 class ModelError(LissomError):
-    """A model or sweep is wrong. The text underlines every mistake, with a remedy.
+    """A model, a sweep or a request is invalid. The text underlines every error, with a remedy.
 
-    `problems` has them as `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, where it is known,
-    `part`, `file`, `line`, `column`. `part` and `remedy` are those of the first.
+    `problems` has them as `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, if known, `part`,
+    `file`, `line`, `column`. `part` and `remedy` are those of the first.
     """
 
     problems: tuple[dict[str, Any], ...]
 
 class SolutionError(LissomError):
-    """A model has no solution. The text says at which time and where, and what to try."""
+    """A model has no solution. The text states the time, the part, the cause and a remedy."""
 
     result: Any
-    """What was computed before a run failed, a `lissom.Result`; None otherwise."""
+    """The `lissom.Result` of a run up to its failure; None otherwise."""
 
 @final
 class NativeModel:

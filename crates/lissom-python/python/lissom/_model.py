@@ -45,7 +45,7 @@ class Model(ModelTables):
 
     Args:
         title: one line about the model.
-        name: what messages call it; files that it names are looked for beside a file of this name.
+        name: name in messages; files that the text refers to are searched in the folder of a file of this name.
         tables: everything else at the top of a model file, as `gravity=[0, 0, -9.81]`, `bodies={"rod": Body(…)}`.
     """
 
@@ -53,7 +53,7 @@ class Model(ModelTables):
 
     def __init__(self, title: str | None = None, *, name: str = "model", **tables: Any) -> None:
         self._name = name
-        #: What the compiled part has checked, of a text that was read or printed.
+        #: Checked model of the compiled part, for a text that was read or printed.
         self._checked: NativeModel | None = None
         self._text = ""
         self._facts: dict[str, Any] = {}
@@ -102,7 +102,7 @@ class Model(ModelTables):
 
     @property
     def overrides(self) -> dict[str, str]:
-        """What was put into the model: paths and TOML values."""
+        """Overrides of the model: paths and TOML values."""
         return dict(self._native.overrides)
 
     @property
@@ -120,7 +120,7 @@ class Model(ModelTables):
         A model that is built is written as it is, complete or not.
 
         Raises:
-            ValueError: if a value was put into an included part, which no single text can say.
+            ValueError: if an override is inside an included part, which a single text cannot express.
         """
         if self._tables is not None:
             return written(self._tables)
@@ -130,7 +130,7 @@ class Model(ModelTables):
         return self.to_toml()
 
     def check(self) -> dict[str, Any]:
-        """What `lissom check` tells.
+        """The report of `lissom check`.
 
         Returns:
             `title`, `unknowns`, `coordinates`, `constraints`, `independent_constraints`, `freedoms`, `redundant`
@@ -146,7 +146,7 @@ class Model(ModelTables):
         inputs: Mapping[str, InputFunction] | None = None,
         sample: float | None = None,
     ) -> Result:
-        """Simulates the model as its table `[analysis]` asks. The interpreter lock is released; Ctrl-C ends the run.
+        """Simulates the model as specified by its table `[analysis]`. The interpreter lock is released; Ctrl-C ends the run.
 
         Args:
             progress: `True` for a line on the terminal with the time that is left, or a function of (steps done, steps planned).
@@ -158,7 +158,7 @@ class Model(ModelTables):
             sample: time from call to call [s], with `inputs`.
 
         Raises:
-            SolutionError: if a step has no solution; `error.result` holds what was computed before.
+            SolutionError: if a step has no solution; `error.result` has the results before the failure.
         """
         show, clear = _shown(progress)
         if (inputs is None) != (sample is None):
@@ -181,7 +181,7 @@ class Model(ModelTables):
         return result
 
     def _warn(self, told: Sequence[str]) -> None:
-        """Those of the model itself were told when it was made."""
+        """Warnings about the model itself were reported when it was created."""
         for words in told:
             if words not in self._facts["warnings"]:
                 warnings.warn(words, ModelWarning, stacklevel=3)
@@ -193,7 +193,7 @@ class Model(ModelTables):
             SolutionError: if there are no consistent initial values.
 
         Warns:
-            ModelWarning: when a reason comes up to doubt the results, also while stepping.
+            ModelWarning: when a warning about the results occurs, also while stepping.
         """
         sim = self._native.simulation()
         self._warn(sim.warnings)
@@ -203,7 +203,7 @@ class Model(ModelTables):
         """Natural modes, as `lissom modes` finds them.
 
         Args:
-            count: how many, the lowest first; 20 where neither this nor the model says otherwise.
+            count: number of modes, the lowest first; default: that of the model, or 20.
             about: the state: `"static"`, `"undeformed"`, `"rotation"` (steady, with the velocities of the file) or a time of
                 the model's analysis [s].
             shift: seek the modes nearest to this frequency [Hz].
@@ -228,7 +228,7 @@ class Model(ModelTables):
                 `[analysis]`. Without any, the model's own analysis must be of kind `path`.
 
         Raises:
-            SolutionError: if the path cannot be followed to its end; `error.result` holds what was found before.
+            SolutionError: if the path cannot be followed to its end; `error.result` has the equilibria before the failure.
         """
         model = self.replace({"analysis": {"kind": "path", **analysis}}) if analysis else self
         parts, failure = _lissom.path(model._native)
@@ -244,7 +244,7 @@ class Model(ModelTables):
         Args:
             of: a column, and what of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
             by: paths of numbers, as `["bodies.top.mass", "springs.s.stiffness"]`.
-            confirm: whether a run with all numbers changed a little is to confirm the derivatives.
+            confirm: whether the derivatives are verified by a run with all numbers perturbed.
         """
         return Gradient(_lissom.gradient(self._native, of, _names(by), confirm))
 
@@ -335,7 +335,7 @@ def load(path: str | os.PathLike[str], /, **overrides: Any) -> Model:
 
 
 def loads(text: str, name: str = "model", /, **overrides: Any) -> Model:
-    """A model from a text; `name` is what messages call it. Otherwise as `load`."""
+    """A model from a text; `name` is its name in messages. Otherwise as `load`."""
     return Model._of(NativeModel(text, name, _toml.overrides(overrides)))
 
 
@@ -364,7 +364,7 @@ def _duration(seconds: float) -> str:
 
 
 def _shown(progress: Progress) -> tuple[Callable[[float, float], object] | None, Callable[[], None]]:
-    """A function that shows progress, if it is wanted, and one that ends it."""
+    """A function that shows progress, if requested, and one that ends it."""
     if progress is False:
         return None, lambda: None
     if progress is not True:
@@ -379,7 +379,7 @@ def _shown(progress: Progress) -> tuple[Callable[[float, float], object] | None,
         bar = "#" * round(width * share)
         now = time.monotonic()
         if not began:
-            # A sweep that goes on has members already.
+            # A resumed sweep already has members.
             began.append((now, share))
         since, first = began[0]
         left = (now - since) * (1 - share) / (share - first) if share > first else None

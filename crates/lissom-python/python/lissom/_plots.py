@@ -85,7 +85,7 @@ def campbell_figure(campbell: Campbell) -> Any:
 
 
 def _solved(table: SweepTable) -> dict[str, tuple[Any, list[str]]]:
-    """Numbers of the solved members by column; words are numbered as they come, and listed."""
+    """Numbers of the solved members by column; words are numbered in the order of their occurrence, and listed."""
     solved = table["state"] == "solved"
     if not solved.any():
         raise ValueError("there is nothing to plot: no member is solved")
@@ -126,7 +126,7 @@ def sweep_figure(table: SweepTable) -> Any:
 
 
 def parallel_figure(table: SweepTable) -> Any:
-    """A line per member across one axis per column, each from its least to its greatest value."""
+    """A line per member across one axis per column, each from its minimum to its maximum."""
     columns = _solved(table)
     figure, (ax,) = _figure(1, width=max(6.0, 1.6 * len(columns)), height=4.0)
     heights = []

@@ -1,4 +1,4 @@
-"""What a run leaves: columns over time, and a summary."""
+"""Results of a run: columns over time, and a summary."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Result:
         return None if position is None else names[position]
 
     def _name(self, name: str) -> str:
-        """The same, or a `KeyError` that says which one may be meant."""
+        """The same, or a `KeyError` that suggests a similar name."""
         return self._found(name) or known(name, self._columns, "column")
 
     def __iter__(self) -> Iterator[str]:
@@ -117,9 +117,9 @@ class Result:
         return result_figure(self, names, "time [s]")
 
     def animate(self) -> Animation:
-        """The page that shows the model moving beside its plots, for a cell of a notebook: what `lissom view` writes.
+        """The animated page of `lissom view` with plots, for a cell of a notebook.
 
-        Results of `Model.run` have no motion in them: the model runs once more. Those of a folder show what is there.
+        Results of `Model.run` contain no motion: the model is run again. Those of a folder use its motion.
         """
         if self._page is None:
             raise ValueError("these results have no model and no folder from which a motion could be shown")
@@ -131,7 +131,7 @@ class Result:
 
 
 def read(path: str | os.PathLike[str]) -> Result:
-    """What `lissom run` left in a folder, or `Result.to_npz` in a file. Ask `is_complete` whether that run reached its end.
+    """Results of `lissom run` in a folder, or of `Result.to_npz` in a file. `is_complete` states whether the run reached its end.
 
     Raises:
         OSError: if there is no table. ValueError: if it is damaged.

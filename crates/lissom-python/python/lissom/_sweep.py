@@ -66,7 +66,7 @@ class SweepTable:
         return pandas.DataFrame(self._columns)
 
     def plot(self) -> Any:
-        """A figure of matplotlib: what was collected over what was varied, of the solved members."""
+        """A figure of matplotlib: collected scalars over varied numbers, for the solved members."""
         from ._plots import sweep_figure
 
         return sweep_figure(self)
@@ -140,7 +140,7 @@ def warn_of(table: SweepTable) -> None:
     if len(failed):
         first = int(failed[0])
         row = int(np.flatnonzero(table["member"] == first)[0])
-        words = f"{len(failed)} of {len(table)} members are not solved; member {first}: {table['diagnosis'][row]}"
+        words = f"{len(failed)} of {len(table)} members have no solution; member {first}: {table['diagnosis'][row]}"
         warnings.warn(words, SolutionWarning, stacklevel=3)
 
 
@@ -167,7 +167,7 @@ def sweep(
         model: the model.
         vary: paths into the model and their values: a list, or a dictionary as `{"from": 1, "to": 3, "count": 5}`,
             `{"from": 1, "to": 3, "spacing": "logarithmic"}` or `{"mean": 1, "standard_deviation": 0.1}`.
-        collect: names and what each collects of a column, as `{"swing": "max(bob.x)"}`, or a list of the latter.
+        collect: statistics of columns by name, such as `{"swing": "max(bob.x)"}`, or a list of statistics.
             Statistics: max, min, max_abs, time_of_max, time_of_min, mean, rms, initial, final; of events time_of_event.
         histories: columns whose whole histories are kept, a Parquet file per member in `histories` below `out`; with
             `client` in `_histories`.
@@ -185,11 +185,11 @@ def sweep(
         batch: members per task of the cluster; by default a twentieth of a worker's share, at most 1000.
 
     Returns:
-        The table. Members that are not solved have their diagnosis in it, and a `SolutionWarning` tells of them.
+        The table. For unsolved members it has the cause of the failure, and a `SolutionWarning` is issued.
 
     Raises:
         ModelError: if every member has a wrong model, or the sweep itself is wrong.
-        ValueError: if `out` holds another sweep.
+        ValueError: if `out` contains another sweep.
     """
     if histories and out is None:
         raise ValueError("histories are kept in files: name a folder by `out`")

@@ -59,7 +59,7 @@ class Table:
 
 
 def known(name: str, among: Iterable[str], what: str) -> str:
-    """The name, or a `KeyError` that says which one may be meant."""
+    """The name, or a `KeyError` that suggests a similar one."""
     names = list(among)
     if name in names:
         return name

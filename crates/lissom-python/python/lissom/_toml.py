@@ -1,4 +1,4 @@
-"""From Python values to TOML, as model and sweep files take them, and back."""
+"""Conversion of Python values to TOML for model and sweep files, and back."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 
 def value(of: Any) -> str:
-    """A value on one line. Numbers come back to the last bit; a text stays a text, or an expression of the model."""
+    """A value on one line. Numbers are reproduced to the last bit; a text remains a text, or an expression of the model."""
     if isinstance(of, np.generic):
         of = of.item()
     if isinstance(of, bool):

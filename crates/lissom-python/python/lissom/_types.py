@@ -1,4 +1,4 @@
-"""What the compiled part takes and gives."""
+"""Types of arguments and results of the compiled part."""
 
 from __future__ import annotations
 

@@ -94,7 +94,7 @@ impl Builder {
             if quantities.contains(&Quantity::Length) { Quantity::Length } else { Quantity::Angle };
         let largest = largest_slope(&*relation, &start, |k| quantities[k] == quantity);
         if !(largest.is_finite() && largest > 0.0) {
-            let problem = "does not change with its coordinates as they are at the start: give their values there, or \
+            let problem = "does not change with its coordinates at the start: specify their values there, or \
                            another equation";
             return Err(ParameterError::new(kind.parameters[0].name, problem));
         }

@@ -30,7 +30,7 @@ impl PlaceOnTip {
         };
         if on_base.dot(&on_tip) <= 0.0 {
             return Err(unusable(
-                "is at 90 degrees or more to `axis`: turn one of them round, or draw the parts nearer",
+                "is at 90 degrees or more to `axis`: reverse one of them, or place the parts closer",
             ));
         }
         // The smallest rotation from one axis to the other.
@@ -48,7 +48,7 @@ impl PlaceOnTip {
             };
             let (cosine, sine) = (before.dot(&after), on_tip.dot(&before.cross(&after)));
             if cosine <= 0.0 {
-                let why = "is at 90 degrees or more to `second_axis`: turn one of them round, or draw the parts nearer";
+                let why = "is at 90 degrees or more to `second_axis`: reverse one of them, or place the parts closer";
                 return Err(ParameterError::new("second_axis_at_tip", why));
             }
             rotation = Rotation::about_axis(&on_tip, sine.atan2(cosine)) * rotation;

@@ -23,7 +23,7 @@ impl Builder {
         let axes = joint_rotation(Frames::GivenOrGlobalAxes, placement)?;
         let given: Vec<usize> = (0..6).filter(|&k| parameters.has(COMPONENTS[k].0)).collect();
         let Some(&last) = given.last() else {
-            let problem = "is missing, as are all others: give at least one of x, y, z, rx, ry, rz";
+            let problem = "is missing, as are all others: specify at least one of x, y, z, rx, ry, rz";
             return Err(ParameterError::new("x", problem));
         };
         let mut base = placement.nodes[0];

@@ -98,7 +98,7 @@ impl Builder {
         }
         if self.model.nodes[tip].freedoms != Freedoms::Full {
             return fault(
-                "needs a tip that can turn freely in space: a body, and no point mass or planar model",
+                "requires a tip with free rotation in space: a body, not a point mass or a planar model",
             );
         }
         let frame = |node: NodeId| &self.model.nodes[node].motion.frame;

@@ -16,7 +16,7 @@ pub struct AnyId {
 
 /// An id that does not belong to the model in which it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a {0} of another model is used with this one: ids are of use where they were made")]
+#[error("a {0} of another model is used with this one: ids are valid only in the model that returned them")]
 pub struct ForeignId(&'static str);
 
 impl AnyId {

@@ -11,7 +11,7 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Estimate the load factors at which a model buckles, from its stiffness without loads and under them.
+/// Estimate the load factors at which a model buckles, from its stiffness with and without the loads.
 ///
 /// The results go to a folder: `buckling.csv` (number, load factor), `shapes.csv` and `summary.json`. The loads of the model must be
 /// smaller than the critical ones.
@@ -20,7 +20,7 @@ use crate::terminal;
 Example:
   lissom buckling column.toml --count 3
 
-Exit code: 0 success; 2 wrong model or command line; 3 no equilibrium, loads that are critical already, or \
+Exit code: 0 success; 2 wrong model or command line; 3 no equilibrium, loads that already exceed the critical ones, or \
 load factors missed.")]
 pub(super) struct Buckling {
     #[command(flatten)]
@@ -73,7 +73,7 @@ pub(super) fn report(
     Ok(Exit::Done)
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, found: &BucklingReport, folder: &Path) -> String {
     let modes = &found.buckling.modes;
     let mut text = format!("{heading}\n");
@@ -84,7 +84,7 @@ fn render(heading: &str, found: &BucklingReport, folder: &Path) -> String {
         modes.len(),
         found.asked,
         match found.buckling.completeness.name() {
-            "counted" => "none missed by a count of pivots",
+            "counted" => "none missed according to a count of pivots",
             _ => "not counted",
         },
         found.wall.as_secs_f64()

@@ -11,11 +11,11 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Find natural frequencies and damping over a parameter, such as the speed of a rotor.
+/// Compute natural frequencies and damping ratios over a parameter, such as the speed of a rotor.
 ///
-/// At each value modes are found about the steady rotation given by the velocities of the file, or about static equilibrium
-/// if nothing rotates, and tracked by their shapes. The results go to a folder: `campbell.csv`, `campbell.svg` and
-/// `campbell.png` (diagram with the multiples of the rotation) and `summary.json` (critical speeds).
+/// At each value the model is linearised about the steady rotation specified by the velocities in the file, or about static
+/// equilibrium if nothing rotates. Modes are tracked by their shapes. The results go to a folder: `campbell.csv`,
+/// `campbell.svg` and `campbell.png` (diagram with the multiples of the rotor speed) and `summary.json` (critical speeds).
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -35,7 +35,7 @@ pub(super) struct Campbell {
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     count: u32,
 
-    /// Multiples of the rotation whose crossings are critical speeds.
+    /// Multiples of the rotor speed whose crossings with the frequencies are critical speeds.
     #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..))]
     rays: Vec<u32>,
 
@@ -94,7 +94,7 @@ impl Campbell {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, found: &CampbellReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.
@@ -109,7 +109,7 @@ fn render(heading: &str, found: &CampbellReport, folder: &Path) -> String {
     for crossing in &found.crossings {
         let _ = writeln!(
             text,
-            "  line {} meets {}P at {} = {:.6e}, rotation {:.6e} Hz, whirl {}",
+            "  line {} crosses {}P at {} = {:.6e}, rotation {:.6e} Hz, whirl {}",
             crossing.line + 1,
             crossing.ray,
             found.path,

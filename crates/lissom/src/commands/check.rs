@@ -1,4 +1,4 @@
-//! `lissom check`: reports the contents of a model and its mistakes, without simulating it.
+//! `lissom check`: reports the contents and the errors of a model, without simulating it.
 
 use std::fmt::Write;
 
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Check a model without simulating it: mistakes, size, degrees of freedom, redundant constraints.
+/// Check a model without simulating it: errors, size, degrees of freedom, redundant constraints.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -27,7 +27,7 @@ pub(super) struct Check {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Print one JSON object instead of text, problems of the model included.
+    /// Print one JSON object instead of text; it includes errors and warnings of the model.
     #[arg(long)]
     json: bool,
 }

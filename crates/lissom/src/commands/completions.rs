@@ -1,4 +1,4 @@
-//! `lissom completions` and `lissom man`: for the shell and for the manual.
+//! `lissom completions` and `lissom man`: shell completions and manual pages.
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
@@ -6,7 +6,7 @@ use clap_complete::Shell;
 use super::{Exit, Failure, Line};
 use crate::terminal;
 
-/// Print completions for a shell.
+/// Print the completion script for a shell.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Explain warnings and failures: a code, words of a message, or all that a run has reported.
+/// Explain warnings and failures, by code, by words of the message, or all that a run has reported.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -19,9 +19,9 @@ Examples:
   lissom explain did not converge     words of a message
   lissom explain out/tip-crank        the warnings of this run
 
-Exit code: 0 there is an explanation; 2 there is none.")]
+Exit code: 0 success; 2 no such entry.")]
 pub(super) struct Explain {
-    /// A code, words of a message, or a folder of results.
+    /// A code, words of a message, or a folder of results [default: list all codes].
     #[arg(value_name = "CODE|WORDS|RESULT")]
     what: Vec<String>,
 }
@@ -53,8 +53,11 @@ impl Explain {
         };
         if found.is_empty() {
             let codes: Vec<&str> = catalogue().map(|entry| entry.code).collect();
-            let message = format!("nothing is known of `{words}`; codes are {}", codes.join(", "));
-            return Err(Failure::new(Exit::BadModel, format!("{message}; `lissom explain` prints all")));
+            let message = format!("no entry contains `{words}`; codes are {}", codes.join(", "));
+            return Err(Failure::new(
+                Exit::BadModel,
+                format!("{message}; `lissom explain` prints all entries"),
+            ));
         }
         terminal::print(&found.into_iter().map(render).collect::<String>());
         Ok(Exit::Done)

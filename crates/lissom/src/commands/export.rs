@@ -12,7 +12,7 @@ use lissom_model::files;
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Export results to other programs: ParaView, Blender, NumPy, pandas; or a model of rigid bodies, as URDF.
+/// Export results to ParaView, Blender, NumPy or pandas, or a model of rigid bodies as URDF.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -22,10 +22,10 @@ Examples:
   lissom export out/turbine --format parquet   out/turbine/history.parquet, for pandas
   lissom export arm.toml --format urdf         arm.urdf, a description of the robot
 
-Exit code: 0 success; 2 a folder without a run and its motion, or a model that the format cannot express; 3 a file that cannot be
+Exit code: 0 success; 2 no run with a motion in the folder, or a model that the format cannot express; 3 a file cannot be
 written.")]
 pub(super) struct Export {
-    /// A folder of results, or for urdf a model file.
+    /// A folder of results; for `urdf` a model file.
     #[arg(value_name = "RESULT")]
     folder: PathBuf,
 
@@ -33,7 +33,7 @@ pub(super) struct Export {
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(FORMATS.iter().map(|format| format.name).chain([URDF])))]
     format: String,
 
-    /// Destination: a file, for vtk a folder [default: in the folder of results].
+    /// Destination: a file, or for `vtk` a folder [default: in the folder of results].
     #[arg(long, value_name = "PATH")]
     out: Option<PathBuf>,
 
@@ -41,11 +41,11 @@ pub(super) struct Export {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
 
-    /// For urdf: override a value of the model, such as `bodies.arm.mass=2`; may be repeated.
+    /// For `urdf`: override a value of the model, such as `bodies.arm.mass=2`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
-    /// For urdf: omit what acts on the bodies and the format cannot express, such as loads and springs.
+    /// For `urdf`: omit elements that the format cannot express, such as loads and springs.
     #[arg(long, value_name = "WHAT")]
     without: Option<Without>,
 }
@@ -103,7 +103,7 @@ impl Export {
         let robot = &found.robot;
         if self.without.is_none() && !robot.unsupported.is_empty() {
             return Err(refused(format!(
-                "the robot would move differently from the model, because the format cannot express: {}; `--without unsupported` omits this",
+                "the format cannot express: {}; the robot would move differently from the model; `--without unsupported` omits these",
                 robot.unsupported.join("; ")
             )));
         }
@@ -116,7 +116,7 @@ impl Export {
         }
         if !found.values.is_empty() {
             let values = found.values.iter().map(|(name, value)| format!(" --position {name}={value:?}"));
-            text.push_str("  the model starts at values of joints other than zero: lissom import");
+            text.push_str("  the joint coordinates of the model are not zero at the start: lissom import");
             text.extend(values);
             text.push('\n');
         }

@@ -9,27 +9,27 @@ use lissom_model::files;
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Pack a model as a functional mock-up unit (FMI 3.0, co-simulation), for Simulink, Modelica tools and others.
+/// Export a model as a functional mock-up unit (FMI 3.0, co-simulation), for Simulink, Modelica tools and others.
 ///
-/// The inputs of the model are inputs of the unit, its numbers under [parameters] are parameters, and all recorded columns are
-/// outputs. The unit holds the model, the files it includes and a shared library, and needs nothing else.
+/// The inputs of the model are inputs of the unit, the numbers in [parameters] are parameters, and all recorded columns are
+/// outputs. The unit contains the model, the files it includes and a shared library; it has no other dependencies.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
   lissom fmu examples/controlled-arm.toml --out controlled-arm.fmu
 
-The shared library is expected beside the program, or at the path of --library. Build it from the sources by
+The shared library is expected in the folder of the program, or at the path given by --library. To build it from source:
   cargo build --release --manifest-path crates/lissom-fmi/Cargo.toml
-Exit code: 0 success; 2 wrong model or command line, or no library; 3 the file cannot be written.")]
+Exit code: 0 success; 2 wrong model or command line, or no shared library; 3 the file cannot be written.")]
 pub(super) struct Fmu {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// The unit [default: <name of the model file>.fmu].
+    /// File of the unit [default: <name of the model file>.fmu].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
-    /// The shared library that simulates the model [default: the one beside the program].
+    /// The shared library that simulates the model [default: the one in the folder of the program].
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
 
@@ -71,7 +71,7 @@ impl Fmu {
         let places = [folder.join(&name), folder.join("../lib/lissom").join(&name)];
         places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
             let message = format!(
-                "the shared library `{name}` is not beside the program, in `{}`\n  help: build it by `cargo build --release \
+                "the shared library `{name}` is not in the folder of the program, `{}`\n  help: build it with `cargo build --release \
                  --manifest-path crates/lissom-fmi/Cargo.toml`, and name it by `--library`",
                 folder.display()
             );

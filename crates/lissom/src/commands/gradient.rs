@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lissom::gradient::{Confirmation, GradientError, GradientReport, Target, gradient};
 use lissom::{FolderError, ResultFolder, summary};
-use serde_json::json;
 
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Differentiate an output with respect to numbers of the model file, along the steps of a run.
+/// Compute derivatives of an output with respect to numbers of the model file.
 ///
 /// The results go to a folder: `gradient.csv` (path, number, derivative) and `summary.json`.
 #[derive(Args)]
@@ -25,7 +24,7 @@ pub(super) struct Gradient {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Output column, and the scalar of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
+    /// Output column, and a scalar derived from it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
     #[arg(long, value_name = "OUTPUT[@TIME|max|rms]")]
     of: String,
 
@@ -37,7 +36,7 @@ pub(super) struct Gradient {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Skip the run of a neighbouring model that verifies the derivatives.
+    /// Skip the run with perturbed numbers that verifies the derivatives.
     #[arg(long)]
     unconfirmed: bool,
 
@@ -64,8 +63,7 @@ impl Gradient {
             Ok(found) => found,
             Err(error) => {
                 let mut summary = summary::of_request("gradient", model.name(), &self.model.set, &document);
-                // A string is valid JSON.
-                let _ = summary.insert("error", json!(error.to_string()));
+                summary::of_failure(&mut summary, &error);
                 folder.write_summary(&summary).map_err(unwritable)?;
                 return Err(Failure::new(Exit::Failed, error));
             }
@@ -84,7 +82,7 @@ impl Gradient {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let time = found.time.map_or_else(String::new, |time| format!(" at t = {time} s"));
@@ -102,7 +100,7 @@ fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> Str
             writeln!(text, "  by {} = {:.6e}: {:.9e}", derivative.path, derivative.number, derivative.value);
     }
     if let Some(Confirmation::Confirmed { missed, runs }) = &found.confirmation {
-        let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers changed");
+        let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers perturbed");
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

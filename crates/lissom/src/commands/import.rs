@@ -10,7 +10,7 @@ use lissom_model::files;
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Write a model file from a robot description (URDF, MJCF): bodies, joints, limits, springs, damping and friction.
+/// Convert a robot description (URDF, MJCF) to a model file: bodies, joints, limits, springs, damping and friction.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -22,17 +22,17 @@ pub(super) struct Import {
     /// The description: URDF or MJCF, regardless of the file extension.
     #[arg(value_name = "ROBOT")]
     file: PathBuf,
-    /// The model file to write; default: the name of the description with the extension toml, in the current folder.
+    /// The model file to write [default: the name of the description with the extension toml, in the current folder].
     #[arg(long, value_name = "MODEL.toml")]
     out: Option<PathBuf>,
-    /// Value of a joint at the start [rad, m]; may be given for several.
+    /// Initial coordinate of a joint [rad, m]; may be repeated.
     #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]
     positions: Vec<(String, f64)>,
     /// Leave the root free instead of fixing it to the ground.
     #[arg(long)]
     floating: bool,
-    /// Omit stops at limits, damping and friction, mimic joints, or what a model cannot express; may be given for
-    /// several.
+    /// Omit stops at limits, damping and friction, mimic joints, or what a model cannot express; several are separated by
+    /// commas.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     without: Vec<Part>,
 }
@@ -84,7 +84,7 @@ impl Import {
             },
         };
         let model = model_text(&robot, &pose, options).map_err(|error| bad(&error))?;
-        // A model that cannot start is not written.
+        // A model without a consistent initial state is not written.
         match Model::from_text(&out.display().to_string(), &model).session(&[]) {
             Ok(_) => {}
             Err(SessionError::Model(report)) => return Err(report.into()),
@@ -96,7 +96,7 @@ impl Import {
         let left_out = robot.left_out.iter().chain(&robot.unsupported);
         let left_out: String = left_out.flat_map(|what| ["  omitted: ", what, "\n"]).collect();
         terminal::print(&format!(
-            "{} is written: {} links, {moving} joints that move.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch the \
+            "{} is written: {} links, {moving} moving joints.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch the \
              motion\n",
             out.display(),
             robot.links.len(),

@@ -1,4 +1,4 @@
-//! A model at its start, for pictures, and the analyses with a motion.
+//! The scene of a model in its initial state, and which analyses compute a motion.
 
 use std::path::Path;
 
@@ -10,11 +10,11 @@ use lissom_model::scene::Scene;
 
 use super::{Exit, Failure, show_warnings};
 
-/// A model at its start.
+/// Scene of a model in its initial state.
 pub(super) struct InitialScene {
     /// Name of the model.
     pub(super) name: String,
-    /// One line about it; empty for none.
+    /// One line of description; empty for none.
     pub(super) title: String,
     /// Its drawing.
     pub(super) scene: Scene,
@@ -58,8 +58,11 @@ pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result
         | AnalysisKind::Modes { .. }
         | AnalysisKind::Path { .. } => Ok(()),
         AnalysisKind::Buckling { .. } => {
-            let message = format!("an analysis of kind `{}` leaves no motion to be shown", kind.name());
-            Err(Failure::new(Exit::BadModel, format!("{message}; `--initial` shows the model at its start")))
+            let message = format!("an analysis of kind `{}` computes no motion", kind.name());
+            Err(Failure::new(
+                Exit::BadModel,
+                format!("{message}; `--initial` shows the model in its initial state"),
+            ))
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `lissom kinds`: the elements of models, from the registry.
+//! `lissom kinds`: kinds and keys of model files, from the registry.
 
 use std::fmt::Write;
 
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// List the elements of a model file: kinds with parameters and samples, and the keys of every table.
+/// List the kinds of model files with their parameters and samples, and the keys of every table.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -22,7 +22,7 @@ Examples:
   lissom kinds --json             joints, springs, loads, schemes and solvers for programs
   lissom kinds output             all kinds of outputs and their keys; also section, beam, part, function …")]
 pub(super) struct Kinds {
-    /// Only kinds whose name contains this, or the tables and functions of this name.
+    /// Show only kinds whose name contains this word, or the tables or functions of this name.
     name: Option<String>,
 
     /// Print kinds, schemes and solvers with their parameters as one JSON object.
@@ -55,7 +55,7 @@ impl Kinds {
         }
         if wanted.is_empty() {
             // Writing to a string cannot fail.
-            let _ = writeln!(text, "\nMore by `lissom kinds WORD`: {}", topics().join(", "));
+            let _ = writeln!(text, "\nSee also `lissom kinds WORD` for: {}", topics().join(", "));
         }
         if text.is_empty() {
             let message = format!(
@@ -183,7 +183,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Choice(words) => words.join(" | "),
         ParameterType::FunctionOf(variable) => format!("number, expression of {variable} or table"),
         ParameterType::Input => "name of an input".to_owned(),
-        ParameterType::Equation => "expression of coordinates, as arm.angle, and of t".to_owned(),
+        ParameterType::Equation => "expression of coordinates, such as arm.angle, and of t".to_owned(),
         ParameterType::Numbers => "list of numbers".to_owned(),
         ParameterType::SquareMatrix => "number, diagonal or square matrix by rows".to_owned(),
         ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
@@ -206,16 +206,17 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         ),
         ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' positions)", PLACES),
         ActsOn::Places => (
-            "along: the points it passes over, each with `on` and `at`; drums: coordinates that pay it out",
+            "along: the points over which it passes, each with `on` and `at`; drums: coordinates that pay it out",
             "along = [{ on = \"ground\", at = [0.0, 0.0, 3.0] }, { on = \"my_body\" }]",
         ),
         ActsOn::OneNode => ("on, at (default: the node's position)", "on = \"my_body\""),
-        ActsOn::TwoJointCoordinates => {
-            ("joint, other: those whose coordinates it relates", "joint = \"my_hinge\"\nother = \"my_slide\"")
-        }
+        ActsOn::TwoJointCoordinates => (
+            "joint, other: the joints whose coordinates it relates",
+            "joint = \"my_hinge\"\nother = \"my_slide\"",
+        ),
         ActsOn::NamedCoordinates => ("the coordinates that its expression names", ""),
         ActsOn::Coordinates => (
-            "coordinates: those of joints that it acts on, in the order of its matrices",
+            "coordinates: joint coordinates on which it acts, in the order of its matrices",
             "coordinates = [\"my_hinge.angle\", \"my_slide.displacement\"]",
         ),
         ActsOn::AlongBeams => {
@@ -223,10 +224,10 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         }
         ActsOn::Nothing => ("nothing: it has coordinates of its own", ""),
         ActsOn::JointCoordinate(Quantity::Angle) => {
-            ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")
+            ("joint: acts on its relative rotation", "joint = \"my_hinge\"")
         }
         ActsOn::JointCoordinate(Quantity::Length | Quantity::State) => {
-            ("joint, the one whose relative displacement it acts on", "joint = \"my_slide\"")
+            ("joint: acts on its relative displacement", "joint = \"my_slide\"")
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Common parts of commands that linearise a model about a state.
+//! Options and results common to all commands that linearise a model about a state.
 
 use clap::Args;
 use lissom::modes::OperatingPoint;
@@ -20,7 +20,7 @@ pub(super) struct StateArgument {
     pub(super) about: OperatingPoint,
 }
 
-/// A result, or the reason for its absence; an error of the model or of the request ends the command at once.
+/// A result, or the reason why there is none. An error of the model or of the request ends the command immediately.
 pub(super) fn answered<T>(found: Result<T, FrequencyError>) -> Result<Result<T, FrequencyError>, Failure> {
     match found {
         Err(FrequencyError::Model(report)) => Err(report.into()),

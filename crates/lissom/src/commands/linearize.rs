@@ -15,8 +15,8 @@ use crate::terminal;
 /// Write the matrices of the model linearised about a state.
 ///
 /// The results go to a folder, in the Matrix Market format: mass `M.mtx`, damping `D.mtx`, stiffness `K.mtx`, gradient of the
-/// constraints `G.mtx`, `inputs.mtx`, `outputs-*.mtx`, `unknowns.csv` (what the rows are); of models with up to 600 coordinates
-/// also `state-space-A.mtx` … `state-space-D.mtx` with `states.csv`.
+/// constraints `G.mtx`, `inputs.mtx`, `outputs-*.mtx`, `unknowns.csv` (names of the rows). For models with up to 600
+/// coordinates also `state-space-A.mtx` … `state-space-D.mtx` with `states.csv`.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -24,13 +24,13 @@ Examples:
   lissom linearize examples/tip-crank.toml --input drive --output midspan
 
 An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), such as `motor`, or
-`loads.motor` where several things have a name.
+`loads.motor` if several entries have the same name.
 Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about.")]
 pub(super) struct Linearize {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Inputs, loads or prescribed motions.
+    /// Inputs: entries of [inputs], loads or prescribed motions.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     input: Vec<String>,
 
@@ -75,7 +75,7 @@ impl Linearize {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, found: &LinearizeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;

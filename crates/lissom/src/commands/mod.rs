@@ -63,7 +63,7 @@ impl Exit {
     }
 }
 
-/// Why a command failed: the exit code, and the message.
+/// The failure of a command: exit code and message.
 pub(crate) struct Failure {
     exit: Exit,
     words: String,
@@ -107,7 +107,7 @@ Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
   lissom view examples/four-bar.toml --open    simulate, and watch the motion in the browser
   lissom snapshot out/pendulum --strip 6       a picture at six instants, as SVG or PNG
-  lissom check examples/four-bar.toml          find mistakes and redundant constraints
+  lissom check examples/four-bar.toml          find errors and redundant constraints
   lissom modes examples/four-bar.toml          natural frequencies and shapes
   lissom kinds                                 kinds and keys of a model file
   lissom schema > lissom.schema.json           schema for editors

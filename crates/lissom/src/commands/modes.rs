@@ -17,22 +17,22 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Models with more nodes are not drawn: drawing would take longer than computing their modes.
+/// Maximum number of nodes of models whose shapes are drawn: for larger ones drawing would take longer than the modes.
 const MAX_DRAWN: usize = 2000;
 /// Modes listed on the terminal; the tables contain all.
 const LISTED: usize = 20;
 
-/// Find natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
+/// Compute natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
 ///
 /// The results go to a folder: `modes.csv` (number, frequency, damping ratio, kind), `shapes.csv` (displacement and rotation of
 /// every node), `energy.csv` (share of each part in kinetic and strain energy), `participation.csv` (effective masses), `shapes.svg` (a
-/// picture of the first shapes), `summary.json` (eigenvalues) and what `lissom view` shows.
+/// picture of the first shapes), `summary.json` (eigenvalues) and files for `lissom view`.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom modes examples/tip-crank.toml --about undeformed
-  lissom modes examples/tip-crank.toml --count 40 --shift 100   those nearest to 100 Hz
-  lissom modes examples/top.toml --about 0.5      frozen at t = 0.5 s of its motion
+  lissom modes examples/tip-crank.toml --count 40 --shift 100   the modes nearest to 100 Hz
+  lissom modes examples/top.toml --about 0.5      about the state at t = 0.5 s
 
 Kinds: rigid (frequency 0), oscillation, decay (overdamped), divergence and flutter (growing).
 Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or modes were missed.")]
@@ -48,7 +48,7 @@ pub(super) struct Modes {
     #[arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)]
     about: Option<OperatingPoint>,
 
-    /// Find the modes nearest to this frequency [default: the lowest ones].
+    /// Compute the modes nearest to this frequency [default: the lowest ones].
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     shift: Option<f64>,
 
@@ -56,7 +56,7 @@ pub(super) struct Modes {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Draw no picture of the shapes.
+    /// Do not draw the shapes.
     #[arg(long)]
     no_plots: bool,
 
@@ -147,7 +147,7 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     folder.write_table("shapes.svg", &text).map_err(unwritable)
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;
@@ -157,7 +157,7 @@ fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
             Completeness::Counted => "there are no more",
             _ => "no more were found",
         };
-        format!(" (asked for {}: {reason})", found.asked)
+        format!(" (requested: {}; {reason})", found.asked)
     } else {
         String::new()
     };
@@ -167,7 +167,7 @@ fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
         "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {}, {:.3} s",
         found.about,
         match found.completeness {
-            Completeness::Counted => "none missed by a count of pivots",
+            Completeness::Counted => "none missed according to a count of pivots",
             _ => "not counted",
         },
         found.wall.as_secs_f64()

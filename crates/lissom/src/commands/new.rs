@@ -34,7 +34,7 @@ impl New {
         if stem.is_empty() || stem == ".toml" {
             return Err(Failure::new(
                 Exit::BadModel,
-                format!("`{}` is no name of a model", self.name.display()),
+                format!("`{}` is not a valid model name", self.name.display()),
             ));
         }
         if path.exists() {
@@ -42,7 +42,7 @@ impl New {
                 format!("`{}` already exists and is not overwritten: choose another name", path.display());
             return Err(Failure::new(Exit::BadModel, message));
         }
-        // As a TOML text, whatever letters it has.
+        // Quoted as TOML text, because it may contain any letters.
         let title = stem.replace('\\', "\\\\").replace('"', "\\\"");
         let text = TEMPLATE.replace("@title@", &title);
         files::write(&path, text.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;

@@ -7,7 +7,6 @@ use std::path::Path;
 use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
 use lissom::{Document, FolderError, Model, Override, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
-use serde_json::json;
 
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Interrupt};
@@ -37,8 +36,7 @@ pub(super) fn run(
         Ok(session) => session,
         Err(error) => {
             if !folder.has_results() {
-                // A string is valid JSON.
-                let _ = summary.insert("error", json!(error.to_string()));
+                lissom::summary::of_failure(&mut summary, &error);
                 folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
             }
             return Err(Failure::new(Exit::Failed, error));
@@ -49,7 +47,7 @@ pub(super) fn run(
     }
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
     let mut session = if wanted.plots {
-        // With both files the path can be displayed even if the program is killed.
+        // With both files the path can be displayed even after the program was killed.
         folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
         session.with_motion(Box::new(folder.motion().map_err(|error| unwritable(error.into()))?))
     } else {
@@ -86,7 +84,7 @@ pub(super) fn run(
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     // Writing to a string cannot fail.

@@ -1,4 +1,4 @@
-//! `lissom plot`: plots of folders of results: over time, over another column, over frequency, several results in one.
+//! `lissom plot`: plots of one or several folders of results, over time, another column or frequency.
 
 use std::path::{Path, PathBuf};
 
@@ -10,10 +10,10 @@ use lissom_model::output::{Over, Source, plots};
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Draw plots of one or several folders of results, from their `history.csv`.
+/// Plot the `history.csv` of one or several folders of results.
 ///
-/// Without options the plots of one folder are drawn anew, as `lissom run` draws them. Otherwise the plots are called
-/// `plot-….svg` and `plot-….png`.
+/// Without options the plots of `lissom run` are redrawn for one folder. Otherwise the files are named `plot-….svg` and
+/// `plot-….png`.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -22,21 +22,21 @@ Examples:
   lissom plot out/tip-crank --of midspan --spectrum         amplitudes over frequency
   lissom plot out/coarse out/fine --out out/compared        outputs of both, in one plot each
 
-Exit code: 0 success; 2 a folder, output or column that is not there.")]
+Exit code: 0 success; 2 no such folder, output or column.")]
 pub(super) struct Plot {
     /// Folders of results.
     #[arg(value_name = "RESULT", required = true)]
     folders: Vec<PathBuf>,
 
-    /// Outputs or columns, such as `tip` or `tip.u3`; all that the results share by default.
+    /// Outputs or columns, such as `tip` or `tip.u3` [default: all that the folders have in common].
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     of: Vec<String>,
 
-    /// Draw them over this column instead of time.
+    /// Plot over this column instead of time.
     #[arg(long, value_name = "COLUMN", conflicts_with = "spectrum")]
     over: Option<String>,
 
-    /// Draw amplitudes over frequency.
+    /// Plot amplitudes over frequency.
     #[arg(long)]
     spectrum: bool,
 

@@ -12,21 +12,21 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Frequencies that are listed on the terminal.
+/// Maximum number of frequencies printed on the terminal.
 const LISTED: usize = 6;
 
-/// Reduce flexible parts to a superelement: matrices over a few interfaces and modes.
+/// Reduce flexible parts to a superelement with a few interface nodes and modes.
 ///
-/// The results go to a folder: the matrices in the Matrix Market format and as NumPy archive, and NAME.toml with the table
-/// `[superelements.NAME]` that uses them. The stiffness holds the stresses of the state, static equilibrium without gravity
-/// unless `--about` says otherwise. Joints, springs and loads between an interface and the rest of the model are omitted.
+/// The results go to a folder: the matrices in the Matrix Market format and as a NumPy archive, and NAME.toml with the table
+/// `[superelements.NAME]` that uses them. The stiffness includes the effect of the stresses in the state `--about`, by default static
+/// equilibrium without gravity. Joints, springs and loads between an interface and the rest of the model are omitted.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom reduce examples/tip-crank.toml --interfaces beam.start,beam.end --modes 6
   lissom reduce turbine.toml --part blade1 --interfaces blade1.beam.start --modes 10 --name blade
 
-Exit code: 0 success; 2 wrong model or command line; 3 no state, or no elastic assembly.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no such state, or parts that are not one elastic assembly.")]
 pub(super) struct Reduce {
     #[command(flatten)]
     model: ModelArguments,
@@ -35,11 +35,11 @@ pub(super) struct Reduce {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     part: Vec<String>,
 
-    /// Interface nodes for joints, such as beam.start,beam.end; the first one carries the floating frame.
+    /// Interface nodes for joints, such as beam.start,beam.end; the floating frame is attached to the first one.
     #[arg(long, value_name = "NODE,…", value_delimiter = ',', required = true)]
     interfaces: Vec<String>,
 
-    /// Number of modes with the interfaces held.
+    /// Number of modes with fixed interfaces.
     #[arg(long, value_name = "NUMBER", default_value_t = 10)]
     modes: usize,
 
@@ -47,7 +47,7 @@ pub(super) struct Reduce {
     #[arg(long)]
     modes_alone: bool,
 
-    /// State that is reduced: `static`, `undeformed` or a time of the model's analysis [s].
+    /// State about which the model is reduced: `static`, `undeformed` or a time of the model's analysis [s].
     #[arg(long, value_name = "STATE|TIME", default_value = "static", allow_negative_numbers = true)]
     about: OperatingPoint,
 
@@ -111,7 +111,7 @@ impl Reduce {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [before, after] = found.unknowns;
@@ -130,8 +130,8 @@ fn render(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> Str
         let listed: Vec<String> =
             found.frequencies.iter().take(LISTED).map(|frequency| format!("{frequency:.4}")).collect();
         let more = if found.frequencies.len() > LISTED { ", …" } else { "" };
-        let _ = writeln!(text, "  frequencies with the interfaces held [Hz]: {}{more}", listed.join(", "));
+        let _ = writeln!(text, "  frequencies with fixed interfaces [Hz]: {}{more}", listed.join(", "));
     }
-    let _ = writeln!(text, "  use it by the table in {}", folder.join(format!("{name}.toml")).display());
+    let _ = writeln!(text, "  to use it, include {}", folder.join(format!("{name}.toml")).display());
     text
 }

@@ -1,4 +1,4 @@
-//! `lissom response`: harmonic response without steps in time.
+//! `lissom response`: harmonic response without time integration.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Find the response of outputs to harmonic inputs, of the model linearised about a state.
+/// Compute the response of outputs to harmonic inputs, for the model linearised about a state.
 ///
 /// The results go to a folder: `response.csv` (frequency, then magnitude, phase in degrees, real and imaginary part of each
 /// output per unit of each input), `response.svg` and `response.png` (Bode plot) and `summary.json`.
@@ -22,13 +22,13 @@ Examples:
   lissom response examples/tip-crank.toml --input drive --output midspan.u3 --from 0.1 --to 100
 
 An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), such as `motor`, or
-`loads.motor` where several things have a name.
+`loads.motor` if several entries have the same name.
 Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or no response.")]
 pub(super) struct Response {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// Inputs, loads or prescribed motions.
+    /// Inputs: entries of [inputs], loads or prescribed motions.
     #[arg(long, value_name = "NAME,…", value_delimiter = ',', required = true)]
     input: Vec<String>,
 
@@ -44,7 +44,7 @@ pub(super) struct Response {
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     to: f64,
 
-    /// Number of frequencies, in equal ratios; more are put where a response changes fast.
+    /// Number of frequencies, spaced logarithmically; more are added where a response changes rapidly.
     #[arg(long, value_name = "N", default_value_t = DEFAULT_POINTS as u32, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     points: u32,
 
@@ -92,7 +92,7 @@ impl Response {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(heading: &str, found: &ResponseReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
     let [coordinates, multipliers] = found.unknowns;

@@ -1,17 +1,16 @@
-//! Results of analyses: their folder, and its contents after a failure of one without time steps.
+//! Folders for the results of analyses, and their contents after the failure of an analysis without time steps.
 
 use std::fmt::Display;
 use std::path::Path;
 
-use lissom::{FolderError, ResultFolder};
+use lissom::{Diagnose, FolderError, ResultFolder};
 use lissom_model::output::Summary;
-use serde_json::json;
 
 use super::{Exit, Failure};
 
 /// The folder for `found`, with earlier results removed. A failed analysis writes its `summary` to it, with the
 /// reason.
-pub(super) fn folder_for<T, E: Display>(
+pub(super) fn folder_for<T, E: Diagnose + Display>(
     path: &Path,
     found: Result<T, E>,
     summary: impl FnOnce() -> Summary,
@@ -22,8 +21,7 @@ pub(super) fn folder_for<T, E: Display>(
         Ok(found) => Ok((folder, found)),
         Err(error) => {
             let mut summary = summary();
-            // A string is valid JSON.
-            let _ = summary.insert("error", json!(error.to_string()));
+            lissom::summary::of_failure(&mut summary, &error);
             folder.write_summary(&summary).map_err(unwritable)?;
             Err(Failure::new(Exit::Failed, error))
         }

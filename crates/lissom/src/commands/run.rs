@@ -23,12 +23,11 @@ use super::results::unwritable;
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Bar, Interrupt};
 
-/// Simulate a model as its table `[analysis]` specifies.
+/// Simulate a model as specified in its table `[analysis]`.
 ///
 /// The results go to a folder: `history.csv` (time and all outputs), `summary.json` (steps, iterations, times,
-/// violations, energy), `motion.bin` and `scene.json` (what `lissom view` shows), and a plot of every output as SVG and
-/// PNG. What was computed before a failure or Ctrl-C is
-/// kept there, too.
+/// violations, energy), `motion.bin` and `scene.json` (for `lissom view`), and a plot of every output as SVG and
+/// PNG. They are also written for the time before a failure or Ctrl-C.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -66,7 +65,7 @@ pub(super) struct Run {
     #[arg(long)]
     no_plots: bool,
 
-    /// Write a checkpoint after this time or number of steps, such as `10s` or `1000steps`.
+    /// Write a checkpoint at this interval of time or steps, such as `10s` or `1000steps`.
     #[arg(long, value_name = "TIME|STEPS", value_parser = |text: &str| text.parse::<CheckpointEvery>().map(|_| text.to_owned()))]
     checkpoint_every: Option<String>,
 
@@ -146,7 +145,7 @@ impl Run {
             Ok(session) => session,
             Err(error) => {
                 let kept = if folder.has_results() {
-                    format!("\n  the former results in `{}` are left as they were", folder.path().display())
+                    format!("\n  the earlier results in `{}` are unchanged", folder.path().display())
                 } else {
                     summary::of_failed_start(&mut summary, &error);
                     folder.write_summary(&summary).map_err(unwritable)?;
@@ -170,7 +169,7 @@ impl Run {
         if let Some((recorder, scene)) = recorder.zip(scene) {
             session.write_states_to(Box::new(task.motion(&folder, recorder, &scene)?));
         }
-        // Remains if the run is killed.
+        // This summary remains if the program is killed.
         summary::of_beginning(&mut summary);
         folder.write_summary(&summary).map_err(unwritable)?;
         let mut bar = Bar::new(session.progress().planned, !self.quiet);
@@ -247,7 +246,7 @@ impl Run {
             return Ok(());
         }
         match folder.write_plots(record, title) {
-            // Nothing to draw, or drawing is impossible: the numbers are written.
+            // Without plots or without the ability to draw, the tables are complete.
             Err(error @ FolderError::Figure(_)) => {
                 if !self.quiet {
                     terminal::complain(&format!("warning: {error}\n"));
@@ -306,7 +305,7 @@ impl Task {
         Ok(recorder.writing_to(folder.motion().map_err(unwritable)?))
     }
 
-    /// Facts known before the first step.
+    /// Summary data known before the first step.
     fn summary(&self, document: &Document, lowered: &Lowered) -> Summary {
         let mut summary = summary::of_model(self.model.name(), &self.overrides, document, lowered);
         summary::of_left_out(&mut summary, &self.model);
@@ -338,7 +337,7 @@ impl Task {
     }
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(
     (heading, assembly): (&str, Option<String>),
     session: &Session,
@@ -391,11 +390,12 @@ fn render(
     }
     if let Some(row) = totals.fell_back_at {
         let unknown = simulation.system().layout().name_of(row);
-        line("solver", format!("a pivot vanished for the {unknown}: continued with the pivoting solver"));
+        line("solver", format!("zero pivot at the {unknown}: continued with the pivoting solver"));
     }
     if let Some(row) = totals.regularized_at {
         let unknown = simulation.system().layout().name_of(row);
-        let words = format!("are redundant, detected at the {unknown}: least forces are given");
+        let words =
+            format!("are redundant, detected at the {unknown}: the multipliers are those of minimum norm");
         line("redundant", format!("constraints {words}"));
     }
     let speed = if solving > 0.0 { totals.steps as f64 / solving } else { 0.0 };

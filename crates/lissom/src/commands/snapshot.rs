@@ -17,8 +17,8 @@ use crate::terminal;
 
 /// Draw a mechanism at one or several instants, as SVG or PNG.
 ///
-/// The shapes are those of `lissom view`. A model is simulated first, as by `lissom run`, unless `--initial` asks for its
-/// start. Without `--at` and `--strip` the last instant is drawn; of natural modes, the first twenty shapes.
+/// The shapes are those of `lissom view`. A model is simulated first, as by `lissom run`, unless `--initial` is given. Without
+/// `--at` and `--strip` the last instant is drawn, or for natural modes the first twenty shapes.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -29,13 +29,13 @@ Examples:
   lissom snapshot out/four-bar-modes --mode 2 --animate 2
 
 Exit code: 0 success; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
-shows how far it came.")]
+shows the last instant before the failure.")]
 pub(super) struct Snapshot {
     /// A folder of results, or a model file.
     #[arg(value_name = "RESULT|MODEL.toml")]
     what: PathBuf,
 
-    /// Instants to be drawn beside each other [s]; for equilibrium paths lengths, for a mode fractions of its period.
+    /// Instants to be drawn side by side [s]; for an equilibrium path lengths along it, for a mode fractions of its period.
     #[arg(
         long,
         value_name = "TIME",
@@ -53,7 +53,7 @@ pub(super) struct Snapshot {
     #[arg(long, value_name = "N", conflicts_with = "initial", value_parser = clap::value_parser!(u32).range(1..))]
     mode: Option<u32>,
 
-    /// An animation (APNG, which browsers show) of the whole motion with this duration in seconds.
+    /// Write an animation (APNG, which browsers can show) of the whole motion with this duration [s].
     #[arg(long, value_name = "SECONDS", conflicts_with_all = ["at", "strip", "initial"])]
     animate: Option<f64>,
 
@@ -70,7 +70,7 @@ pub(super) struct Snapshot {
     #[arg(long)]
     paths: bool,
 
-    /// Draw the model at its start, without simulating it.
+    /// Draw the initial state of the model, without simulating it.
     #[arg(long, conflicts_with_all = ["at", "strip"])]
     initial: bool,
 
@@ -118,13 +118,13 @@ impl Snapshot {
         };
         let wrong = |message: String| Err(Failure::new(Exit::BadModel, message));
         if self.animate.is_some() && self.out.is_some() && !is_png {
-            return wrong("a moving picture is a PNG file: its name must end in .png".to_owned());
+            return wrong("an animation is a PNG file: its name must end in .png".to_owned());
         }
         if let Some(duration) = self.animate.filter(|duration| !(0.1..=MAX_SECONDS).contains(duration)) {
             return wrong(format!("`--animate {duration}` must be from 0.1 to {MAX_SECONDS} seconds"));
         }
         if let Some(time) = self.at.iter().find(|time| !time.is_finite()) {
-            return Err(Failure::new(Exit::BadModel, format!("`--at {time}` is no instant")));
+            return Err(Failure::new(Exit::BadModel, format!("`--at {time}` is not a valid time")));
         }
         if self.what.is_dir() {
             if self.initial || !self.set.is_empty() {
@@ -161,7 +161,8 @@ impl Snapshot {
             return self.of_modes(&ResultFolder::recorded_modes(folder).map_err(foreign)?, folder, is_png);
         }
         if self.mode.is_some() {
-            let message = format!("`{}` holds no natural modes: `--mode` is for those", folder.display());
+            let message =
+                format!("`{}` contains no natural modes, which `--mode` requires", folder.display());
             return Err(Failure::new(Exit::BadModel, message));
         }
         let run = ResultFolder::recorded(folder).map_err(foreign)?;
@@ -173,8 +174,7 @@ impl Snapshot {
         let labels = modes.labels();
         let Some(number) = self.mode.map(|number| number as usize) else {
             if self.strip.is_some() || self.animate.is_some() || !self.at.is_empty() {
-                let message =
-                    "of natural modes `--at`, `--strip` and `--animate` show one: choose it with `--mode N`";
+                let message = "for natural modes `--at`, `--strip` and `--animate` draw a single one: choose it with `--mode N`";
                 return Err(Failure::new(Exit::BadModel, message));
             }
             let motion = modes.shapes(MAX_SHAPES);
@@ -192,7 +192,7 @@ impl Snapshot {
         let (Some(motion), Some(label)) = (modes.oscillation(number, &ascending), labels.get(number - 1))
         else {
             let message =
-                format!("there is no mode {number}: `{}` holds {}", folder.display(), modes.count());
+                format!("there is no mode {number}: `{}` contains {}", folder.display(), modes.count());
             return Err(Failure::new(Exit::BadModel, message));
         };
         let below = |share: &f64| format!("mode {label}, {share:.3} of its period");

@@ -1,4 +1,4 @@
-//! `lissom sweep`: solves a model many times with different values and writes one table.
+//! `lissom sweep`: solves a model for many parameter values and writes one table.
 
 use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
@@ -19,15 +19,15 @@ use serde_json::json;
 use super::{Exit, Failure};
 use crate::terminal::{self, Interrupt};
 
-/// Maximum number of members without solution that are named.
+/// Maximum number of unsolved members listed in the message.
 const NAMED: usize = 5;
 
-/// Solve a model many times with different values, on all processors.
+/// Solve a model for many parameter values, on all processors.
 ///
-/// The sweep file names the model, the paths that are varied, how they are sampled, and the scalars that are collected.
-/// The folder gets `sweep.csv` and `sweep.parquet` (one row per member), pictures of this table, whole histories where they are
-/// asked for, `sweep.json` (counts and times), and `members.jsonl`, to which every
-/// finished member adds a line: an interrupted sweep resumes from there when it is run again.
+/// The sweep file specifies the model, the paths that are varied, their sampling, and the scalars to be collected. The results
+/// go to a folder: `sweep.csv` and `sweep.parquet` (one row per member), plots of this table, histories if requested,
+/// `sweep.json` (counts and times), and `members.jsonl` (one line per finished member), from which the same command resumes
+/// an interrupted sweep.
 #[derive(Args)]
 #[command(after_help = "\
 A sweep file:
@@ -42,14 +42,14 @@ A sweep file:
   swing = \"max(bob.x)\"      # max min max_abs time_of_max time_of_min mean rms initial final
   latched = \"time_of_event(latch)\"
 
-Exit code: 0 every member is solved; 2 wrong model, sweep file or command line; 3 a member has no solution, or results
-cannot be written (the table is still written); 130 interrupted by Ctrl-C: run it again to resume.")]
+Exit code: 0 all members are solved; 2 wrong model, sweep file or command line; 3 a member has no solution (the table is
+still written), or results cannot be written; 130 interrupted by Ctrl-C: run it again to resume.")]
 pub(super) struct SweepCommand {
     /// The sweep file.
     #[arg(value_name = "SWEEP.toml")]
     file: PathBuf,
 
-    /// Override a value of all members, such as `analysis.step=1e-4`; may be repeated.
+    /// Override a value in all members, such as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
@@ -57,11 +57,11 @@ pub(super) struct SweepCommand {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Members solved at the same time; results do not depend on their number [default: all processors].
+    /// Number of members solved in parallel; results do not depend on it [default: all processors].
     #[arg(long, value_name = "N")]
     workers: Option<NonZero<usize>>,
 
-    /// Discard what an earlier sweep left in the folder.
+    /// Discard the results of an earlier sweep in the folder.
     #[arg(long)]
     restart: bool,
 
@@ -156,7 +156,7 @@ impl SweepCommand {
         let text = files::read_input_text(&self.file).map_err(unreadable)?;
         let file = SweepFile::parse(&text, &self.file.display().to_string())?;
         let Some(model) = &file.model else {
-            let message = format!("`{}` names no model: add `model = \"….toml\"`", self.file.display());
+            let message = format!("`{}` specifies no model: add `model = \"….toml\"`", self.file.display());
             return Err(Failure::new(Exit::BadModel, message));
         };
         let folder = self.file.parent().unwrap_or(Path::new(""));
@@ -186,7 +186,7 @@ fn exit(outcomes: &[MemberOutcome], table: &Path) -> Result<Exit, Failure> {
     if failed.is_empty() {
         return Ok(Exit::Done);
     }
-    let mut words = format!("{} of {} members are not solved:\n", failed.len(), outcomes.len());
+    let mut words = format!("{} of {} members have no solution:\n", failed.len(), outcomes.len());
     for outcome in failed.iter().take(NAMED) {
         let diagnosis = outcome.diagnosis.as_deref().unwrap_or_default();
         // Writing to a string cannot fail.
@@ -195,7 +195,7 @@ fn exit(outcomes: &[MemberOutcome], table: &Path) -> Result<Exit, Failure> {
     if failed.len() > NAMED {
         let _ = writeln!(words, "  and {} more", failed.len() - NAMED);
     }
-    let _ = write!(words, "  all members, these with their diagnosis, are in `{}`", table.display());
+    let _ = write!(words, "  all members, with the causes of failures, are in `{}`", table.display());
     Err(Failure::new(Exit::Failed, words))
 }
 
@@ -236,7 +236,7 @@ fn summary(
     summary
 }
 
-/// A summary of a few lines for the terminal.
+/// The summary for the terminal.
 fn render(
     sweep: &Sweep,
     outcomes: &[MemberOutcome],
@@ -245,7 +245,7 @@ fn render(
 ) -> String {
     let solved = count(outcomes, MemberState::Solved);
     let mut text = format!("{}\n", sweep.model_name());
-    let there = if found > 0 { format!(", {found} of them were there already") } else { String::new() };
+    let there = if found > 0 { format!(", {found} of them by an earlier run") } else { String::new() };
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
@@ -259,7 +259,7 @@ fn render(
         let (whole, simulating) = (seconds * workers.get() as f64, simulating(outcomes));
         let _ = writeln!(
             text,
-            "  time        {seconds:.3} s on {workers} workers; of a worker {:.3} ms per member, {:.3} ms of it simulation and {:.3} ms \
+            "  time        {seconds:.3} s on {workers} workers; {:.3} ms of a worker per member, {:.3} ms of it simulation and {:.3} ms \
              beyond it",
             per_member(whole),
             per_member(simulating),

@@ -15,17 +15,17 @@ use crate::terminal;
 
 /// Show results as an animation with plots, in one HTML file for any browser.
 ///
-/// For a folder of results the file shows its run, or the natural modes that `lissom modes` has found. A model
-/// is simulated first, as by `lissom run`. The file is self-contained.
+/// For a folder of results the file shows its run, or its natural modes if `lissom modes` has written the folder. A model is
+/// simulated first, as by `lissom run`. The file is self-contained.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom view out/four-bar                     writes out/four-bar/view.html
   lissom view examples/four-bar.toml --open    simulates, writes, opens the browser
   lissom view examples/four-bar.toml --initial --html four-bar.html
-                                               the model at the start, without simulating it
+                                               the initial state, without simulation
 
-Exit code: 0 success; 2 wrong model or command line; 3 no solution: the file then shows how far it came.")]
+Exit code: 0 success; 2 wrong model or command line; 3 no solution: the file then shows the motion up to the failure.")]
 pub(super) struct View {
     /// A folder of results, or a model file.
     #[arg(value_name = "RESULT|MODEL.toml")]
@@ -39,7 +39,7 @@ pub(super) struct View {
     #[arg(long)]
     open: bool,
 
-    /// Show the model at the start, without simulating it.
+    /// Show the initial state of the model, without simulating it.
     #[arg(long)]
     initial: bool,
 
@@ -139,7 +139,7 @@ fn unwritable(error: &FileError) -> Failure {
     Failure::file(Exit::Failed, error)
 }
 
-/// Opens a file or address with the desktop's default program. Whether that could be started.
+/// Opens a file or address with the default program of the desktop. Returns whether that program could be started.
 pub(super) fn open(what: impl AsRef<std::ffi::OsStr>) -> bool {
     let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])

@@ -3,6 +3,7 @@
 
 mod description;
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 
 use lissom_model::document::AnalysisKind;
@@ -27,15 +28,13 @@ pub enum FmuError {
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis has no time history.
-    #[error(
-        "an analysis of kind `{0}` has no course in time: a unit needs one of kind `dynamics` or `statics`"
-    )]
+    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
     /// Two variables would have the same name.
-    #[error("`{0}` would be the name of two variables: call one of them otherwise in the model")]
+    #[error("{}", self.diagnostic())]
     SameName(String),
     /// The archive cannot be made.
-    #[error("the archive cannot be made: {0}")]
+    #[error("{}", self.diagnostic())]
     Archive(#[from] std::io::Error),
 }
 

@@ -26,7 +26,7 @@ const TRIED: i32 = 5;
 /// A step that is shorter than the others by more than this fraction has a different size.
 const WHOLE: f64 = 1e-9;
 
-/// Kinks closer than this fraction of the run are at the same time.
+/// Breakpoints closer than this fraction of the run are at the same time.
 const SAME_TIME: f64 = 1e-12;
 
 /// The request and its model.
@@ -66,15 +66,16 @@ pub(super) struct ParameterSensitivities {
 impl Question<'_> {
     fn number(&self, path: &str) -> Result<f64, GradientError> {
         if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
-            let words =
-                format!("`{path}` is of the analysis, not of the model: there is no derivative by it");
+            let words = format!(
+                "`{path}` belongs to the analysis, not to the model: outputs have no derivative with respect to it"
+            );
             return Err(GradientError::Number(words));
         }
         let number = number_at(self.model.text(), self.overrides, &self.document.parameters, path)
             .map_err(GradientError::Number)?;
         if number == 0.0 {
             let words = format!(
-                "the number at `{path}` is zero, which has no size: give it a small value, or a parameter beside it"
+                "the number at `{path}` is zero, so its magnitude is unknown: set it to a small value, or add a parameter to it"
             );
             return Err(GradientError::Number(words));
         }

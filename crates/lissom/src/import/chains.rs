@@ -130,9 +130,9 @@ pub(super) fn composites(
         let (kind, rotation) = kind(robot, frames, &joints).ok_or_else(|| {
             let names: Vec<String> = joints.iter().map(|&index| format!("`{}`", robot.joints[index].name)).collect();
             ImportError::new(format!(
-                "no joint of a model leaves free what {} do together, with no mass between them: known are two rotations about \
-                 axes that cross at a right angle, a displacement along the axis of a rotation, and two free displacements in a \
-                 plane with a rotation across it; give the links between them mass",
+                "the joints {} have no mass between them, and no joint of a model has the same degrees of freedom: supported are two \
+                 rotations about axes that intersect at a right angle, a displacement along the axis of a rotation, and two \
+                 displacements in a plane with a rotation about its normal; add mass to the links between them",
                 names.join(", ")
             ))
         })?;

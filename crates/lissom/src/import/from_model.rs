@@ -79,8 +79,10 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         let next = rest.iter().position(|joint| ends(joint).into_iter().any(|node| reached(node).is_some()));
         let Some(next) = next else {
             let names: Vec<&str> = rest.iter().map(|joint| joint.name.value.as_str()).collect();
-            let message =
-                format!("the joints {} hang on no root: a description has only one", names.join(", "));
+            let message = format!(
+                "the joints {} are not connected to the root: a description has only one",
+                names.join(", ")
+            );
             return Err(ImportError::new(message));
         };
         let joint = rest.remove(next);
@@ -88,7 +90,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         let (carrier, carried, is_turned) = match (reached(base), reached(tip)) {
             (Some(_), Some(_)) => {
                 let message =
-                    format!("joint `{}` closes a loop, and a description is a tree", joint.name.value);
+                    format!("joint `{}` closes a loop, but a description is a tree", joint.name.value);
                 return Err(ImportError::new(message));
             }
             (Some(carrier), None) => (carrier, tip, false),
@@ -105,8 +107,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     }
     if let Some(index) = tree.placed.iter().position(Option::is_none) {
         let name = &document.bodies[index].name.value;
-        let message =
-            format!("body `{name}` hangs on nothing: in a description only the root can move freely");
+        let message = format!("body `{name}` has no joint: in a description only the root can move freely");
         return Err(ImportError::new(message));
     }
     couplings(document, &tree, &mut robot)?;
@@ -140,7 +141,7 @@ fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     let assembled = document
         .assembly
         .as_ref()
-        .map(|_| "its parts are placed by [assembly]: write the positions found".to_owned());
+        .map(|_| "[assembly] determines the positions of its parts: write these positions".to_owned());
     match beam.or(element).or(mass).or(assembled) {
         Some(words) => Err(ImportError::new(format!(
             "the model has features that a description cannot express: {words}"
@@ -184,14 +185,14 @@ impl Tree {
             "clamp" | "rigid_link" => (Freedom::Fixed, ""),
             other => {
                 let message = format!(
-                    "joint `{name}` is of kind `{other}`: a description knows revolute, prismatic and clamped joints"
+                    "joint `{name}` is of kind `{other}`: a description supports revolute, prismatic and clamped joints"
                 );
                 return Err(ImportError::new(message));
             }
         };
         if joint.on_tip.is_some() {
             return Err(ImportError::new(format!(
-                "joint `{name}` is closed by [assembly]: write the positions found"
+                "joint `{name}` is closed by [assembly]: write the positions that it determines"
             )));
         }
         let value =
@@ -291,7 +292,7 @@ fn resistance(spring: &Component, robot: &mut Robot) {
 fn report_omissions(document: &Document, robot: &mut Robot) {
     if document.gravity != GRAVITY {
         let [x, y, z] = document.gravity.into();
-        robot.unsupported.push(format!("gravity of ({x}, {y}, {z}) m/s², where (0, 0, -9.81) is understood"));
+        robot.unsupported.push(format!("gravity of ({x}, {y}, {z}) m/s²; the format implies (0, 0, -9.81)"));
     }
     robot.unsupported.extend(document.loads.iter().map(|load| format!("the load `{}`", load.name.value)));
     robot.unsupported.extend(document.events.iter().map(|event| format!("the event `{}`", event.name.value)));

@@ -77,13 +77,13 @@ pub(super) fn write_effort(text: &mut String, joint: &RobotJoint) {
     if let Some(effort) = joint.effort {
         let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
         let _ =
-            writeln!(text, "# the motor of {} gives at most {effort:?} {unit}", joint.name.escape_debug());
+            writeln!(text, "# the motor of {} exerts at most {effort:?} {unit}", joint.name.escape_debug());
     }
     if let Some(speed) = joint.speed {
         let unit = if joint.freedom == Freedom::Rotation { "rad/s" } else { "m/s" };
         let _ = writeln!(
             text,
-            "# the motor of {} is meant for at most {speed:?} {unit}, which nothing enforces here",
+            "# the speed limit of {} is {speed:?} {unit}; it is not enforced",
             joint.name.escape_debug()
         );
     }

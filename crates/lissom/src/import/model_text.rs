@@ -117,7 +117,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
         let link = &robot.links[group.link].name;
         let mass = group.mass.filter(|mass| mass.mass > 0.0).ok_or_else(|| {
             ImportError::new(format!(
-                "link `{link}` moves and has no mass, nor have the links fixed to it: give it an <inertial>, or fix it"
+                "link `{link}` moves, but neither it nor the links fixed to it have mass: add an <inertial>, or fix it"
             ))
         })?;
         write_body(&mut text, group, &mass, names.links[group.link] != *link, link);
@@ -197,7 +197,7 @@ fn placed(
 fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
     if robot.is_root_the_world && options.root == Root::Floating {
         return Err(ImportError::new(
-            "the root of this description is the world, which cannot move: bodies that move freely have a <freejoint/>",
+            "the root of this description is the world, which cannot move: free bodies must have a <freejoint/>",
         ));
     }
     if options.unsupported == Unsupported::Refused && !robot.unsupported.is_empty() {
@@ -210,13 +210,15 @@ fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
     }
     for joint in robot.joints.iter().filter(|joint| !joint.moves()) {
         if options.limits && joint.range.is_some() {
-            let message =
-                format!("joint `{}`: limits of a ball joint are unknown here: leave out limits", joint.name);
+            let message = format!(
+                "joint `{}`: limits of a ball joint are not supported: use `--without limits`",
+                joint.name
+            );
             return Err(ImportError::new(message));
         }
         if options.friction && (joint.damping > 0.0 || joint.friction > 0.0) {
             let message = format!(
-                "joint `{}`: damping and friction of ball and free joints are unknown here: leave out friction",
+                "joint `{}`: damping and friction of ball and free joints are not supported: use `--without friction`",
                 joint.name
             );
             return Err(ImportError::new(message));
@@ -231,7 +233,8 @@ fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), Import
         if !robot.joints.iter().any(|joint| joint.name == *name && joint.moves()) {
             let known: Vec<&str> =
                 robot.joints.iter().filter(|joint| joint.moves()).map(|joint| joint.name.as_str()).collect();
-            let message = format!("there is no joint `{name}` that moves; there are {}", known.join(", "));
+            let message =
+                format!("there is no moving joint `{name}`; moving joints are {}", known.join(", "));
             return Err(ImportError::new(message));
         }
     }
@@ -259,7 +262,7 @@ fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), Import
                 let (own, wanted) = (value(of, &joint.name), factor * value(of, leader) + offset);
                 if (own - wanted).abs() > 1e-9 * (1.0 + wanted.abs()) {
                     let message = format!(
-                        "joint `{}` follows `{leader}` and must start at {wanted}, but starts at {own}: give it this value",
+                        "joint `{}` mimics `{leader}` and must start at {wanted}, not {own}: specify this value",
                         joint.name
                     );
                     return Err(ImportError::new(message));
@@ -366,9 +369,7 @@ fn header(robot: &Robot, options: Options) -> String {
         list(&robot.gravity)
     );
     if options.limits {
-        text.push_str(
-            "\n# Stops are as stiff as `stop_stiffness` [N m/rad, N/m], which the description does not have.",
-        );
+        text.push_str("\n# Stiffness of stops [N m/rad, N/m], which the description does not specify.");
     }
     for what in robot.left_out.iter().chain(&robot.unsupported) {
         let _ = write!(text, "\n# Omitted: {}.", what.escape_debug());

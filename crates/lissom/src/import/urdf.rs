@@ -23,7 +23,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     let document = xml::parse(text)?;
     let root = document.root_element();
     if !root.has_tag_name("robot") {
-        let message = format!("this is no URDF: its root is <{}>, not <robot>", root.tag_name().name());
+        let message = format!("this is not URDF: its root is <{}>, not <robot>", root.tag_name().name());
         return Err(ImportError::new(message));
     }
     let links = children(root, "link").map(link).collect::<Result<Vec<_>, _>>()?;
@@ -41,7 +41,7 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     let limited = joints.iter().filter(|joint| joint.speed.is_some()).count();
     if limited > 0 {
         let joints = if limited == 1 { "1 joint".to_owned() } else { format!("{limited} joints") };
-        left_out.push(format!("greatest speeds of {joints} (`velocity`): nothing keeps them below"));
+        left_out.push(format!("speed limits of {joints} (`velocity`), which are not enforced"));
     }
     in_order(Robot {
         name,
@@ -86,7 +86,7 @@ fn in_order(robot: Robot) -> Result<Robot, ImportError> {
         }
         if let Some(other) = carrier[joint.child].replace(number) {
             let message = format!(
-                "link `{}` hangs on both `{}` and `{}`: a URDF is a tree",
+                "link `{}` is a child of both `{}` and `{}`: a URDF is a tree",
                 links[joint.child].name, joints[other].name, joint.name
             );
             return Err(ImportError::new(message));
@@ -96,8 +96,8 @@ fn in_order(robot: Robot) -> Result<Robot, ImportError> {
     let [root] = roots[..] else {
         let named: Vec<&str> = roots.iter().map(|&link| links[link].name.as_str()).collect();
         let message = match roots.len() {
-            0 => "every link hangs on another: there is no root".to_owned(),
-            _ => format!("several links hang on none, and only one can be the root: {}", named.join(", ")),
+            0 => "every link is a child of another one: there is no root".to_owned(),
+            _ => format!("several links have no parent, but only one can be the root: {}", named.join(", ")),
         };
         return Err(ImportError::new(message));
     };
@@ -113,7 +113,7 @@ fn in_order(robot: Robot) -> Result<Robot, ImportError> {
     }
     if order.len() != links.len() {
         let lost = (0..links.len()).find(|link| !order.contains(link)).map_or("", |link| &links[link].name);
-        return Err(ImportError::new(format!("link `{lost}` hangs on itself by a loop of joints")));
+        return Err(ImportError::new(format!("link `{lost}` is its own ancestor in a loop of joints")));
     }
     let mut place = vec![0; links.len()];
     order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
@@ -141,7 +141,7 @@ fn name(node: Node<'_, '_>) -> Result<String, ImportError> {
 fn numbers<const N: usize>(node: Node<'_, '_>, key: &str) -> Result<Option<[f64; N]>, ImportError> {
     let Some(text) = node.attribute(key) else { return Ok(None) };
     xml::finite_numbers(text).and_then(|values| values.try_into().ok()).map(Some).ok_or_else(|| {
-        let message = format!("line {}: `{key}` must be {N} finite numbers, and is `{text}`", line(node));
+        let message = format!("line {}: `{key}` must be {N} finite numbers, not `{text}`", line(node));
         ImportError::new(message)
     })
 }
@@ -203,7 +203,7 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
         "floating" => Freedom::Floating,
         other => {
             return Err(fault(format!(
-                "its type is `{other}`: known are fixed, revolute, continuous, prismatic and floating"
+                "its type `{other}` is unknown: it must be fixed, revolute, continuous, prismatic or floating"
             )));
         }
     };

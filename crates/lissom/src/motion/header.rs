@@ -59,7 +59,7 @@ impl Header {
 
     /// All bytes before the first frame.
     pub(super) fn to_bytes(&self, reference: &[NodeMotion]) -> Vec<u8> {
-        let mut text = serde_json::to_vec(self).expect("names and numbers can always be said in JSON");
+        let mut text = serde_json::to_vec(self).expect("names and numbers can always be written as JSON");
         text.resize(text.len().next_multiple_of(8), b' ');
         let mut bytes = Vec::with_capacity(PREFIX + text.len() + 56 * reference.len());
         bytes.extend_from_slice(MAGIC);

@@ -10,18 +10,18 @@ use super::{MAGIC, PREFIX, VERSION};
 #[non_exhaustive]
 pub enum MotionError {
     /// It begins differently.
-    #[error("it is no motion file of this program")]
+    #[error("it is not a motion file of this program")]
     Foreign,
     /// It was written by another version.
     #[error(
-        "it is a motion file of version {0}, and this program reads version {VERSION}: run the model again"
+        "it is a motion file of version {0}, but this program reads version {VERSION}: run the model again"
     )]
     Version(u32),
     /// It ends before its first frame, or its header is damaged.
-    #[error("its beginning is damaged: run the model again")]
+    #[error("its header is damaged: run the model again")]
     Damaged,
     /// A number is not finite.
-    #[error("frame {0} holds a number that is not finite: run the model again")]
+    #[error("frame {0} contains a number that is not finite: run the model again")]
     NotFinite(usize),
 }
 

@@ -56,7 +56,7 @@ impl Family for Varied {
         match moved_where_locked(&lowered, &self.start) {
             None => Ok(lowered.system),
             Some(node) => Err(format!(
-                "it moves {node} where nothing can move it along the path: give its place by a joint, or vary another number"
+                "it moves {node}, but no joint or load can move it along the path: determine its position by a joint, or vary another number"
             )),
         }
     }
@@ -78,7 +78,7 @@ pub fn varied_number(
     };
     if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
         return wrong(
-            format!("`{path}` is of the analysis, not of the model"),
+            format!("`{path}` belongs to the analysis, not to the model"),
             "vary a number of the model, such as `parameters.height`; without `vary` the load factor is varied",
         );
     }

@@ -5,6 +5,7 @@ mod handles;
 mod observed;
 mod snapshot;
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
@@ -50,7 +51,7 @@ pub enum SessionError {
     #[error(transparent)]
     Initial(#[from] InitialError),
     /// The analysis has no time history.
-    #[error("an analysis of kind `{0}` has no steps to be taken")]
+    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
 }
 
@@ -263,7 +264,7 @@ impl Session {
         self.simulation.set_input(name, value)
     }
 
-    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the state remains
+    /// Performs one step: the next planned one, or one whose size is limited by its error. On failure the state remains
     /// unchanged.
     ///
     /// # Errors

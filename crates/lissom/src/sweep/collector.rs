@@ -42,7 +42,7 @@ pub(super) fn check(file: &SweepFile, columns: &[Column], events: &[&str]) -> Re
     let known = match names.len() {
         0 => "it has no outputs: add a table [outputs.…]".to_owned(),
         count if count <= FEW => format!("its columns are {}", names.join(", ")),
-        count => format!("its {count} columns are named as in the heading of a run's history.csv"),
+        count => format!("its {count} columns have the names in the heading of a run's history.csv"),
     };
     Err(SweepError::Column { name: name.clone(), column: column.clone(), known })
 }

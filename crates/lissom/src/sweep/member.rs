@@ -87,7 +87,7 @@ impl MemberOutcome {
 
     /// For a member that revealed a defect of the program.
     pub(super) fn defect(member: usize, words: &str) -> Self {
-        let diagnosis = format!("a defect of the program, please report it: {words}");
+        let diagnosis = format!("internal error, please report it: {words}");
         Self::not_started(member, MemberState::Failed, diagnosis)
     }
 }

@@ -32,6 +32,7 @@ mod folder;
 mod member;
 mod table;
 
+use lissom_core::diagnostics::Diagnose;
 use std::any::Any;
 use std::cell::RefCell;
 use std::num::NonZero;
@@ -73,12 +74,10 @@ pub enum SweepError {
     #[error(transparent)]
     Model(#[from] Report),
     /// The analysis has no time history.
-    #[error(
-        "an analysis of kind `{0}` has no history to collect from: a sweep needs `dynamics` or `statics`"
-    )]
+    #[error("{}", self.diagnostic())]
     NotInTime(&'static str),
     /// The model has no such column.
-    #[error("`{name}` collects `{column}`, which the model does not record; {known}")]
+    #[error("{}", self.diagnostic())]
     Column {
         /// Name of the collected item.
         name: String,
@@ -88,9 +87,7 @@ pub enum SweepError {
         known: String,
     },
     /// The cycles of a column are not counted.
-    #[error(
-        "`{name}` collects the damage equivalent range of `{column}`, whose output has no `woehler_exponent`: add it there"
-    )]
+    #[error("{}", self.diagnostic())]
     NoExponent {
         /// Name of the collected item.
         name: String,
@@ -98,7 +95,7 @@ pub enum SweepError {
         column: String,
     },
     /// The model has no such event.
-    #[error("`{name}` collects the time of the event `{event}`, which the model does not have; {known}")]
+    #[error("{}", self.diagnostic())]
     Event {
         /// Name of the collected item.
         name: String,

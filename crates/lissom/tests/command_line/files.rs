@@ -130,19 +130,19 @@ fn pipes_and_devices_are_refused() {
     for name in ["o/history.csv", "o/.lock", "o/summary.json", "o/motion.bin"] {
         let path = pipe(name);
         let ended = lissom(&["run", "m.toml", "--out", "o"], folder.path());
-        assert!(ended.code == 3 && ended.errors.contains("no regular file"), "{name}: {}", ended.errors);
+        assert!(ended.code == 3 && ended.errors.contains("not a regular file"), "{name}: {}", ended.errors);
         fs::remove_file(path).unwrap();
     }
     pipe("model.toml");
     let ended = lissom(&["check", "model.toml"], folder.path());
-    assert!(ended.code == 2 && ended.errors.contains("no regular file"), "{}", ended.errors);
+    assert!(ended.code == 2 && ended.errors.contains("not a regular file"), "{}", ended.errors);
     for data in ["/dev/random", "/dev/zero", "model.toml"] {
         folder.write("d.toml", &SPINNING.replace("DATA", data));
         let ended = lissom(&["check", "d.toml"], folder.path());
-        assert!(ended.code == 2 && ended.errors.contains("no regular file"), "{data}: {}", ended.errors);
+        assert!(ended.code == 2 && ended.errors.contains("not a regular file"), "{data}: {}", ended.errors);
     }
     let ended = lissom(&["view", "m.toml", "--html", "/dev/null"], folder.path());
-    assert!(ended.code == 3 && ended.errors.contains("no regular file"), "{}", ended.errors);
+    assert!(ended.code == 3 && ended.errors.contains("not a regular file"), "{}", ended.errors);
 }
 
 #[test]

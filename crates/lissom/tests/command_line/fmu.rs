@@ -61,7 +61,7 @@ fn what_cannot_be_a_unit_is_refused() {
     let path = "analysis={ kind = \"modes\" }";
     let run = lissom(&["fmu", &model, "--library", "library", "--set", path], folder.path());
     assert_eq!(run.code, 2);
-    assert!(run.errors.contains("no course in time"), "{}", run.errors);
+    assert!(run.errors.contains("no time steps"), "{}", run.errors);
     let run = lissom(&["fmu", &model, "--library", "library", "--out", "no/where.fmu"], folder.path());
     assert_eq!(run.code, 3, "{}", run.errors);
 }

@@ -36,7 +36,7 @@ fn an_imported_robot_runs_as_it_is() {
     folder.write("arm.urdf", include_str!("../machines/robots/two_links.urdf"));
     let made = lissom(&["import", "arm.urdf", "--position", "elbow=0.5"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
-    assert!(made.output.contains("2 joints that move"), "{}", made.output);
+    assert!(made.output.contains("2 moving joints"), "{}", made.output);
     let run =
         lissom(&["run", "arm.toml", "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
     assert_eq!((run.code, run.errors.as_str()), (0, ""));
@@ -48,7 +48,7 @@ fn an_imported_robot_runs_as_it_is() {
     assert!(again.errors.contains("already exists"), "{}", again.errors);
     let wrong = lissom(&["import", "arm.urdf", "--out", "b.toml", "--position", "knee=1"], folder.path());
     assert_eq!(wrong.code, 2);
-    assert!(wrong.errors.contains("no joint `knee`"), "{}", wrong.errors);
+    assert!(wrong.errors.contains("no moving joint `knee`"), "{}", wrong.errors);
     assert!(!folder.path().join("b.toml").exists());
 }
 
@@ -63,7 +63,7 @@ fn an_imported_robot_of_mujoco_runs_as_it_is() {
     folder.write("cart.xml", &robot.replace("TENDON", ""));
     let made = lissom(&["import", "cart.xml", "--position", "hinge=0.1"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
-    for words in ["3 links, 2 joints that move", "omitted: actuators", "1 <motor>", "1 <light>"] {
+    for words in ["3 links, 2 moving joints", "omitted: actuators", "1 <motor>", "1 <light>"] {
         assert!(made.output.contains(words), "{}", made.output);
     }
     let run =

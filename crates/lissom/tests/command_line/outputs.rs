@@ -277,7 +277,7 @@ fn kinds_answer_for_tables_and_functions() {
     let ended = lissom(&["kinds", "nonsense"], folder.path());
     assert!(ended.code == 2 && ended.errors.contains("section"), "{}", ended.errors);
     let all = lissom(&["kinds"], folder.path()).output;
-    assert!(all.contains("More by `lissom kinds WORD`") && all.contains("output"), "{all}");
+    assert!(all.contains("See also `lissom kinds WORD`") && all.contains("output"), "{all}");
     let schema: Value = serde_json::from_str(&lissom(&["schema"], folder.path()).output).unwrap();
     assert_eq!(schema["properties"]["initial"]["additionalProperties"]["required"][0], "parts");
 }

@@ -100,7 +100,7 @@ fn what_was_reported_is_explained() {
     assert!(reported.contains("unstable-equilibrium"), "{reported}");
     let of_run = lissom(&["explain", "column"], folder.path());
     assert!(
-        of_run.code == 0 && of_run.output.contains("disturb it, or hold what is free"),
+        of_run.code == 0 && of_run.output.contains("disturb it, or constrain the free parts"),
         "{}",
         of_run.output
     );

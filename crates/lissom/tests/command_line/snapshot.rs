@@ -102,7 +102,7 @@ fn bodies_are_drawn_by_the_shapes_and_meshes_that_the_model_gives() {
         ("mesh = \"part.toml\"", "it is neither a glTF file nor an STL file"),
         ("mesh = \"part.gltf\"", "its buffer `part.bin` cannot be read"),
         ("mesh = \"part.stl\"\nshape = { sphere = 1 }", "both `shape` and `mesh`"),
-        ("shape = { box = [1, 0, 1] }", "is no solid"),
+        ("shape = { box = [1, 0, 1] }", "is not a valid solid"),
     ] {
         fs::write(folder.path().join("wrong.toml"), model(drawn)).unwrap();
         let wrong = lissom(&["check", "wrong.toml"], folder.path());
@@ -184,12 +184,12 @@ fn what_cannot_be_drawn_is_refused() {
     for (args, words) in [
         (vec!["snapshot", "bar.toml", "--out", "bar.jpg"], ".svg or .png"),
         (vec!["snapshot", "out", "--at", "0.5,1.5"], "recorded from 0 s to 1 s"),
-        (vec!["snapshot", "out", "--at", "nan"], "is no instant"),
+        (vec!["snapshot", "out", "--at", "nan"], "is not a valid time"),
         (vec!["snapshot", "out", "--strip", "0"], "0 is not in 1..=100"),
         (vec!["snapshot", "out", "--strip", "2", "--at", "1"], "cannot be used with"),
         (vec!["snapshot", "out", "--initial"], "folder of results"),
         (vec!["snapshot", "modes", "--strip", "3"], "natural modes"),
-        (vec!["snapshot", "out", "--mode", "1"], "holds no natural modes"),
+        (vec!["snapshot", "out", "--mode", "1"], "contains no natural modes"),
         (vec!["snapshot", "plain"], "--no-plots"),
         (vec!["snapshot", "nowhere"], "there is no such file"),
     ] {

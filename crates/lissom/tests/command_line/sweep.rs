@@ -120,7 +120,7 @@ fn members_that_fail_are_reported_and_the_others_are_there() {
     );
     let ended = sweep(&folder, "out", &[]);
     assert_eq!(ended.code, 3, "{}", ended.errors);
-    assert!(ended.errors.contains("3 of 4 members are not solved"), "{}", ended.errors);
+    assert!(ended.errors.contains("3 of 4 members have no solution"), "{}", ended.errors);
     let table = table(&folder, "out");
     let lines: Vec<&str> = table.lines().collect();
     assert!(
@@ -133,7 +133,7 @@ fn members_that_fail_are_reported_and_the_others_are_there() {
     // Nothing is solved again, and the exit code is the same.
     let again = sweep(&folder, "out", &[]);
     assert_eq!(again.code, 3);
-    assert!(again.output.contains("4 of them were there already"), "{}", again.output);
+    assert!(again.output.contains("4 of them by an earlier run"), "{}", again.output);
     assert_eq!(self::table(&folder, "out"), table);
 }
 
@@ -274,7 +274,7 @@ fn wrong_sweeps_end_with_2() {
     assert!(ended.code == 2 && ended.errors.contains("has no history"), "{}", ended.errors);
     assert!(!folder.path().join("bad").exists(), "a wrong sweep leaves no results");
     folder.write("sweep.toml", &format!("lissom_sweep = 1\n{good}"));
-    assert!(sweep(&folder, "bad", &[]).errors.contains("names no model"));
+    assert!(sweep(&folder, "bad", &[]).errors.contains("specifies no model"));
     folder.write("sweep.toml", &format!("lissom_sweep = 1\nmodel = \"none.toml\"\n{good}"));
     assert_eq!(sweep(&folder, "bad", &[]).code, 2);
 

@@ -197,7 +197,7 @@ fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     for (args, words) in [
         (vec!["view", "nowhere"], "there is no such file"),
         (vec!["view", "out"], "history.csv"),
-        (vec!["view", "buckling.toml"], "leaves no motion"),
+        (vec!["view", "buckling.toml"], "computes no motion"),
         (vec!["view", "out/bar", "--initial"], "folder of results"),
     ] {
         let view = lissom(&args, folder.path());
@@ -207,7 +207,7 @@ fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     folder.write("out/bar/motion.bin", "something else");
     let view = lissom(&["view", "out/bar"], folder.path());
     assert_eq!(view.code, 2);
-    assert!(view.errors.contains("no motion file"), "{}", view.errors);
+    assert!(view.errors.contains("not a motion file"), "{}", view.errors);
 }
 
 #[test]

@@ -362,6 +362,6 @@ fn velocities_of_round_off_are_no_contradiction() {
         assert!(is_done && codes.is_empty(), "{speed}: {codes:?}");
     }
     let document = Model::from_text("model.toml", &held("1")).document(&[]).unwrap();
-    let error = Session::new(&document).err().expect("nothing of it remains").to_string();
+    let error = Session::new(&document).err().expect("entirely prevented").to_string();
     assert!(error.contains("initial velocity") && !error.contains("drives prescribe"), "{error}");
 }

@@ -493,7 +493,7 @@ fn fifo_deaf_to_term() {
         let path = folder.path().join(name);
         assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
         let ended = lissom(&["run", "m.toml", "--out", "o"], folder.path());
-        assert!(ended.code != 0 && ended.errors.contains("no regular file"), "{name}: {}", ended.errors);
+        assert!(ended.code != 0 && ended.errors.contains("not a regular file"), "{name}: {}", ended.errors);
         fs::remove_file(path).unwrap();
     }
     assert!(Command::new("mkfifo").arg(folder.path().join("pipe")).status().unwrap().success());
@@ -507,7 +507,11 @@ fn fifo_deaf_to_term() {
         folder.write("mesh.toml", &text.replace("mass=1", &format!("mesh=\"{name}\"\nmass=1")));
         for file in ["data.toml", "include.toml", "mesh.toml"] {
             let ended = lissom(&["check", file], folder.path());
-            assert!(ended.code == 2 && ended.errors.contains("no regular file"), "{file}: {}", ended.errors);
+            assert!(
+                ended.code == 2 && ended.errors.contains("not a regular file"),
+                "{file}: {}",
+                ended.errors
+            );
         }
     }
 }

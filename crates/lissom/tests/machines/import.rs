@@ -208,7 +208,7 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
          <axis xyz='1 0 0'/><mimic joint='a' multiplier='-0.1' offset='0.02'/></joint></robot>",
     )
     .expect("a robot");
-    assert_eq!(robot.left_out, ["greatest speeds of 1 joint (`velocity`): nothing keeps them below"]);
+    assert_eq!(robot.left_out, ["speed limits of 1 joint (`velocity`), which are not enforced"]);
     let refused = model_text(&robot, &Pose::default(), Options::default()).unwrap_err().to_string();
     assert!(refused.contains("must start at 0.02"), "{refused}");
     let pose = Pose { values: [("b".to_owned(), 0.02)].into(), ..Pose::default() };
@@ -223,9 +223,9 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
         "coulomb = 0.001",
         "kind = \"gear\"",
         "ratio = -0.1",
-        "# the motor of a gives at most 3.0 N m",
-        "# the motor of a is meant for at most 1.0 rad/s, which nothing enforces here",
-        "# Omitted: greatest speeds of 1 joint",
+        "# the motor of a exerts at most 3.0 N m",
+        "# the speed limit of a is 1.0 rad/s; it is not enforced",
+        "# Omitted: speed limits of 1 joint",
     ] {
         assert!(text.contains(line), "{line} is not in\n{text}");
     }
@@ -246,7 +246,7 @@ fn wrong_descriptions_are_reported() {
         ("<robot", "no XML"),
         ("<sdf/>", "no URDF"),
         ("<robot><link name='a'/><link name='a'/></robot>", "two links"),
-        ("<robot><link name='a'/><link name='b'/></robot>", "hang on none"),
+        ("<robot><link name='a'/><link name='b'/></robot>", "have no parent"),
         (
             "<robot><link name='a'><inertial><mass value='one'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link></robot>",
             "line 1",

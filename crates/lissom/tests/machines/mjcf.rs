@@ -320,13 +320,13 @@ fn what_cannot_be_said_is_reported() {
     let mass = "<geom size='0.1'/>";
     for (text, words) in [
         ("<sdf/>".to_owned(), "neither URDF nor MJCF"),
-        (body("<joint/>"), "link `b` moves and has no mass"),
+        (body("<joint/>"), "link `b` moves, but neither it"),
         (body("<joint/><geom type='mesh' mesh='a'/>"), "mass of a mesh"),
         (body(&format!("<joint type='hing'/>{mass}")), "`hing`"),
         (body(&format!("<joint axis='0 0 0'/>{mass}")), "no direction"),
         (body(&format!("<joint dampng='1'/>{mass}")), "`dampng` is unknown"),
-        (body(&format!("<joint type='ball' damping='1'/>{mass}")), "leave out friction"),
-        (body(&format!("<joint type='ball' range='0 1'/>{mass}")), "leave out limits"),
+        (body(&format!("<joint type='ball' damping='1'/>{mass}")), "--without friction"),
+        (body(&format!("<joint type='ball' range='0 1'/>{mass}")), "--without limits"),
         (body(&format!("<joint range='3 1'/>{mass}")), "is above"),
         (body(&format!("<joint springdamper='1 1'/>{mass}")), "springdamper"),
         (

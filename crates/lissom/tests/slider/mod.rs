@@ -331,11 +331,11 @@ fn what_makes_no_sense_is_refused() {
     };
     refused("position = [0.5, 0, 0]", "position = [0.5, 0, 0.1]", "is 1.000e-1 m away from it");
     refused("tip = \"bead\"", "tip = \"bar@0.4\"", "is a node of the beam that it slides on");
-    refused("tip = \"bead\"", "tip = \"bead\"\norientation = \"tangent\"", "that can turn freely in space");
+    refused("tip = \"bead\"", "tip = \"bead\"\norientation = \"tangent\"", "with free rotation in space");
     refused("tip = \"bead\"", "tip = \"bead\"\norientation = \"along\"", "orientation");
     refused("beams = [\"bar\"]", "beams = [\"bat\"]", "which does not exist");
     refused("beams = [\"bar\"]", "beams = []", "is empty");
-    refused("beams = [\"bar\"]", "beams = [\"bar\", \"bar\"]", "does not begin where");
+    refused("beams = [\"bar\"]", "beams = [\"bar\", \"bar\"]", "does not start at the end of");
 }
 
 /// Section forces under a slider that is between nodes: what the warning says of them. Its deflection is right.

@@ -187,15 +187,15 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
             }
             *text = text.replace(change.0, change.1);
         }
-        let text = using(&mixed, MODES).document(&[]).expect_err("does not fit").render(false);
+        let text = using(&mixed, MODES).document(&[]).expect_err("does not match").render(false);
         text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let none = ("no such words", "");
-    assert!(message(&other, none).contains("does not fit the mass"), "{}", message(&other, none));
+    assert!(message(&other, none).contains("does not match the mass"), "{}", message(&other, none));
     assert!(message(&more, none).contains("needs 14 columns and 306 rows"), "{}", message(&more, none));
     let floating = ("geometric =", "floating = \"bar_end\"\ngeometric =");
     assert!(
-        message(&report, floating).contains("hold for the first interface"),
+        message(&report, floating).contains("are valid for the first interface"),
         "{}",
         message(&report, floating)
     );

@@ -364,10 +364,10 @@ fn what_is_no_elastic_assembly_is_refused() {
         |text: &str, interfaces: &[&str]| try_reduce(text, interfaces, 0).expect_err("wrong").to_string();
     let held = beam(&format!("{}{MODES}", clamp("bar@0.5")));
     for (text, interfaces, words) in [
-        (beam(MODES), vec!["bar.middle"], "there is no node `bar.middle`"),
+        (beam(MODES), vec!["bar.middle"], "have no node `bar.middle`"),
         (beam(MODES), vec!["bar@0.51"], "has no node at `bar@0.51`"),
-        (beam(MODES), vec!["bar.start", "bar@0"], "is named twice"),
-        (held, vec!["bar.start"], "`root` leads from outside to a node between the interfaces"),
+        (beam(MODES), vec!["bar.start", "bar@0"], "is specified twice"),
+        (held, vec!["bar.start"], "`root` connects a part that is not reduced"),
         (
             beam(&format!(
                 "{}[loads.push]\nkind = \"force\"\non = \"bar@0.5\"\nvector = [0, 0, 1]\n{MODES}",
@@ -382,7 +382,7 @@ fn what_is_no_elastic_assembly_is_refused() {
                  [joints.hinge]\nkind = \"revolute\"\nbase = \"bar.end\"\ntip = \"loose\"\naxis = [0, 1, 0]\n{MODES}"
             )),
             vec!["bar.start"],
-            "with its interfaces held",
+            "with fixed interfaces",
         ),
     ] {
         let error = message(&text, &interfaces);
@@ -422,7 +422,7 @@ fn files_are_read_as_they_were_written() {
     assert_eq!(one.superelements[0].matrices, again.superelements[0].matrices);
     for (from, to, words) in [
         ("part.npz", "none.npz", "cannot be read"),
-        ("part.npz", "part-mass.mtx", "it is no NPZ archive"),
+        ("part.npz", "part-mass.mtx", "it is not an NPZ archive"),
         ("matrices = \"part.npz\"", "", "lacks `mass`"),
         ("matrices =", "floating = \"tip\"\nmatrices =", "which is none of its interfaces"),
         ("matrices =", "modal_damping = 0.1\nstiffness_damping = 1\nmatrices =", "has both `modal_damping`"),

@@ -95,7 +95,7 @@ diagnostics! {
             gaps: Vec<Gap>,
         } => "joints-do-not-close" {
             subject: Subject::new("joint", gaps.first().map_or("", |gap| &gap.joint)),
-            cause: ("the joints do not close; the least gaps that were found leave open {}", in_words(gaps)),
+            cause: ("the joints do not close; at the best approximation these remain open: {}", in_words(gaps)),
             remedy: "",
             meaning: "No positions were found at which all joints close.",
             advice: "Check the dimensions of the parts and the coordinates that are held.",

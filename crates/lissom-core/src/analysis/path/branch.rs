@@ -102,7 +102,7 @@ impl EquilibriumPath {
             iterations: 0,
             correction: 0.0,
             worst: Subject::nameless("the mode of the bifurcation"),
-            hint: "take a smaller `step`",
+            hint: "use a smaller `step`",
         }))
     }
 

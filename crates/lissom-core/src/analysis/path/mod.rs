@@ -78,9 +78,9 @@ diagnostics! {
         }
         /// No load acts.
         NoLoad {} => "path-without-load" {
-            cause: ("no load and no gravity acts at the time `start`, so that a load factor changes nothing"),
-            remedy: "give loads a magnitude there",
-            meaning: "No load acts at the time `start`, so that a load factor changes nothing.",
+            cause: ("no load and no gravity acts at the time `start`, so a load factor has no effect"),
+            remedy: "specify loads that are not zero there",
+            meaning: "No load acts at the time `start`, so a load factor has no effect.",
             advice: "Give loads a magnitude at that time.",
         }
         /// The number changes nothing.
@@ -90,7 +90,7 @@ diagnostics! {
             /// Its value at the start.
             value: f64,
         } => "path-without-effect" {
-            cause: ("a small change of `{name}` moves nothing in the equilibrium at {value}, where the path begins, so that there is no path \
+            cause: ("a small change of `{name}` does not change the equilibrium at {value}, where the path starts, so there is no path \
                     along it"),
             remedy: "vary a number that forces, stiffnesses or lengths depend on",
             meaning: "The varied number does not change the equilibrium.",
@@ -105,8 +105,8 @@ diagnostics! {
             /// Why.
             problem: String,
         } => "path-without-model" {
-            cause: ("`{name}` cannot be {value}, where the path begins: {problem}"),
-            remedy: "begin the path at another value",
+            cause: ("`{name}` cannot be {value}, where the path starts: {problem}"),
+            remedy: "start the path at another value",
             meaning: "The model is not valid at the value at which the path begins.",
             advice: "Begin the path at another value.",
         }
@@ -121,10 +121,10 @@ diagnostics! {
             /// What is wrong with the model beyond.
             problem: String,
         } => "path-leaves-model" {
-            cause: ("the path ends at {name} {value:.6e}, {arc:.3e} along it: the model has no meaning beyond ({problem})"),
-            remedy: "end the path before that value, or take the sense in which it can continue",
+            cause: ("the path ends at {name} {value:.6e}, {arc:.3e} along it: the model is invalid beyond ({problem})"),
+            remedy: "end the path before that value, or follow it in the opposite direction",
             meaning: "The model is not valid beyond the reported value of the varied number.",
-            advice: "End the path before that value, or take the other sense.",
+            advice: "End the path before that value, or follow it in the opposite direction.",
         }
         /// A step was not found however short.
         Lost {
@@ -153,12 +153,13 @@ diagnostics! {
             /// Why it was not exceeded.
             reason: String,
         } => "path-without-resistance" {
-            cause: ("after {steps} steps the load factor is {load_factor:.6e} and has never been larger than {most:.1e} ({reason}): nothing \
-                    seems to resist small loads, as in a cable without tension"),
-            remedy: "give it tension, follow a path along a number of the loaded model (`vary`), whose first equilibrium is found by \
-                relaxation, or take a smaller first `step`",
-            meaning: "Nothing seems to resist small loads, as in a cable without tension.",
-            advice: "Give it tension, follow a path along a number of the loaded model (`vary`), or take a smaller first `step`.",
+            cause: ("after {steps} steps the load factor is {load_factor:.6e} and has never been larger than {most:.1e} ({reason}): \
+                    small loads meet almost no resistance, as in a cable without tension"),
+            remedy: "apply tension, follow a path along a number of the loaded model (`vary`), whose first equilibrium is found by \
+                relaxation, or use \
+                a smaller first `step`",
+            meaning: "Small loads meet almost no resistance, as in a cable without tension.",
+            advice: "Apply tension, follow a path along a number of the loaded model (`vary`), or use a smaller first `step`.",
         }
         /// There are fewer bifurcations than that at which the path was to be left.
         NoBifurcation {
@@ -189,9 +190,9 @@ diagnostics! {
             reason: String,
         } => "path-without-branch" {
             cause: ("no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}"),
-            remedy: "disturb the model a little, so that its path continues on a branch by itself, or omit `branch`",
+            remedy: "disturb the model slightly, so that its path continues on a branch, or omit `branch`",
             meaning: "No branch was found at the bifurcation.",
-            advice: "Disturb the model a little, so that its path continues on a branch by itself, or omit `branch`.",
+            advice: "Disturb the model slightly, so that its path continues on a branch, or omit `branch`.",
         }
         /// The number of steps is exhausted.
         TooManySteps {
@@ -476,7 +477,7 @@ impl EquilibriumPath {
                     iterations: 0,
                     correction: 0.0,
                     worst: Subject::nameless("the path turns at once"),
-                    hint: "take a smaller `step`",
+                    hint: "use a smaller `step`",
                 };
                 let error = error.unwrap_or(bent);
                 if let Some(unresisted) = self.unresisted(|| error.to_string()) {

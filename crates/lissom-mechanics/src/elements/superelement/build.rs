@@ -50,9 +50,8 @@ pub fn superelement(
     let SuperelementDescription { name, frame, interfaces, floating, matrices } = description;
     let (size, first) = (matrices.mass.nrows(), 6 * interfaces.len());
     if size > MAX_UNKNOWNS {
-        let words = format!(
-            "has {size} rows: a superelement has at most {MAX_UNKNOWNS}; leave out interfaces or modes"
-        );
+        let words =
+            format!("has {size} rows: a superelement has at most {MAX_UNKNOWNS}; remove interfaces or modes");
         return Err(ParameterError::new("mass", words));
     }
     let mut contribution = Contribution::to(model);

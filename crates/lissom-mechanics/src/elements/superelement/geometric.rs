@@ -212,13 +212,13 @@ impl GeometricMatrices {
             .any(|block| block.iter().any(|value| !value.is_finite()))
             || self.shortening.iter().any(|own| own.direction.iter().any(|value| !value.is_finite()))
         {
-            return problem("holds what is not a finite number");
+            return problem("contains a number that is not finite");
         }
         if self.blocks().any(|block| block.rows(0, 6).amax() > 0.0 || block.columns(0, 6).amax() > 0.0)
             || self.shortening.iter().any(|own| own.direction.rows(0, 6).amax() > 0.0)
         {
             return problem(
-                "has entries of the first interface, which carries the floating frame and is not displaced against it",
+                "has entries of the first interface, which has the floating frame and is not displaced relative to it",
             );
         }
         let shortening = self.shortening.iter_mut().map(|own| &mut own.matrix);
@@ -252,7 +252,7 @@ impl GeometricMatrices {
                 let found = slope.row(row).transpose().dot(turned);
                 if (found - expected[(i, j)]).abs() > UNEQUAL * whole.amax() {
                     return problem(format!(
-                        "does not fit the mass: turned about its first interface the part would have another inertia ({found:.3e} \
+                        "does not match the mass: rotated about its first interface the part would have another inertia ({found:.3e} \
                          instead of {:.3e} kg m² per radian); look at the order of rows and at the units",
                         expected[(i, j)]
                     ));

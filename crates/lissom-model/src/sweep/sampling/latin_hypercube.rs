@@ -5,7 +5,7 @@ use super::{Draw, SamplingKind};
 
 pub(super) const KIND: SamplingKind = SamplingKind {
     name: "latin-hypercube",
-    summary: "Every path has one member in each of as many parts of equal probability.",
+    summary: "Latin hypercube: the range of every path is divided into intervals of equal probability, with one member in each.",
     draw: Draw::Fractions(fractions),
 };
 

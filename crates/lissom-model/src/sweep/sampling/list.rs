@@ -4,7 +4,7 @@ use super::{Draw, SamplingKind};
 
 pub(super) const KIND: SamplingKind = SamplingKind {
     name: "list",
-    summary: "Member k has the k-th value of every path; all paths have as many.",
+    summary: "Member k has the k-th value of every path; all lists have the same length.",
     draw: Draw::Indices(indices),
 };
 
@@ -12,7 +12,7 @@ fn indices(counts: &[usize]) -> Result<Vec<usize>, String> {
     let members = counts.first().copied().unwrap_or(0);
     if let Some(other) = counts.iter().find(|count| **count != members) {
         return Err(format!(
-            "a list needs as many values for every path, not {members} for one and {other} for another"
+            "all lists must have the same number of values, not {members} for one path and {other} for another"
         ));
     }
     Ok((0..members).flat_map(|member| counts.iter().map(move |_| member)).collect())
@@ -25,6 +25,6 @@ mod tests {
     #[test]
     fn members_take_values_side_by_side() {
         assert_eq!(indices(&[2, 2, 2]).unwrap(), [0, 0, 0, 1, 1, 1]);
-        assert!(indices(&[2, 3]).unwrap_err().contains("2 for one and 3"));
+        assert!(indices(&[2, 3]).unwrap_err().contains("2 for one path and 3"));
     }
 }

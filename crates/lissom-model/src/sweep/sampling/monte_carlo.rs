@@ -5,7 +5,7 @@ use super::{Draw, SamplingKind};
 
 pub(super) const KIND: SamplingKind = SamplingKind {
     name: "monte-carlo",
-    summary: "Independent draws; more members leave the first ones as they are.",
+    summary: "Independent random values; an increase of `members` does not change the first ones.",
     draw: Draw::Fractions(fractions),
 };
 

@@ -7,7 +7,7 @@ use super::{Draw, SamplingKind};
 
 pub(super) const KIND: SamplingKind = SamplingKind {
     name: "sobol",
-    summary: "Sobol's sequence, shifted by the seed; best with a power of two as the number of members.",
+    summary: "Sobol sequence, shifted by the seed; most uniform if the number of members is a power of two.",
     draw: Draw::Fractions(fractions),
 };
 

@@ -168,7 +168,7 @@ class ModelTables(ModelTree):
 
     @property
     def gravity(self) -> Any:
-        """Acceleration of gravity [m/s²]; none when omitted."""
+        """Acceleration of gravity [m/s²]; default: none."""
         of: Any = self._value("gravity")
         return of
 
@@ -178,7 +178,7 @@ class ModelTables(ModelTree):
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """Numbers that expressions may name."""
+        """Numbers for use in expressions."""
         of: dict[str, Any] = self._table("parameters")
         return of
 
@@ -198,7 +198,7 @@ class ModelTables(ModelTree):
 
     @property
     def sections(self) -> dict[str, Section]:
-        """Cross sections; axis 1 along the beam, 2 and 3 across."""
+        """Cross sections; axis 1 along the beam, 2 and 3 perpendicular to it."""
         of: dict[str, Section] = self._table("sections")
         return of
 
@@ -218,7 +218,7 @@ class ModelTables(ModelTree):
 
     @property
     def parts(self) -> dict[str, Part]:
-        """Sub-assemblies that are named, placed and repeated; names inside are `part.name`."""
+        """Sub-assemblies, which may be placed and repeated; their entries are named `part.name`."""
         of: dict[str, Part] = self._table("parts")
         return of
 
@@ -248,7 +248,7 @@ class ModelTables(ModelTree):
 
     @property
     def point_masses(self) -> dict[str, PointMass]:
-        """Masses without extension."""
+        """Point masses."""
         of: dict[str, PointMass] = self._table("point_masses")
         return of
 
@@ -258,7 +258,7 @@ class ModelTables(ModelTree):
 
     @property
     def superelements(self) -> dict[str, Superelement]:
-        """Linear elastic parts that are given by reduced matrices."""
+        """Linear elastic parts, specified by reduced matrices."""
         of: dict[str, Superelement] = self._table("superelements")
         return of
 
@@ -268,7 +268,7 @@ class ModelTables(ModelTree):
 
     @property
     def joints(self) -> dict[str, Joint]:
-        """What holds nodes together."""
+        """Constraints between nodes, or between coordinates of joints."""
         of: dict[str, Joint] = self._table("joints")
         return of
 
@@ -278,7 +278,7 @@ class ModelTables(ModelTree):
 
     @property
     def springs(self) -> dict[str, Spring]:
-        """What pulls nodes or joints back."""
+        """Springs, dampers, friction, stops and latches."""
         of: dict[str, Spring] = self._table("springs")
         return of
 
@@ -288,7 +288,7 @@ class ModelTables(ModelTree):
 
     @property
     def loads(self) -> dict[str, Load]:
-        """Forces and moments from outside, and of actuators."""
+        """Applied forces and moments, and those of actuators."""
         of: dict[str, Load] = self._table("loads")
         return of
 
@@ -298,7 +298,7 @@ class ModelTables(ModelTree):
 
     @property
     def inputs(self) -> dict[str, Any]:
-        """Numbers that are set from outside while a simulation runs, with their values at the start."""
+        """Numbers that are set during a simulation by events or by the calling program, with their initial values."""
         of: dict[str, Any] = self._table("inputs")
         return of
 
@@ -318,7 +318,7 @@ class ModelTables(ModelTree):
 
     @property
     def states(self) -> dict[str, State]:
-        """First-order states: numbers whose derivative by time is an expression."""
+        """First-order states: numbers whose time derivative is an expression."""
         of: dict[str, State] = self._table("states")
         return of
 
@@ -328,7 +328,7 @@ class ModelTables(ModelTree):
 
     @property
     def events(self) -> dict[str, Event]:
-        """What happens when expressions pass through zero."""
+        """Actions when expressions cross zero."""
         of: dict[str, Event] = self._table("events")
         return of
 
@@ -338,7 +338,7 @@ class ModelTables(ModelTree):
 
     @property
     def initial(self) -> Initial | None:
-        """How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium."""
+        """Initial conditions: a rigid motion of all parts, or of those listed in an entry [initial.…]; static equilibrium."""
         of: Initial | None = self._value("initial")
         return of
 
@@ -348,7 +348,7 @@ class ModelTables(ModelTree):
 
     @property
     def assembly(self) -> Any:
-        """Parts are placed approximately: they are moved as little as possible until all joints close and have the values they are given at the start."""
+        """Corrects approximate positions of parts: they are moved by the smallest amount that closes all joints at their initial values."""
         of: Any = self._value("assembly")
         return of
 
@@ -358,7 +358,7 @@ class ModelTables(ModelTree):
 
     @property
     def outputs(self) -> dict[str, Output]:
-        """What is recorded."""
+        """Quantities to be recorded."""
         of: dict[str, Output] = self._table("outputs")
         return of
 
@@ -368,7 +368,7 @@ class ModelTables(ModelTree):
 
     @property
     def analysis(self) -> Analysis | None:
-        """What is computed, and how."""
+        """Kind of analysis and its settings."""
         of: Analysis | None = self._value("analysis")
         return of
 

@@ -1,5 +1,5 @@
 # Made by `cargo xtask reference` of the program's own tables: do not edit.
-"""What is computed, and how."""
+"""Kind of analysis and its settings."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._entry import Count, Entry, Number
 
 
 class Analysis(Entry):
-    """What is computed, and how."""
+    """Kind of analysis and its settings."""
 
     __slots__ = ()
     _table: ClassVar[str] = "analysis"
@@ -24,22 +24,22 @@ class Dynamics(Analysis):
     Args:
         start: first time, default 0 [s]; a number, or nothing.
         scaling: scale of the equations, default physical; `"physical"`, `"unit"`, `"none"`, or nothing.
-        equilibrated: rows and columns of the scaled tangent brought to one size, default true; `true` or `false`, or nothing.
+        equilibrated: equilibration of rows and columns of the scaled tangent, default true; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
-        max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
-        output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
-        frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        output_every: number of steps between records, default 1; a whole number from 1 to 1000000000, or nothing.
+        frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"energy-decaying"`, or nothing.
         end: last time [s]; a number.
-        step: time step; with `relative_tolerance` the first one [s]; a number > 0, or nothing.
-        relative_tolerance: error allowed per step, relative to the motion: steps are chosen to keep it; default 1e-5 without `step`; a number from 0.0000 to 0.1, or nothing.
-        max_step: longest step that is chosen, default a twentieth of the whole [s]; a number > 0, or nothing.
-        output_step: time from record to record where steps are chosen; default every step [s]; a number > 0, or nothing.
-        energy_check: whether a run with much more energy than anything put in fails, default true; `true` or `false`, or nothing.
+        step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
+        relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`; a number from 0.0000 to 0.1, or nothing.
+        max_step: maximum adaptive step, default a twentieth of the whole time [s]; a number > 0, or nothing.
+        output_step: interval between records of adaptive steps; default every step [s]; a number > 0, or nothing.
+        energy_check: whether a spurious increase of energy is a failure, default true; `true` or `false`, or nothing.
         spectral_radius: Spectral radius at infinite frequency, 0 … 1; default 0.8; a number from 0.0000 to 1, or nothing.
         alpha: Numerical damping, -1/3 … 0; default -0.1; a number from -0.3333 to 0, or nothing.
     """
@@ -75,19 +75,19 @@ class Statics(Analysis):
     Args:
         start: first time, default 0 [s]; a number, or nothing.
         scaling: scale of the equations, default physical; `"physical"`, `"unit"`, `"none"`, or nothing.
-        equilibrated: rows and columns of the scaled tangent brought to one size, default true; `true` or `false`, or nothing.
+        equilibrated: equilibration of rows and columns of the scaled tangent, default true; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
-        max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
-        output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
-        frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        output_every: number of steps between records, default 1; a whole number from 1 to 1000000000, or nothing.
+        frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         end: last time, default 1 [s]; a number, or nothing.
-        steps: number of load steps; without it they are chosen by contraction and error; a whole number from 1 to 1000000, or nothing.
-        relative_tolerance: part of its work that a load step of chosen size may leave unexplained, default 0.01; a number > 0, or nothing.
-        ramp: whether gravity and loads that are constant grow from nothing over the load steps, default true; `true` or `false`, or nothing.
+        steps: number of load steps; default: adaptive, by contraction and error; a whole number from 1 to 1000000, or nothing.
+        relative_tolerance: tolerance of the relative work error of adaptive load steps, default 0.01; a number > 0, or nothing.
+        ramp: whether gravity and constant loads are ramped from zero over the load steps, default true; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "statics"
@@ -111,23 +111,23 @@ class Statics(Analysis):
 
 @dataclass(kw_only=True, slots=True)
 class Path(Analysis):
-    """Equilibria under loads times a load factor, or along a number of the model, through limit points, by arc length.
+    """Equilibrium path under loads times a load factor, or along a number of the model, through limit points, by arc length.
 
     Args:
         start: first time, default 0 [s]; a number, or nothing.
         scaling: scale of the equations, default physical; `"physical"`, `"unit"`, `"none"`, or nothing.
-        equilibrated: rows and columns of the scaled tangent brought to one size, default true; `true` or `false`, or nothing.
+        equilibrated: equilibration of rows and columns of the scaled tangent, default true; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
-        max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
-        end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given; a number, or nothing.
-        step: first step of the load factor or of the number, default a fiftieth of the way to `end`; a number > 0, or nothing.
-        steps: most steps, default 1000; a whole number from 1 to 1000000, or nothing.
-        vary: number of the model file along which the path goes, such as `parameters.height`, from the value that it has there; default: the load factor; a text, or nothing.
-        branch: bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none; a number from -1000.0000 to 1000, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which is required; a number, or nothing.
+        step: first step of the load factor or of the number, default a fiftieth of the range; a number > 0, or nothing.
+        steps: maximum number of steps, default 1000; a whole number from 1 to 1000000, or nothing.
+        vary: number of the model file that is varied from its value there, such as `parameters.height`; default: the load factor; a text, or nothing.
+        branch: number of the bifurcation at which the path continues on the branch, from 1; negative for the opposite direction of the branch; default 0, none; a number from -1000.0000 to 1000, or nothing.
     """
 
     _form: ClassVar[str] = "path"
@@ -150,18 +150,18 @@ class Path(Analysis):
 
 @dataclass(kw_only=True, slots=True)
 class Buckling(Analysis):
-    """Load factors of buckling, by a linear estimate.
+    """Buckling load factors, by a linear estimate.
 
     Args:
         start: first time, default 0 [s]; a number, or nothing.
         scaling: scale of the equations, default physical; `"physical"`, `"unit"`, `"none"`, or nothing.
-        equilibrated: rows and columns of the scaled tangent brought to one size, default true; `true` or `false`, or nothing.
+        equilibrated: equilibration of rows and columns of the scaled tangent, default true; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
-        max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of load factors, default 5; a whole number from 1 to 10000, or nothing.
     """
 
@@ -186,16 +186,16 @@ class Modes(Analysis):
     Args:
         start: first time, default 0 [s]; a number, or nothing.
         scaling: scale of the equations, default physical; `"physical"`, `"unit"`, `"none"`, or nothing.
-        equilibrated: rows and columns of the scaled tangent brought to one size, default true; `true` or `false`, or nothing.
+        equilibrated: equilibration of rows and columns of the scaled tangent, default true; `true` or `false`, or nothing.
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
-        max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
-        without: optional features of the nonlinear solver to be switched off, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
+        without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of modes, default 20; a whole number from 1 to 100000, or nothing.
-        about: about static equilibrium under the loads of the time `start` (default), or about the positions of the file without loads and gravity; `"static"`, `"undeformed"`, or nothing.
-        shift: frequency near which modes are sought; default: the lowest ones [Hz]; a number ≥ 0, or nothing.
+        about: static equilibrium under the loads at the time `start` (default), or the undeformed state without loads and gravity; `"static"`, `"undeformed"`, or nothing.
+        shift: frequency near which modes are computed; default: the lowest ones [Hz]; a number ≥ 0, or nothing.
     """
 
     _form: ClassVar[str] = "modes"

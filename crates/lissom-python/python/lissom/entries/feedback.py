@@ -11,12 +11,12 @@ from ._entry import Entry, Number, Table
 
 @dataclass(kw_only=True, slots=True)
 class State(Entry):
-    """First-order states: numbers whose derivative by time is an expression.
+    """First-order states: numbers whose time derivative is an expression.
 
     Args:
-        derivative: its derivative by time [1/s]; an expression of signals.
+        derivative: time derivative [1/s]; an expression of signals.
         start: value at the start, default 0; a number, or nothing.
-        magnitude: how large it usually is: errors are measured by this, or by its value where that is larger; default 1; a number > 0, or nothing.
+        magnitude: typical magnitude, relative to which errors are measured unless its value is larger; default 1; a number > 0, or nothing.
     """
 
     _table: ClassVar[str] = "states"
@@ -28,13 +28,13 @@ class State(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Event(Entry):
-    """What happens when expressions pass through zero.
+    """Actions when expressions cross zero.
 
     Args:
-        zero_of: the event happens where this expression passes through zero; an expression of signals.
-        direction: which way it passes, default `both`; `"both"`, `"rising"`, `"falling"`, or nothing.
-        stop: whether the run ends there, default `false`; `true` or `false`, or nothing.
-        set: inputs that change there, and expressions of what they become; a table, or nothing.
+        zero_of: the event occurs when this expression crosses zero; an expression of signals.
+        direction: direction of the crossing, default `both`; `"both"`, `"rising"`, `"falling"`, or nothing.
+        stop: whether the run ends at the event, default `false`; `true` or `false`, or nothing.
+        set: inputs to be changed by the event, with expressions of their new values; a table, or nothing.
     """
 
     _table: ClassVar[str] = "events"

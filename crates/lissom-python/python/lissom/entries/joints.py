@@ -10,7 +10,7 @@ from ._entry import Entry, Function, Names, Number, Place, Table, Vector
 
 
 class Joint(Entry):
-    """What holds nodes together."""
+    """Constraints between nodes, or between coordinates of joints."""
 
     __slots__ = ()
     _table: ClassVar[str] = "joints"
@@ -19,18 +19,18 @@ class Joint(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Cam(Joint):
-    """A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
+    """A coordinate of `other` is a function of a coordinate of `joint`, such as the profile of a cam.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        joint: the joint whose coordinate leads; the name of an entry of `[joints]`.
-        other: the joint whose coordinate follows; the name of an entry of `[joints]`.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        joint: joint with the independent coordinate; the name of an entry of `[joints]`.
+        other: joint with the dependent coordinate; the name of an entry of `[joints]`.
         profile: The other coordinate as a function of the first, `x` [m or rad]; an expression of `x`, or a table of it written as a function of time.
-        coordinate: Which coordinate of `joint`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
-        other_coordinate: Which coordinate of `other`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
+        coordinate: Number of the coordinate of `joint`, from 1; may be omitted if there is only one; a number > 0, or nothing.
+        other_coordinate: Number of the coordinate of `other`, from 1; may be omitted if there is only one; a number > 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "cam"
@@ -51,14 +51,14 @@ class Clamp(Joint):
     """Locks all six relative degrees of freedom.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "clamp"
@@ -75,20 +75,20 @@ class Clamp(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class ConstantVelocity(Joint):
-    """Two shafts share a point, may bend against each other, and turn by the same angle.
+    """Two shafts with a common point and any angle between them rotate by the same angle.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
-        tip_axis: Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft; three numbers, not all zero, or nothing.
+        tip_axis: Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft; three numbers, not all zero, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "constant_velocity"
@@ -108,21 +108,21 @@ class ConstantVelocity(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Cylindrical(Joint):
-    """The tip slides along an axis and turns about it; rotation and displacement are coordinates.
+    """The tip slides along an axis and rotates about it; rotation and displacement are coordinates.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "cylindrical"
@@ -143,17 +143,17 @@ class Cylindrical(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Distance(Joint):
-    """Keeps the distance of two points: a massless rod with a ball at each end.
+    """Keeps the distance of two points constant: a massless rod with spherical joints at its ends.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "distance"
@@ -170,14 +170,14 @@ class Distance(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Equation(Joint):
-    """An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.
+    """An expression of joint coordinates and time is zero: planetary gears, differentials, curves.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        equation: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`; an expression of coordinates of joints, such as `arm.angle`, and of `t`.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        equation: The expression that is zero, of coordinates such as `arm.angle` and `slide.displacement`, and of `t`; an expression of coordinates of joints, such as `arm.angle`, and of `t`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "equation"
@@ -191,18 +191,18 @@ class Equation(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Gear(Joint):
-    """A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.
+    """A coordinate of `other` changes by `ratio` times the change of a coordinate of `joint`: gears, racks, belts.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        joint: the joint whose coordinate leads; the name of an entry of `[joints]`.
-        other: the joint whose coordinate follows; the name of an entry of `[joints]`.
-        ratio: Change of the other coordinate per change of the first; negative for gears that mesh outside [1, m/rad or rad/m]; a number.
-        coordinate: Which coordinate of `joint`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
-        other_coordinate: Which coordinate of `other`, counted from 1; may be omitted where it has one; a number > 0, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        joint: joint with the independent coordinate; the name of an entry of `[joints]`.
+        other: joint with the dependent coordinate; the name of an entry of `[joints]`.
+        ratio: Change of the dependent coordinate per change of the independent one; negative for external gears [1, m/rad or rad/m]; a number.
+        coordinate: Number of the coordinate of `joint`, from 1; may be omitted if there is only one; a number > 0, or nothing.
+        other_coordinate: Number of the coordinate of `other`, from 1; may be omitted if there is only one; a number > 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "gear"
@@ -220,10 +220,10 @@ class Gear(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class GeneralizedCoordinates(Joint):
-    """Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.
+    """Generalised coordinates that belong to no part, for springs, loads, gears and `coordinate_dynamics`.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         start: Values at the start: as many as there are coordinates [m or rad]; a list of numbers.
         rate: Rates at the start, as many as in `start`; default zeros [m/s or rad/s]; a list of numbers, or nothing.
         rotations: Whether they are rotations [rad]; default false: displacements [m]; `true` or `false`, or nothing.
@@ -242,19 +242,19 @@ class Generic(Joint):
     """Locks chosen translations and rotations of the tip in the axes of the base.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
         second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
-        locked: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
+        locked: Locked motions: x along `axis`, y along `second_axis`, z perpendicular to both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "generic"
@@ -276,19 +276,19 @@ class Generic(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Inline(Joint):
-    """The tip's point moves along a line of the base; like `point_on_line`, but without a coordinate.
+    """The tip's point moves along a line fixed in the base; like `point_on_line`, but without a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "inline"
@@ -307,20 +307,20 @@ class Inline(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class ParallelAxes(Joint):
-    """The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.
+    """The tip rotates only about `axis` and translates freely; the relative rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "parallel_axes"
@@ -340,21 +340,21 @@ class ParallelAxes(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class PerpendicularAxes(Joint):
-    """Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.
+    """Keeps `axis`, fixed in the base, perpendicular to `second_axis`, fixed in the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "perpendicular_axes"
@@ -375,20 +375,20 @@ class PerpendicularAxes(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Planar(Joint):
-    """The tip moves in the base's plane perpendicular to `axis` and turns about it; the rotation is a coordinate.
+    """The tip translates in the plane perpendicular to `axis` and rotates about it; the rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "planar"
@@ -408,19 +408,19 @@ class Planar(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class PointInPlane(Joint):
-    """The tip's point moves in the base's plane perpendicular to `axis`; the tip turns freely.
+    """The tip's point moves in the base's plane perpendicular to `axis`; the tip rotates freely.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "point_in_plane"
@@ -439,20 +439,20 @@ class PointInPlane(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class PointOnLine(Joint):
-    """The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.
+    """The tip's point slides along a line fixed in the base; the tip rotates freely; the displacement is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "point_on_line"
@@ -475,10 +475,10 @@ class PrescribedDisplacement(Joint):
     """Prescribes a joint's relative displacement as a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         displacement: The relative displacement as a function of time [m]; a function of time.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "prescribed_displacement"
@@ -491,27 +491,27 @@ class PrescribedDisplacement(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class PrescribedMotion(Joint):
-    """Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.
+    """Prescribes displacements and rotations of the tip as functions of time; omitted ones are zero.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
         second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
         x: Displacement along `axis` from the start [m]; a function of time, or nothing.
         y: Displacement along `second_axis` [m]; a function of time, or nothing.
-        z: Displacement across both [m]; a function of time, or nothing.
+        z: Displacement perpendicular to both [m]; a function of time, or nothing.
         rx: Rotation about `axis` from the start [rad]; a function of time, or nothing.
-        ry: Rotation about `second_axis` as turned by `rx` [rad]; a function of time, or nothing.
-        rz: Rotation about the third axis as turned by `rx` and `ry` [rad]; a function of time, or nothing.
+        ry: Rotation about `second_axis` after its rotation by `rx` [rad]; a function of time, or nothing.
+        rz: Rotation about the third axis after its rotations by `rx` and `ry` [rad]; a function of time, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "prescribed_motion"
@@ -541,10 +541,10 @@ class PrescribedRotation(Joint):
     """Prescribes a joint's relative rotation as a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         rotation: The relative rotation as a function of time [rad]; a function of time.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "prescribed_rotation"
@@ -557,20 +557,20 @@ class PrescribedRotation(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Prismatic(Joint):
-    """The tip slides along an axis without turning; the displacement is a coordinate.
+    """The tip slides along an axis without rotation; the displacement is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "prismatic"
@@ -590,20 +590,20 @@ class Prismatic(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Revolute(Joint):
-    """Two nodes share a point and an axis; the relative rotation is a coordinate.
+    """The tip rotates about an axis through a common point; the relative rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "revolute"
@@ -623,17 +623,17 @@ class Revolute(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class RigidLink(Joint):
-    """Joins two nodes at different positions by a massless rigid link.
+    """Connects two nodes at different positions by a massless rigid link.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "rigid_link"
@@ -650,24 +650,24 @@ class RigidLink(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Rolling(Joint):
-    """A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.
+    """A wheel, disc or ball rolls on a plane of the base without sliding or lifting off.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
-        wheel_axis: Axis of the wheel at the start, global axes; it goes through the tip's position, the wheel's centre; three numbers, not all zero.
-        radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
-        rim: Radius of the rounding of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
-        friction_coefficient: Coefficient of friction: a warning reports when rolling takes more; default: there is no limit; a number > 0, or nothing.
-        creep: Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it [m/(N s)]; a number ≥ 0, or nothing.
+        wheel_axis: Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre; three numbers, not all zero.
+        radius: Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` [m]; a number ≥ 0, or nothing.
+        rim: Rounding radius of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
+        friction_coefficient: Coefficient of friction; a warning reports when rolling requires more; default: no limit; a number > 0, or nothing.
+        creep: Sliding velocity per force, a linear law of creep; default 0: no sliding. Required for several wheels on one axle, which constrain each other [m/(N s)]; a number ≥ 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "rolling"
@@ -691,21 +691,21 @@ class Rolling(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Screw(Joint):
-    """The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.
+    """The tip rotates about an axis and moves along it in proportion; the rotation is a coordinate.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
-        lead: Displacement along `axis` per turn; negative for a left-handed thread [m]; a number.
+        lead: Displacement along `axis` per revolution; negative for a left-handed thread [m]; a number.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "screw"
@@ -726,17 +726,17 @@ class Screw(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Slider(Joint):
-    """A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.
+    """A point of the tip slides along a flexible beam or a chain of beams, across element boundaries.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        beams: beams along which it slides, each from the end of the one before; a list of names of parts.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        beams: beams along which it slides; each starts at the end of the previous one; a list of names of parts.
         tip: the node that slides; a node.
         at: location on the beam at the start; default: the tip node's position [m]; a position, or nothing.
-        orientation: What the tip turns with: nothing, "free" (default); the line's "tangent", about which it turns freely; or the beam's "section", as a spline; `"free"`, `"tangent"`, `"section"`, or nothing.
+        orientation: Rotation of the tip: "free" (default); with the line's "tangent", about which it rotates freely; or with the beam's "section", as on a spline shaft; `"free"`, `"tangent"`, `"section"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "slider"
@@ -753,17 +753,17 @@ class Slider(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Spherical(Joint):
-    """Two nodes share a point and turn freely about it.
+    """The tip rotates freely about a common point of both nodes.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "spherical"
@@ -780,20 +780,20 @@ class Spherical(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class SwingArm(Joint):
-    """A massless arm, hinged to the base about an axis, carries the tip's point.
+    """A massless link with a revolute joint at the base and a spherical joint at the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
-        angle: Value of the arm's angle at the start; default 0 [rad]; a number, or nothing.
+        angle: Value of the link's angle at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "swing_arm"
@@ -813,21 +813,21 @@ class SwingArm(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class Universal(Joint):
-    """Two nodes share a point and a cross of two axes; both rotations are coordinates.
+    """Two nodes share a point; two perpendicular axes, one fixed in each; both rotations are coordinates.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "universal"
@@ -848,38 +848,38 @@ class Universal(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class WheelOnRail(Joint):
-    """A wheel runs on a rail of the base, which is straight, without leaving it; it creeps where it is said how.
+    """A wheel rolls on a straight rail of the base without lifting off, with creep forces if they are specified.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
-        axle: Axis of the wheel at the start, global axes; it goes through the tip's position. Default: `axis`; three numbers, not all zero, or nothing.
-        radius: Radius of the wheel at its nominal circle; default: so that it touches the rail at the start [m]; a number > 0, or nothing.
-        offset: Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the rail's point `at` at the start [m]; a number, or nothing.
-        cone_angle: Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 [rad]; a number, or nothing.
-        wheel_profile: Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal circle; needs `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
-        tread: Positions `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        axle: Axis of the wheel at the start, global axes, through the tip's position; default: `axis`; three numbers, not all zero, or nothing.
+        radius: Radius of the wheel at its nominal circle; default: the one with which it touches the rail at the start [m]; a number > 0, or nothing.
+        offset: Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the rail's point `at` at the start [m]; a number, or nothing.
+        cone_angle: Cone angle of the wheel: its radius decreases outwards; default 0 [rad]; a number, or nothing.
+        wheel_profile: Instead of `cone_angle`: deviation from the nominal radius over the position `y` along the axis, outwards from the nominal circle; requires `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
+        tread: Range of positions `y` at which the wheel may touch the rail; a warning reports contact outside; default: half the radius in both directions [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         head_radius: Radius of the rail's head, a circle through the point `at` [m]; a number > 0, or nothing.
         cant: Angle by which the head rises outwards at the point `at`; default `cone_angle` [rad]; a number, or nothing.
         rail_profile: Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0 [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
-        friction_coefficient: Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across; a number > 0, or nothing.
-        shear_modulus: Shear modulus of wheel and rail, of creep forces [N/m^2]; a number > 0, or nothing.
-        poisson_number: Poisson's number; default 0.28; a number ≥ 0, or nothing.
-        kalker: Kalker's coefficients of longitudinal, lateral and spin creep: C11, C22, C23; three numbers, or nothing.
-        ellipse: Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of Hertz for the nominal curvatures; a list of numbers, or nothing.
-        velocity: Velocity of the base along the rail in global axes, for models in axes that run with a vehicle; default 0 [m/s]; three numbers, or nothing.
-        wheel_spin: Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0 [rad/s]; a number, or nothing.
+        friction_coefficient: Limit of the creep force over the normal force; default: no creep forces; a number > 0, or nothing.
+        shear_modulus: Shear modulus of wheel and rail, for creep forces [N/m^2]; a number > 0, or nothing.
+        poisson_number: Poisson's ratio; default 0.28; a number ≥ 0, or nothing.
+        kalker: Kalker's coefficients C11, C22 and C23 of longitudinal, lateral and spin creep; three numbers, or nothing.
+        ellipse: Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the nominal curvatures; a list of numbers, or nothing.
+        velocity: Velocity of the base along the rail in global axes, for models in axes that move with a vehicle; default 0 [m/s]; three numbers, or nothing.
+        wheel_spin: Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it; default 0 [rad/s]; a number, or nothing.
         directions: Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`; `"exact"`, `"small_angles"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
-        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
-        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
-        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+        at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "wheel_on_rail"

@@ -1,5 +1,5 @@
 # Made by `cargo xtask reference` of the program's own tables: do not edit.
-"""Forces and moments from outside, and of actuators."""
+"""Applied forces and moments, and those of actuators."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ._entry import Entry, Function, Number, Place, Vector
 
 
 class Load(Entry):
-    """Forces and moments from outside, and of actuators."""
+    """Applied forces and moments, and those of actuators."""
 
     __slots__ = ()
     _table: ClassVar[str] = "loads"
@@ -19,15 +19,15 @@ class Load(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Force(Load):
-    """Force on a point, dead or following the node's rotation, with a function of time.
+    """Force on a point, of fixed direction or rotating with the node, scaled by a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        on: the node it acts on; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        on: node on which it acts; a node.
         at: location; default: the node's position [m]; a position, or nothing.
         vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
         scale: Factor; default 1; a size, or nothing.
-        follower: Whether it turns with the node; default false: it keeps its direction; `true` or `false`, or nothing.
+        follower: Whether it rotates with the node; default false: its direction is fixed; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "force"
@@ -42,15 +42,15 @@ class Force(Load):
 
 @dataclass(kw_only=True, slots=True)
 class Moment(Load):
-    """Moment on a node, dead or following the node's rotation, with a function of time.
+    """Moment on a node, of fixed direction or rotating with the node, scaled by a function of time.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        on: the node it acts on; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        on: node on which it acts; a node.
         at: location; default: the node's position [m]; a position, or nothing.
         vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
         scale: Factor; default 1; a size, or nothing.
-        follower: Whether it turns with the node; default false: it keeps its direction; `true` or `false`, or nothing.
+        follower: Whether it rotates with the node; default false: its direction is fixed; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "moment"
@@ -68,10 +68,10 @@ class JointTorque(Load):
     """Torque of an actuator on a joint's relative rotation, from the base on the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         torque: Torque about the joint's axis, positive where it increases the rotation [N m]; a size.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "joint_torque"
@@ -87,10 +87,10 @@ class JointForce(Load):
     """Force of an actuator on a joint's relative displacement, from the base on the tip.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         force: Force along the joint's axis, positive where it increases the displacement [N]; a size.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "joint_force"
@@ -106,10 +106,10 @@ class Gyrostat(Load):
     """Rotor in a body, with a constant rate of spin relative to it.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        on: the node it acts on; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        on: node on which it acts; a node.
         at: location; default: the node's position [m]; a position, or nothing.
-        axis: Axis of the rotor at the start, global axes; it turns with the node; three numbers, not all zero.
+        axis: Axis of the rotor at the start, global axes; it rotates with the node; three numbers, not all zero.
         inertia: Inertia of the rotor about its axis [kg m²]; a number > 0.
         spin: Rate of spin relative to the body [rad/s]; a number.
     """

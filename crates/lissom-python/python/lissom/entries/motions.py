@@ -11,14 +11,14 @@ from ._entry import Entry, Names, Place, Vector
 
 @dataclass(kw_only=True, slots=True)
 class Initial(Entry):
-    """How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium.
+    """Initial conditions: a rigid motion of all parts, or of those listed in an entry [initial.…]; static equilibrium.
 
     Args:
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
         about: a point of the rigid motion; default the origin [m]; a position, or nothing.
-        equilibrium: start from static equilibrium under the loads of the first instant, default false; `true` or `false`, or nothing.
-        steady_rotation: start from the positions at which the model keeps turning with its velocities, default false; `true` or `false`, or nothing.
+        equilibrium: start from static equilibrium under the loads at the start, default false; `true` or `false`, or nothing.
+        steady_rotation: start from the relative equilibrium in which the model rotates steadily with its velocities, default false; `true` or `false`, or nothing.
         motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
     """
 
@@ -37,7 +37,7 @@ class PartMotion(Entry):
     """A rigid motion of some parts at the start.
 
     Args:
-        parts: bodies, point masses, beams, superelements and entries of [parts] that move in this way; a list of names of parts.
+        parts: bodies, point masses, beams, superelements and entries of [parts] with this motion; a list of names of parts.
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
         about: a point of the rigid motion; default the origin [m]; a position, or nothing.

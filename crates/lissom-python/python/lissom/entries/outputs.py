@@ -10,7 +10,7 @@ from ._entry import Entry, Number, Place, Vector
 
 
 class Output(Entry):
-    """What is recorded."""
+    """Quantities to be recorded."""
 
     __slots__ = ()
     _table: ClassVar[str] = "outputs"
@@ -19,13 +19,13 @@ class Output(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Position(Output):
-    """Place of a node or of a point it carries.
+    """Position of a node, or of a point fixed to it.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a place at the start, carried by the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "position"
@@ -38,13 +38,13 @@ class Position(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Displacement(Output):
-    """Change of place since the start.
+    """Displacement since the start.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a place at the start, carried by the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "displacement"
@@ -60,8 +60,8 @@ class Rotation(Output):
     """Rotation vector since the start.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
@@ -74,10 +74,10 @@ class Rotation(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Quaternion(Output):
-    """Axes of a node as a unit quaternion, q0 not negative.
+    """Orientation of a node as a unit quaternion with non-negative q0.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
+        of: the node, such as "beam@0.5"; a node.
     """
 
     _form: ClassVar[str] = "quaternion"
@@ -87,10 +87,10 @@ class Quaternion(Output):
 
 @dataclass(kw_only=True, slots=True)
 class CardanAngles(Output):
-    """Axes of a node as angles about x, the turned y and the twice turned z.
+    """Orientation of a node as Cardan angles: rotations about x, the rotated y and the twice rotated z.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
+        of: the node, such as "beam@0.5"; a node.
     """
 
     _form: ClassVar[str] = "cardan_angles"
@@ -100,12 +100,12 @@ class CardanAngles(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Angle(Output):
-    """Angle of a node about an axis since the start, continued beyond half a turn.
+    """Rotation angle of a node about an axis since the start, continuous beyond half a revolution.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        axis: the axis at the start, global axes; `relative_to` carries it; three numbers, not all zero.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        axis: axis at the start, global axes; it is fixed in `relative_to`; three numbers, not all zero.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
     """
 
     _form: ClassVar[str] = "angle"
@@ -117,13 +117,13 @@ class Angle(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Velocity(Output):
-    """Velocity of a node or of a point it carries.
+    """Velocity of a node, or of a point fixed to it.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a place at the start, carried by the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "velocity"
@@ -139,8 +139,8 @@ class AngularVelocity(Output):
     """Angular velocity of a node.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
@@ -153,13 +153,13 @@ class AngularVelocity(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Acceleration(Output):
-    """Acceleration of a node or of a point it carries.
+    """Acceleration of a node, or of a point fixed to it.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
         in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
-        point: a place at the start, carried by the node [m]; a position, or nothing.
+        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
     """
 
     _form: ClassVar[str] = "acceleration"
@@ -172,11 +172,11 @@ class Acceleration(Output):
 
 @dataclass(kw_only=True, slots=True)
 class SectionForce(Output):
-    """Axial and shear forces in a beam, local axes.
+    """Axial and shear forces in a beam, section axes.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
@@ -189,11 +189,11 @@ class SectionForce(Output):
 
 @dataclass(kw_only=True, slots=True)
 class SectionMoment(Output):
-    """Torsion and bending moments in a beam, local axes.
+    """Torsion and bending moments in a beam, section axes.
 
     Args:
-        of: the node, as in "beam@0.5"; a node.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        of: the node, such as "beam@0.5"; a node.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
@@ -206,7 +206,7 @@ class SectionMoment(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Line(Output):
-    """Places of all nodes of a beam along its axis, from its start to its end.
+    """Positions of all nodes of a beam, from its start to its end.
 
     Args:
         of: the beam; the name of an entry of `[beams]`.
@@ -236,7 +236,7 @@ class Recovered(Output):
 
     Args:
         of: the superelement; the name of an entry of `[superelements]`.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
@@ -253,8 +253,8 @@ class Reaction(Output):
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
-        axes: global axes, or those of the joint frame that base or tip carries; default ground; `"ground"`, `"base"`, `"tip"`, or nothing.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        axes: global axes, or those of the joint frame fixed in base or tip; default ground; `"ground"`, `"base"`, `"tip"`, or nothing.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
@@ -268,7 +268,7 @@ class Reaction(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Relative(Output):
-    """Relative coordinate of a joint.
+    """Relative coordinates of a joint.
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
@@ -294,7 +294,7 @@ class RelativeAcceleration(Output):
 
 @dataclass(kw_only=True, slots=True)
 class RelativeMotion(Output):
-    """Place and rotation vector of a joint's tip frame, in the axes of its base frame.
+    """Position and rotation vector of a joint's tip frame, in the axes of its base frame.
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
@@ -307,7 +307,7 @@ class RelativeMotion(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Contact(Output):
-    """Place of contact of a wheel on a rail, its normal force, creep forces and creepages.
+    """Contact position of a wheel on a rail, with normal force, creep forces and creepages.
 
     Args:
         of: the joint; the name of an entry of `[joints]`.
@@ -324,7 +324,7 @@ class Spring(Output):
 
     Args:
         of: the spring; the name of an entry of `[springs]`.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
@@ -337,7 +337,7 @@ class Spring(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Power(Output):
-    """Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.
+    """Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.
 
     Args:
         of: the name of a spring, a load, a drive or a joint with friction; a text.
@@ -350,7 +350,7 @@ class Power(Output):
 
 @dataclass(kw_only=True, slots=True)
 class Work(Output):
-    """Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.
+    """Work that a spring, a load, a drive or the friction of a joint has delivered to the rest of the model.
 
     Args:
         of: the name of a spring, a load, a drive or a joint with friction; a text.
@@ -387,7 +387,7 @@ class Signal(Output):
 
     Args:
         of: the name of a signal, an input or a state; a text.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
@@ -403,8 +403,8 @@ class Expression(Output):
     """Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.
 
     Args:
-        value: as "hypot(a.x - b.x, a.y - b.y)", of components of outputs; an expression of signals.
-        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        value: expression such as "hypot(a.x - b.x, a.y - b.y)", of components of outputs; an expression of signals.
+        woehler_exponent: exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
         reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 

@@ -14,19 +14,19 @@ class Beam(Entry):
     """Flexible beams.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        section: name of a section; give it or `stations`; the name of an entry of `[sections]`, or nothing.
-        stations: [{ at = 0, section = "a" }, …, { at = 1, … }], linear between; a list of tables, or nothing.
-        from_: start: a point, or a node of another part, which is shared [m]; a position or a node, or nothing.
-        to: end: a point, or a node of another part, which is shared [m]; a position or a node, or nothing.
-        through: a point between: the beam is a circular arc [m]; a position, or nothing.
-        curve: instead of from and to: three expressions of s in 0..1 [m]; three expressions of `s`, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        section: name of a section; either it or `stations` is required; the name of an entry of `[sections]`, or nothing.
+        stations: [{ at = 0, section = "a" }, …, { at = 1, … }], interpolated linearly; a list of tables, or nothing.
+        from_: start: a position, or a node of another part, which is then shared [m]; a position or a node, or nothing.
+        to: end: a position, or a node of another part, which is then shared [m]; a position or a node, or nothing.
+        through: an intermediate point: the beam is a circular arc [m]; a position, or nothing.
+        curve: instead of `from` and `to`: three expressions of s in 0..1 [m]; three expressions of `s`, or nothing.
         elements: number of elements; a whole number from 1 to 100000.
         order: 1, 2 or 3 (default): elements of 2, 3 or 4 nodes; a whole number from 1 to 3, or nothing.
-        up: direction that local axis 3 leans to; three numbers, not all zero, or nothing.
-        force_per_length: along global axes, which it keeps: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
-        section_force_per_length: along the section's axes 1, 2 and 3, with which it turns: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
-        twist: turn about the tangent, a number or an expression of s [rad]; a number or an expression of `s`, or nothing.
+        up: direction towards which local axis 3 is oriented; three numbers, not all zero, or nothing.
+        force_per_length: in global axes, fixed in direction: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
+        section_force_per_length: in the section's axes 1, 2 and 3, with which it rotates: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
+        twist: rotation about the tangent, a number or an expression of s [rad]; a number or an expression of `s`, or nothing.
     """
 
     _table: ClassVar[str] = "beams"
@@ -51,15 +51,15 @@ class Body(Entry):
     """Rigid bodies.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         mass: mass, or { density } of the solid in `inertia` [kg]; a number > 0, or `{ density }`.
-        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box, cylinder, tube or sphere }`.
+        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box, cylinder, tube or sphere }`.
         position: position of the reference frame [m]; a position, or nothing.
         rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
-        axes: instead of rotation: first and second body axis; two vectors, or nothing.
+        axes: instead of `rotation`: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
-        shape: drawn about the centre of mass, instead of what has its inertia; `{ box, cylinder, tube or sphere }`, or nothing.
-        mesh: instead of `shape`: an STL or glTF file in metres and body axes; relative to the file that names it; a text, or nothing.
+        shape: solid to be drawn about the centre of mass; default: one with its inertia; `{ box, cylinder, tube or sphere }`, or nothing.
+        mesh: instead of `shape`: an STL or glTF file in metres and body axes; path relative to this file; a text, or nothing.
         velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
         angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.
     """
@@ -81,13 +81,13 @@ class Body(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class PointMass(Entry):
-    """Masses without extension.
+    """Point masses.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         mass: mass [kg]; a number > 0.
         position: position at the start [m]; a position, or nothing.
-        plane: move in this plane only; `"xy"`, `"yz"`, `"zx"`, or nothing.
+        plane: restricts the motion to this plane; `"xy"`, `"yz"`, `"zx"`, or nothing.
         velocity: at the start, global axes [m/s]; three numbers, or nothing.
     """
 
@@ -102,24 +102,24 @@ class PointMass(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Superelement(Entry):
-    """Linear elastic parts that are given by reduced matrices.
+    """Linear elastic parts, specified by reduced matrices.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        interfaces: [{ name = "root" }, { name = "tip", at = [1, 0, 0] }]: what joints hold it by, in the order of the matrices; a list of `{ name, at }`.
-        matrices: NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, where these are not given; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        interfaces: [{ name = "root" }, { name = "tip", at = [1, 0, 0] }]: nodes for joints, in the order of the matrices; a list of `{ name, at }`.
+        matrices: NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, instead of these keys; a text, or nothing.
         mass: Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode; a text, or nothing.
         stiffness: Matrix Market file over the same rows; a text, or nothing.
         damping: Matrix Market file over the same rows; a text, or nothing.
-        modal_damping: instead: ratio to critical damping of every mode of the free part; a number ≥ 0, or nothing.
-        stiffness_damping: instead: times the stiffness [s]; a number ≥ 0, or nothing.
-        recovery: file of a matrix that makes outputs of kind `recovered` of its unknowns: a row each, stresses or displacements between interfaces; a text, or nothing.
-        preload: Matrix Market file of one column: forces of the undeformed part, which turn with it; a text, or nothing.
-        geometric: Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take; a text, or nothing.
-        floating: the interface that carries the floating frame, default the first; a text, or nothing.
+        modal_damping: instead of `damping`: damping ratio of every mode of the free part; a number ≥ 0, or nothing.
+        stiffness_damping: instead of `damping`: factor of the stiffness [s]; a number ≥ 0, or nothing.
+        recovery: file of a matrix for outputs of kind `recovered`: each row yields a stress or displacement from the unknowns; a text, or nothing.
+        preload: Matrix Market file of one column: forces on the undeformed part, which rotate with it; a text, or nothing.
+        geometric: Matrix Market file of `lissom reduce`: terms of second order in the deformation, such as geometric stiffness; a text, or nothing.
+        floating: interface to which the floating frame is attached; default: the first; a text, or nothing.
         position: position of the origin of the part [m]; a position, or nothing.
         rotation: rotation vector of its axes [rad]; three numbers, or nothing.
-        axes: instead of rotation: first and second axis; two vectors, or nothing.
+        axes: instead of `rotation`: first and second axis; two vectors, or nothing.
     """
 
     _table: ClassVar[str] = "superelements"
@@ -143,33 +143,33 @@ class Superelement(Entry):
 
 @dataclass(kw_only=True, slots=True)
 class Part(Entry):
-    """Sub-assemblies that are named, placed and repeated; names inside are `part.name`.
+    """Sub-assemblies, which may be placed and repeated; their entries are named `part.name`.
 
     Args:
-        include: path of the file that it is made of, relative to this file; a text, or nothing.
-        like: part of the same table of which it is a copy, turned and shifted; a text, or nothing.
-        count: an array `name1`, `name2` …; `index` and `count` are parameters in it; a whole number from 1 to 20000, or nothing.
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        include: path of the file with its contents, relative to this file; a text, or nothing.
+        like: part of the same table of which it is a copy, at another position and orientation; a text, or nothing.
+        count: number of copies `name1`, `name2` …; `index` and `count` are parameters in each; a whole number from 1 to 20000, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         position: position of its origin [m]; a position, or nothing.
         rotation: rotation vector of its axes [rad]; three numbers, or nothing.
-        parameters: its parameters, in place of the defaults of its file; a table, or nothing.
-        names: names in the included file that mean something outside, as { hub = "hub" }; a table, or nothing.
+        parameters: values of its parameters, instead of the defaults in its file; a table, or nothing.
+        names: names in the included file that refer to entries outside, such as { hub = "hub" }; a table, or nothing.
         materials: Isotropic elastic materials; entries as in `[materials]`, or nothing.
-        sections: Cross sections; axis 1 along the beam, 2 and 3 across; entries as in `[sections]`, or nothing.
+        sections: Cross sections; axis 1 along the beam, 2 and 3 perpendicular to it; entries as in `[sections]`, or nothing.
         points: Named positions [m]; entries as in `[points]`, or nothing.
-        parts: Sub-assemblies that are named, placed and repeated; names inside are `part.name`; entries as in `[parts]`, or nothing.
+        parts: Sub-assemblies, which may be placed and repeated; their entries are named `part.name`; entries as in `[parts]`, or nothing.
         beams: Flexible beams; entries as in `[beams]`, or nothing.
         bodies: Rigid bodies; entries as in `[bodies]`, or nothing.
-        point_masses: Masses without extension; entries as in `[point_masses]`, or nothing.
-        superelements: Linear elastic parts that are given by reduced matrices; entries as in `[superelements]`, or nothing.
-        joints: What holds nodes together; entries as in `[joints]`, or nothing.
-        springs: What pulls nodes or joints back; entries as in `[springs]`, or nothing.
-        loads: Forces and moments from outside, and of actuators; entries as in `[loads]`, or nothing.
-        inputs: Numbers that are set from outside while a simulation runs, with their values at the start; entries as in `[inputs]`, or nothing.
+        point_masses: Point masses; entries as in `[point_masses]`, or nothing.
+        superelements: Linear elastic parts, specified by reduced matrices; entries as in `[superelements]`, or nothing.
+        joints: Constraints between nodes, or between coordinates of joints; entries as in `[joints]`, or nothing.
+        springs: Springs, dampers, friction, stops and latches; entries as in `[springs]`, or nothing.
+        loads: Applied forces and moments, and those of actuators; entries as in `[loads]`, or nothing.
+        inputs: Numbers that are set during a simulation by events or by the calling program, with their initial values; entries as in `[inputs]`, or nothing.
         signals: Named expressions of time, inputs, states and outputs; entries as in `[signals]`, or nothing.
-        states: First-order states: numbers whose derivative by time is an expression; entries as in `[states]`, or nothing.
-        events: What happens when expressions pass through zero; entries as in `[events]`, or nothing.
-        outputs: What is recorded; entries as in `[outputs]`, or nothing.
+        states: First-order states: numbers whose time derivative is an expression; entries as in `[states]`, or nothing.
+        events: Actions when expressions cross zero; entries as in `[events]`, or nothing.
+        outputs: Quantities to be recorded; entries as in `[outputs]`, or nothing.
     """
 
     _table: ClassVar[str] = "parts"

@@ -15,9 +15,9 @@ class Material(Entry):
 
     Args:
         E: Young's modulus [Pa]; a number > 0.
-        nu: Poisson's ratio; give it or `G`; a number, or nothing.
-        G: shear modulus; give it or `nu` [Pa]; a number > 0, or nothing.
-        density: mass per volume [kg/m³]; a number > 0.
+        nu: Poisson's ratio; either it or `G` is required; a number, or nothing.
+        G: shear modulus; either it or `nu` is required [Pa]; a number > 0, or nothing.
+        density: mass density [kg/m³]; a number > 0.
     """
 
     _table: ClassVar[str] = "materials"
@@ -29,7 +29,7 @@ class Material(Entry):
 
 
 class Section(Entry):
-    """Cross sections; axis 1 along the beam, 2 and 3 across."""
+    """Cross sections; axis 1 along the beam, 2 and 3 perpendicular to it."""
 
     __slots__ = ()
     _table: ClassVar[str] = "sections"
@@ -99,7 +99,7 @@ class Tube(Section):
 
 @dataclass(kw_only=True, slots=True)
 class General(Section):
-    """Given by its stiffness and mass.
+    """Specified by its stiffness and mass matrices.
 
     Args:
         stiffness: 6 x 6 or its diagonal: axial, shear 2, shear 3, torsion, bending 2, bending 3 [N, N m²]; six numbers or a 6 x 6 matrix.

@@ -10,7 +10,7 @@ from ._entry import Entry, Function, Names, Number, Place, Table, Vector
 
 
 class Spring(Entry):
-    """What pulls nodes or joints back."""
+    """Springs, dampers, friction, stops and latches."""
 
     __slots__ = ()
     _table: ClassVar[str] = "springs"
@@ -22,17 +22,17 @@ class Axial(Spring):
     """Spring and damper on a joint's relative displacement.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         stiffness: Stiffness; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
         damper_force: Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
-        side: Where it acts: where it is longer than its free length, where it is shorter, or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
-        limits: Least and greatest force; default none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
-        backlash: Width of the free play about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
-        displacement: Relative displacement at which it is free of force; default 0 [m]; a number, or nothing.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        side: Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
+        limits: Minimum and maximum force; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        backlash: Width of the backlash about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
+        displacement: Relative displacement without force; default 0 [m]; a number, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "axial"
@@ -52,22 +52,22 @@ class Axial(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class Point(Spring):
-    """Spring and damper between two points, along the line that joins them.
+    """Spring and damper between two points, along the line through them.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         stiffness: Stiffness; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
         damper_force: Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
-        side: Where it acts: where it is longer than its free length, where it is shorter, or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
-        limits: Least and greatest force; default none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
-        backlash: Width of the free play about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
-        length: Length at which it is free of force; default: the length at the start [m]; a number ≥ 0, or nothing.
+        side: Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
+        limits: Minimum and maximum force; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        backlash: Width of the backlash about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
+        length: Free length; default: the length at the start [m]; a number ≥ 0, or nothing.
     """
 
     _form: ClassVar[str] = "point"
@@ -89,23 +89,23 @@ class Point(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class RollingContact(Spring):
-    """A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.
+    """A wheel, disc or ball on a compliant plane with friction: it may lift off and slide.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
-        normal: Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane; three numbers, not all zero.
+        normal: Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane; three numbers, not all zero.
         wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre; three numbers, not all zero.
-        radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
-        rim: Radius of the rounding of the rim; default 0 [m]; a number ≥ 0, or nothing.
+        radius: Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` [m]; a number ≥ 0, or nothing.
+        rim: Rounding radius of the rim; default 0 [m]; a number ≥ 0, or nothing.
         stiffness: Normal force per penetration [N/m]; a number > 0.
-        dissipation: Increase of the normal force per velocity of penetration, relative to it; default 0 [s/m]; a number ≥ 0, or nothing.
-        friction_coefficient: Friction over normal force of a wheel that slides; default 0; a number ≥ 0, or nothing.
-        slip_velocity: Velocity v_s of the law μ tanh(v/v_s): below it the wheel creeps; default 0.01 [m/s]; a number > 0, or nothing.
-        traction: Coefficient of friction over the sliding velocity `slip` [m/s], in place of the law of `friction_coefficient`; an expression of `slip`, or a table of it written as a function of time, or nothing.
+        dissipation: Relative increase of the normal force per penetration velocity; default 0 [s/m]; a number ≥ 0, or nothing.
+        friction_coefficient: Coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
+        slip_velocity: Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps; default 0.01 [m/s]; a number > 0, or nothing.
+        traction: Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`; an expression of `slip`, or a table of it written as a function of time, or nothing.
     """
 
     _form: ClassVar[str] = "rolling_contact"
@@ -128,19 +128,19 @@ class RollingContact(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class Rope(Spring):
-    """Rope that slides over several points without friction: reeving over pulleys, and hoists by its length.
+    """Rope that slides over several points without friction: pulleys, and hoists by its free length.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        along: the points it passes over, from one end to the other [m]; a list of `{ on, at }`, `at` may be omitted.
-        drums: coordinates of joints that pay it out, such as "drum.angle"; a joint's name alone means all of its; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        along: points over which it passes, from one end to the other [m]; a list of `{ on, at }`, `at` may be omitted.
+        drums: coordinates of joints that pay it out, such as "drum.angle"; the name of a joint stands for all its coordinates; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs, or nothing.
         stiffness: Stiffness of the whole rope; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping of the whole rope; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Tension over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
         damper_force: Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
-        limits: Least and greatest tension; default none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
-        length: Free length of the whole rope, over time where a winch changes it; default: the length at the start [m]; a function of time, or nothing.
-        drum_radii: Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up [m]; a list of numbers, or nothing.
+        limits: Minimum and maximum tension; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        length: Free length of the whole rope; a function of time for a winch; default: the length at the start [m]; a function of time, or nothing.
+        drum_radii: Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up [m]; a list of numbers, or nothing.
     """
 
     _form: ClassVar[str] = "rope"
@@ -162,17 +162,17 @@ class Torsional(Spring):
     """Spring and damper on a joint's relative rotation.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         stiffness: Stiffness; default 0 [N m/rad]; a number ≥ 0, or nothing.
         damping: Damping; default 0 [N m s/rad]; a number ≥ 0, or nothing.
         moment: Moment over `rotation` and `rate`, in addition to `stiffness`; a table is over `rotation` [N m]; a number, an expression of `rotation` and `rate`, or a table over `rotation`, or nothing.
         damper_moment: Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate` [N m]; a number, an expression of `rate` and `rotation`, or a table over `rate`, or nothing.
-        side: Where it acts: on rotations above the free one, below it, or both; default both; `"both"`, `"positive"`, `"negative"`, or nothing.
-        limits: Least and greatest moment; default none [N m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
-        backlash: Width of the free play about the free rotation, without moment; default 0 [rad]; a number ≥ 0, or nothing.
-        angle: Relative rotation at which it is free of moment; default 0 [rad]; a number, or nothing.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        side: Where it acts: above its free rotation ("positive"), below it ("negative"), or both; default both; `"both"`, `"positive"`, `"negative"`, or nothing.
+        limits: Minimum and maximum moment; default: none [N m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        backlash: Width of the backlash about the free rotation, without moment; default 0 [rad]; a number ≥ 0, or nothing.
+        angle: Relative rotation without moment; default 0 [rad]; a number, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "torsional"
@@ -192,18 +192,18 @@ class Torsional(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class AxialFriction(Spring):
-    """Dry and viscous friction on a joint's relative displacement; it sticks without creeping.
+    """Dry and viscous friction on a joint's relative displacement; sticking is free of creep.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
         coulomb: Force of sliding friction [N]; a number > 0.
         breakaway: Additional force of friction at rest; default none [N]; a number > 0, or nothing.
         stribeck: Velocity at which the additional force has fallen to 1/e; default 0.01 [m/s]; a number > 0, or nothing.
-        viscous: Force per velocity besides; default 0 [N s/m]; a number ≥ 0, or nothing.
+        viscous: Additional force per velocity; default 0 [N s/m]; a number ≥ 0, or nothing.
         deflection: Elastic displacement before it slips; default 1e-4 [m]; a number > 0, or nothing.
         damping: Damping of the elastic displacement; default 0 [N s/m]; a number ≥ 0, or nothing.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "axial_friction"
@@ -221,18 +221,18 @@ class AxialFriction(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class TorsionalFriction(Spring):
-    """Dry and viscous friction on a joint's relative rotation; it sticks without creeping.
+    """Dry and viscous friction on a joint's relative rotation; sticking is free of creep.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
         coulomb: Moment of sliding friction [N m]; a number > 0.
         breakaway: Additional moment of friction at rest; default none [N m]; a number > 0, or nothing.
         stribeck: Rate at which the additional moment has fallen to 1/e; default 0.01 [rad/s]; a number > 0, or nothing.
-        viscous: Moment per rate besides; default 0 [N m s/rad]; a number ≥ 0, or nothing.
+        viscous: Additional moment per rate; default 0 [N m s/rad]; a number ≥ 0, or nothing.
         deflection: Elastic rotation before it slips; default 1e-4 [rad]; a number > 0, or nothing.
         damping: Damping of the elastic rotation; default 0 [N m s/rad]; a number ≥ 0, or nothing.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "torsional_friction"
@@ -250,17 +250,17 @@ class TorsionalFriction(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class Bushing(Spring):
-    """Springs and dampers along and about three axes, with full matrices; its length may be zero.
+    """Springs and dampers along and about three axes, with full matrices, also between coincident points.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        base: the node it starts from: "ground", "body", "beam.end" …; a node.
-        tip: the node it leads to; a node.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         stiffness: 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 [N/m, N, N m/rad]; six numbers or a 6 x 6 matrix, or nothing.
-        damping: 6 x 6 or its diagonal, likewise; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
-        axis: First axis at the start, global axes; default global x. The axes turn with the base; three numbers, not all zero, or nothing.
+        damping: 6 x 6 or its diagonal, as `stiffness`; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
+        axis: First axis at the start, global axes; default global x. The axes rotate with the base; three numbers, not all zero, or nothing.
         second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; three numbers, not all zero, or nothing.
     """
 
@@ -282,12 +282,12 @@ class CoordinateDynamics(Spring):
     """Mass, damping and stiffness matrices on coordinates: `M q'' + D q' + K (q - rest)` in their equations.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
-        coordinates: coordinates that it acts on, such as "arm.angle", in the order of its matrices; a joint's name alone means all of its; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        coordinates: coordinates on which it acts, such as "arm.angle", in the order of its matrices; the name of a joint stands for all its coordinates; a list of coordinates of joints, such as `"arm.angle"`, or of joints: all of theirs.
         mass: Mass matrix, symmetric, without negative eigenvalues; default 0 [kg, kg m or kg m²]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
         damping: Damping matrix; it may be unsymmetric (gyroscopic forces) or negative; default 0 [N s/m, N s or N m s/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
         stiffness: Stiffness matrix; it may be unsymmetric (circulatory forces); default 0 [N/m, N/rad or N m/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
-        rest: Values of the coordinates at which `stiffness` is free of force; default zeros [m or rad]; a list of numbers, or nothing.
+        rest: Values of the coordinates without force of `stiffness`; default zeros [m or rad]; a list of numbers, or nothing.
     """
 
     _form: ClassVar[str] = "coordinate_dynamics"
@@ -305,15 +305,15 @@ class AxialStop(Spring):
     """Stops at the ends of the range of a joint's relative displacement.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
-        range: Displacements between the stops; an end that is infinite has none [m]; two ascending numbers, which may be `-inf` and `inf`.
+        range: Displacements of the two stops; none at an infinite end [m]; two ascending numbers, which may be `-inf` and `inf`.
         stiffness: Force at a penetration of 1 m [N/m^n]; a number > 0.
-        exponent: n, from 1 on; default 1; a number > 0, or nothing.
+        exponent: Exponent n, at least 1; default 1; a number > 0, or nothing.
         dissipation: Factor a of the penetration rate; default 0 [s/m]; a number ≥ 0, or nothing.
         restitution: Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`; a number > 0, or nothing.
         impact_velocity: Velocity of that impact [m/s]; a number > 0, or nothing.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "axial_stop"
@@ -334,15 +334,15 @@ class TorsionalStop(Spring):
     """Stops at the ends of the range of a joint's relative rotation.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
-        range: Rotations between the stops; an end that is infinite has none [rad]; two ascending numbers, which may be `-inf` and `inf`.
+        range: Rotations of the two stops; none at an infinite end [rad]; two ascending numbers, which may be `-inf` and `inf`.
         stiffness: Moment at a penetration of 1 rad [N m/rad^n]; a number > 0.
-        exponent: n, from 1 on; default 1; a number > 0, or nothing.
+        exponent: Exponent n, at least 1; default 1; a number > 0, or nothing.
         dissipation: Factor a of the penetration rate; default 0 [s/rad]; a number ≥ 0, or nothing.
         restitution: Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`; a number > 0, or nothing.
         impact_velocity: Rate of that impact [rad/s]; a number > 0, or nothing.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "torsional_stop"
@@ -360,13 +360,13 @@ class TorsionalStop(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class AxialLatch(Spring):
-    """Holds a joint's relative displacement where it is while an input is set: latches and releases.
+    """Locks a joint's relative displacement at its current value while an input is set: latches and releases.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
-        engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
+        engaged: Input that engages it: locked above 0.5, otherwise free; set by events; the name of an entry of `[inputs]`.
     """
 
     _form: ClassVar[str] = "axial_latch"
@@ -379,13 +379,13 @@ class AxialLatch(Spring):
 
 @dataclass(kw_only=True, slots=True)
 class TorsionalLatch(Spring):
-    """Holds a joint's relative rotation where it is while an input is set: latches and releases.
+    """Locks a joint's relative rotation at its current value while an input is set: latches and releases.
 
     Args:
-        in_: body, point mass or part in whose frame at the start positions and directions are given; default the one around; a text, or nothing.
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
-        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
-        engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
+        coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
+        engaged: Input that engages it: locked above 0.5, otherwise free; set by events; the name of an entry of `[inputs]`.
     """
 
     _form: ClassVar[str] = "torsional_latch"

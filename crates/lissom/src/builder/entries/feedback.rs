@@ -6,16 +6,16 @@ use crate::builder::entry::entry;
 use crate::builder::expression::Expression;
 
 entry! {
-    /// A first-order state: a number whose derivative by time is an expression.
+    /// A first-order state: a number whose time derivative is an expression.
     State => StateId, "state";
     []
     /// With what must be given.
     ///
-    /// - `derivative`: its derivative by time \[1/s\]
+    /// - `derivative`: time derivative \[1/s\]
     new(derivative: Expression = "derivative")
     /// Value at the start, default 0.
     start: f64 = "start";
-    /// How large it usually is: errors are measured by this, or by its value where that is larger; default 1.
+    /// Typical magnitude, relative to which errors are measured unless its value is larger; default 1.
     magnitude: f64 = "magnitude";
 }
 
@@ -25,10 +25,10 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `zero_of`: the event happens where this expression passes through zero
+    /// - `zero_of`: the event occurs when this expression crosses zero
     new(zero_of: Expression = "zero_of")
-    /// Which way it passes, default `both`.
+    /// Direction of the crossing, default `both`.
     direction: words::Direction = "direction";
-    /// Whether the run ends there, default `false`.
+    /// Whether the run ends at the event, default `false`.
     stop: bool = "stop";
 }

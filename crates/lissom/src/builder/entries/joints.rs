@@ -1,5 +1,5 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
-//! What holds nodes together, one type per kind.
+//! Constraints between nodes, or between coordinates of joints, one type per kind.
 
 use super::words;
 use crate::builder::entry::{entry, keys, nested};
@@ -8,13 +8,13 @@ use crate::builder::ids::JointId;
 use crate::builder::values::{Node, Part};
 
 entry! {
-    /// A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
+    /// A coordinate of `other` is a function of a coordinate of `joint`, such as the profile of a cam.
     Cam => JointId, "cam";
     ["kind" = "cam"]
     /// With what must be given.
     ///
-    /// - `joint`: the joint whose coordinate leads
-    /// - `other`: the joint whose coordinate follows
+    /// - `joint`: joint with the independent coordinate
+    /// - `other`: joint with the dependent coordinate
     /// - `profile`: The other coordinate as a function of the first, `x` \[m or rad\]
     new(joint: JointId = "joint", other: JointId = "other", profile: Function = "profile")
 }
@@ -25,45 +25,45 @@ entry! {
     ["kind" = "clamp"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
 }
 
 entry! {
-    /// Two shafts share a point, may bend against each other, and turn by the same angle.
+    /// Two shafts with a common point and any angle between them rotate by the same angle.
     ConstantVelocity => JointId, "constant_velocity";
     ["kind" = "constant_velocity"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft.
+    /// Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft.
     tip_axis: [f64; 3] = "tip_axis";
 }
 
 entry! {
-    /// The tip slides along an axis and turns about it; rotation and displacement are coordinates.
+    /// The tip slides along an axis and rotates about it; rotation and displacement are coordinates.
     Cylindrical => JointId, "cylindrical";
     ["kind" = "cylindrical"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// Keeps the distance of two points: a massless rod with a ball at each end.
+    /// Keeps the distance of two points constant: a massless rod with spherical joints at its ends.
     Distance => JointId, "distance";
     ["kind" = "distance"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
     /// Location on the base; default: the node's position \[m\].
     at_base: [f64; 3] = "at_base";
@@ -72,29 +72,29 @@ entry! {
 }
 
 entry! {
-    /// An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.
+    /// An expression of joint coordinates and time is zero: planetary gears, differentials, curves.
     Equation => JointId, "equation";
     ["kind" = "equation"]
     /// With what must be given.
     ///
-    /// - `equation`: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`
+    /// - `equation`: The expression that is zero, of coordinates such as `arm.angle` and `slide.displacement`, and of `t`
     new(equation: Expression = "equation")
 }
 
 entry! {
-    /// A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.
+    /// A coordinate of `other` changes by `ratio` times the change of a coordinate of `joint`: gears, racks, belts.
     Gear => JointId, "gear";
     ["kind" = "gear"]
     /// With what must be given.
     ///
-    /// - `joint`: the joint whose coordinate leads
-    /// - `other`: the joint whose coordinate follows
-    /// - `ratio`: Change of the other coordinate per change of the first; negative for gears that mesh outside \[1, m/rad or rad/m\]
+    /// - `joint`: joint with the independent coordinate
+    /// - `other`: joint with the dependent coordinate
+    /// - `ratio`: Change of the dependent coordinate per change of the independent one; negative for external gears \[1, m/rad or rad/m\]
     new(joint: JointId = "joint", other: JointId = "other", ratio: f64 = "ratio")
 }
 
 entry! {
-    /// Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.
+    /// Generalised coordinates that belong to no part, for springs, loads, gears and `coordinate_dynamics`.
     GeneralizedCoordinates => JointId, "generalized_coordinates";
     ["kind" = "generalized_coordinates"]
     /// With what must be given.
@@ -113,81 +113,81 @@ entry! {
     ["kind" = "generic"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
-    /// - `locked`: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
+    /// - `locked`: Locked motions: x along `axis`, y along `second_axis`, z perpendicular to both; rx, ry, rz about them
     new(base: Node = "base", tip: Node = "tip", locked: Vec<words::Locked> = "locked")
 }
 
 entry! {
-    /// The tip's point moves along a line of the base; like `point_on_line`, but without a coordinate.
+    /// The tip's point moves along a line fixed in the base; like `point_on_line`, but without a coordinate.
     Inline => JointId, "inline";
     ["kind" = "inline"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.
+    /// The tip rotates only about `axis` and translates freely; the relative rotation is a coordinate.
     ParallelAxes => JointId, "parallel_axes";
     ["kind" = "parallel_axes"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.
+    /// Keeps `axis`, fixed in the base, perpendicular to `second_axis`, fixed in the tip.
     PerpendicularAxes => JointId, "perpendicular_axes";
     ["kind" = "perpendicular_axes"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     /// - `second_axis`: second direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
 }
 
 entry! {
-    /// The tip moves in the base's plane perpendicular to `axis` and turns about it; the rotation is a coordinate.
+    /// The tip translates in the plane perpendicular to `axis` and rotates about it; the rotation is a coordinate.
     Planar => JointId, "planar";
     ["kind" = "planar"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// The tip's point moves in the base's plane perpendicular to `axis`; the tip turns freely.
+    /// The tip's point moves in the base's plane perpendicular to `axis`; the tip rotates freely.
     PointInPlane => JointId, "point_in_plane";
     ["kind" = "point_in_plane"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.
+    /// The tip's point slides along a line fixed in the base; the tip rotates freely; the displacement is a coordinate.
     PointOnLine => JointId, "point_on_line";
     ["kind" = "point_on_line"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
@@ -204,25 +204,25 @@ entry! {
 }
 
 entry! {
-    /// Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.
+    /// Prescribes displacements and rotations of the tip as functions of time; omitted ones are zero.
     PrescribedMotion => JointId, "prescribed_motion";
     ["kind" = "prescribed_motion"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
     /// Displacement along `axis` from the start \[m\].
     x: Function = "x";
     /// Displacement along `second_axis` \[m\].
     y: Function = "y";
-    /// Displacement across both \[m\].
+    /// Displacement perpendicular to both \[m\].
     z: Function = "z";
     /// Rotation about `axis` from the start \[rad\].
     rx: Function = "rx";
-    /// Rotation about `second_axis` as turned by `rx` \[rad\].
+    /// Rotation about `second_axis` after its rotation by `rx` \[rad\].
     ry: Function = "ry";
-    /// Rotation about the third axis as turned by `rx` and `ry` \[rad\].
+    /// Rotation about the third axis after its rotations by `rx` and `ry` \[rad\].
     rz: Function = "rz";
 }
 
@@ -238,149 +238,149 @@ entry! {
 }
 
 entry! {
-    /// The tip slides along an axis without turning; the displacement is a coordinate.
+    /// The tip slides along an axis without rotation; the displacement is a coordinate.
     Prismatic => JointId, "prismatic";
     ["kind" = "prismatic"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// Two nodes share a point and an axis; the relative rotation is a coordinate.
+    /// The tip rotates about an axis through a common point; the relative rotation is a coordinate.
     Revolute => JointId, "revolute";
     ["kind" = "revolute"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// Joins two nodes at different positions by a massless rigid link.
+    /// Connects two nodes at different positions by a massless rigid link.
     RigidLink => JointId, "rigid_link";
     ["kind" = "rigid_link"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
 }
 
 entry! {
-    /// A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.
+    /// A wheel, disc or ball rolls on a plane of the base without sliding or lifting off.
     Rolling => JointId, "rolling";
     ["kind" = "rolling"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
-    /// - `wheel_axis`: Axis of the wheel at the start, global axes; it goes through the tip's position, the wheel's centre
+    /// - `wheel_axis`: Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", wheel_axis: [f64; 3] = "wheel_axis")
-    /// Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` \[m\].
+    /// Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` \[m\].
     radius: f64 = "radius";
-    /// Radius of the rounding of the rim; default 0, a sharp edge \[m\].
+    /// Rounding radius of the rim; default 0, a sharp edge \[m\].
     rim: f64 = "rim";
-    /// Coefficient of friction: a warning reports when rolling takes more; default: there is no limit.
+    /// Coefficient of friction; a warning reports when rolling requires more; default: no limit.
     friction_coefficient: f64 = "friction_coefficient";
-    /// Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it \[m/(N s)\].
+    /// Sliding velocity per force, a linear law of creep; default 0: no sliding. Required for several wheels on one axle, which constrain each other \[m/(N s)\].
     creep: f64 = "creep";
 }
 
 entry! {
-    /// The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.
+    /// The tip rotates about an axis and moves along it in proportion; the rotation is a coordinate.
     Screw => JointId, "screw";
     ["kind" = "screw"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
-    /// - `lead`: Displacement along `axis` per turn; negative for a left-handed thread \[m\]
+    /// - `lead`: Displacement along `axis` per revolution; negative for a left-handed thread \[m\]
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", lead: f64 = "lead")
 }
 
 entry! {
-    /// A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.
+    /// A point of the tip slides along a flexible beam or a chain of beams, across element boundaries.
     Slider => JointId, "slider";
     ["kind" = "slider"]
     /// With what must be given.
     ///
-    /// - `beams`: beams along which it slides, each from the end of the one before
+    /// - `beams`: beams along which it slides; each starts at the end of the previous one
     /// - `tip`: the node that slides
     new(beams: Vec<Part> = "beams", tip: Node = "tip")
     /// Location on the beam at the start; default: the tip node's position \[m\].
     at: [f64; 3] = "at";
-    /// What the tip turns with: nothing, "free" (default); the line's "tangent", about which it turns freely; or the beam's "section", as a spline.
+    /// Rotation of the tip: "free" (default); with the line's "tangent", about which it rotates freely; or with the beam's "section", as on a spline shaft.
     orientation: words::Orientation = "orientation";
 }
 
 entry! {
-    /// Two nodes share a point and turn freely about it.
+    /// The tip rotates freely about a common point of both nodes.
     Spherical => JointId, "spherical";
     ["kind" = "spherical"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
 }
 
 entry! {
-    /// A massless arm, hinged to the base about an axis, carries the tip's point.
+    /// A massless link with a revolute joint at the base and a spherical joint at the tip.
     SwingArm => JointId, "swing_arm";
     ["kind" = "swing_arm"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Value of the arm's angle at the start; default 0 \[rad\].
+    /// Value of the link's angle at the start; default 0 \[rad\].
     angle: f64 = "angle";
 }
 
 entry! {
-    /// Two nodes share a point and a cross of two axes; both rotations are coordinates.
+    /// Two nodes share a point; two perpendicular axes, one fixed in each; both rotations are coordinates.
     Universal => JointId, "universal";
     ["kind" = "universal"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     /// - `second_axis`: second direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
 }
 
 entry! {
-    /// A wheel runs on a rail of the base, which is straight, without leaving it; it creeps where it is said how.
+    /// A wheel rolls on a straight rail of the base without lifting off, with creep forces if they are specified.
     WheelOnRail => JointId, "wheel_on_rail";
     ["kind" = "wheel_on_rail"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     /// - `axis`: direction at the start, global axes
     /// - `second_axis`: second direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
-    /// Axis of the wheel at the start, global axes; it goes through the tip's position. Default: `axis`.
+    /// Axis of the wheel at the start, global axes, through the tip's position; default: `axis`.
     axle: [f64; 3] = "axle";
-    /// Radius of the wheel at its nominal circle; default: so that it touches the rail at the start \[m\].
+    /// Radius of the wheel at its nominal circle; default: the one with which it touches the rail at the start \[m\].
     radius: f64 = "radius";
-    /// Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: above the rail's point `at` at the start \[m\].
+    /// Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the rail's point `at` at the start \[m\].
     offset: f64 = "offset";
-    /// Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 \[rad\].
+    /// Cone angle of the wheel: its radius decreases outwards; default 0 \[rad\].
     cone_angle: f64 = "cone_angle";
-    /// Instead of `cone_angle`: radius beyond the nominal one over the position `y` along the axis, outwards from the nominal circle; needs `tread` \[m\].
+    /// Instead of `cone_angle`: deviation from the nominal radius over the position `y` along the axis, outwards from the nominal circle; requires `tread` \[m\].
     wheel_profile: Function = "wheel_profile";
-    /// Positions `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides \[m\].
+    /// Range of positions `y` at which the wheel may touch the rail; a warning reports contact outside; default: half the radius in both directions \[m\].
     tread: [f64; 2] = "tread";
     /// Radius of the rail's head, a circle through the point `at` \[m\].
     head_radius: f64 = "head_radius";
@@ -388,19 +388,19 @@ entry! {
     cant: f64 = "cant";
     /// Instead of `head_radius`: height of the rail over the lateral position `y`, outwards from the point `at`, where it is 0 \[m\].
     rail_profile: Function = "rail_profile";
-    /// Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across.
+    /// Limit of the creep force over the normal force; default: no creep forces.
     friction_coefficient: f64 = "friction_coefficient";
-    /// Shear modulus of wheel and rail, of creep forces \[N/m^2\].
+    /// Shear modulus of wheel and rail, for creep forces \[N/m^2\].
     shear_modulus: f64 = "shear_modulus";
-    /// Poisson's number; default 0.28.
+    /// Poisson's ratio; default 0.28.
     poisson_number: f64 = "poisson_number";
-    /// Kalker's coefficients of longitudinal, lateral and spin creep: C11, C22, C23.
+    /// Kalker's coefficients C11, C22 and C23 of longitudinal, lateral and spin creep.
     kalker: [f64; 3] = "kalker";
-    /// Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of Hertz for the nominal curvatures.
+    /// Elliptic integral E and ratio g of the semi-axes of the contact ellipse, from tables; default: those of Hertz for the nominal curvatures.
     ellipse: Vec<f64> = "ellipse";
-    /// Velocity of the base along the rail in global axes, for models in axes that run with a vehicle; default 0 \[m/s\].
+    /// Velocity of the base along the rail in global axes, for models in axes that move with a vehicle; default 0 \[m/s\].
     velocity: [f64; 3] = "velocity";
-    /// Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0 \[rad/s\].
+    /// Angular velocity of the wheel relative to the tip about `axle`, for tips that do not rotate with it; default 0 \[rad/s\].
     wheel_spin: f64 = "wheel_spin";
     /// Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`.
     directions: words::Directions = "directions";
@@ -436,9 +436,9 @@ nested! {
 
 keys! {
     [Cam, Gear]
-    /// Which coordinate of `joint`, counted from 1; may be omitted where it has one.
+    /// Number of the coordinate of `joint`, from 1; may be omitted if there is only one.
     coordinate: f64 = "coordinate";
-    /// Which coordinate of `other`, counted from 1; may be omitted where it has one.
+    /// Number of the coordinate of `other`, from 1; may be omitted if there is only one.
     other_coordinate: f64 = "other_coordinate";
 }
 
@@ -446,9 +446,9 @@ keys! {
     [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, Universal, WheelOnRail]
     /// Friction on its only coordinate.
     friction: Friction = "friction";
-    /// A latch that engages where its only coordinate is first `at` a value, and holds it there.
+    /// Latch that engages when its only coordinate first reaches the value `at`, and locks it there.
     latch: Latch = "latch";
-    /// The latch lets go where this expression rises through zero; without `latch` it holds from the start.
+    /// The latch releases when this expression rises through zero; without `latch` it is engaged from the start.
     release: Expression = "release";
 }
 
@@ -456,13 +456,13 @@ keys! {
     [Clamp, ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal, WheelOnRail]
     /// Location; default: the tip node's position \[m\].
     at: [f64; 3] = "at";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    /// Location on the tip in its approximate position, if different from `at`; requires \[assembly\] \[m\].
     at_tip: [f64; 3] = "at_tip";
 }
 
 keys! {
     [ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, Rolling, Screw, SwingArm, Universal, WheelOnRail]
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    /// Direction of `axis` on the tip in its approximate position, if different; requires `at_tip`.
     axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
@@ -488,12 +488,12 @@ keys! {
 
 keys! {
     [Generic, PerpendicularAxes, PrescribedMotion, Universal, WheelOnRail]
-    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
+    /// Direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`.
     second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 keys! {
     [PrescribedDisplacement, PrescribedRotation]
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    /// Number of the joint's coordinate, from 1; default: the first suitable one.
     coordinate: f64 = "coordinate";
 }

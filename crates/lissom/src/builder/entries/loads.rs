@@ -1,5 +1,5 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
-//! Forces and moments from outside, and of actuators.
+//! Applied forces and moments, and those of actuators.
 
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
@@ -7,23 +7,23 @@ use crate::builder::ids::JointId;
 use crate::builder::values::Node;
 
 entry! {
-    /// Force on a point, dead or following the node's rotation, with a function of time.
+    /// Force on a point, of fixed direction or rotating with the node, scaled by a function of time.
     Force => LoadId, "force";
     ["kind" = "force"]
     /// With what must be given.
     ///
-    /// - `on`: the node it acts on
+    /// - `on`: node on which it acts
     /// - `vector`: Force or moment at scale 1, in global axes at the start \[N or N m\]
     new(on: Node = "on", vector: [f64; 3] = "vector")
 }
 
 entry! {
-    /// Moment on a node, dead or following the node's rotation, with a function of time.
+    /// Moment on a node, of fixed direction or rotating with the node, scaled by a function of time.
     Moment => LoadId, "moment";
     ["kind" = "moment"]
     /// With what must be given.
     ///
-    /// - `on`: the node it acts on
+    /// - `on`: node on which it acts
     /// - `vector`: Force or moment at scale 1, in global axes at the start \[N or N m\]
     new(on: Node = "on", vector: [f64; 3] = "vector")
 }
@@ -56,8 +56,8 @@ entry! {
     ["kind" = "gyrostat"]
     /// With what must be given.
     ///
-    /// - `on`: the node it acts on
-    /// - `axis`: Axis of the rotor at the start, global axes; it turns with the node
+    /// - `on`: node on which it acts
+    /// - `axis`: Axis of the rotor at the start, global axes; it rotates with the node
     /// - `inertia`: Inertia of the rotor about its axis \[kg m²\]
     /// - `spin`: Rate of spin relative to the body \[rad/s\]
     new(on: Node = "on", axis: [f64; 3] = "axis", inertia: f64 = "inertia", spin: f64 = "spin")
@@ -73,12 +73,12 @@ keys! {
     [Force, Moment]
     /// Factor; default 1.
     scale: Function = "scale";
-    /// Whether it turns with the node; default false: it keeps its direction.
+    /// Whether it rotates with the node; default false: its direction is fixed.
     follower: bool = "follower";
 }
 
 keys! {
     [JointTorque, JointForce]
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    /// Number of the joint's coordinate, from 1; default: the first suitable one.
     coordinate: f64 = "coordinate";
 }

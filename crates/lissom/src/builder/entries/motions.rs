@@ -10,9 +10,9 @@ entry! {
     []
     /// With what must be given.
     new()
-    /// Start from static equilibrium under the loads of the first instant, default false.
+    /// Start from static equilibrium under the loads at the start, default false.
     equilibrium: bool = "equilibrium";
-    /// Start from the positions at which the model keeps turning with its velocities, default false.
+    /// Start from the relative equilibrium in which the model rotates steadily with its velocities, default false.
     steady_rotation: bool = "steady_rotation";
 }
 
@@ -22,7 +22,7 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `parts`: bodies, point masses, beams, superelements and entries of \[parts\] that move in this way
+    /// - `parts`: bodies, point masses, beams, superelements and entries of \[parts\] with this motion
     new(parts: Vec<Part> = "parts")
 }
 

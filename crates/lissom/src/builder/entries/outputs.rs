@@ -8,22 +8,22 @@ use crate::builder::ids::{BeamId, JointId, SpringId, SuperelementId};
 use crate::builder::values::{Node, Quantity};
 
 entry! {
-    /// Place of a node or of a point it carries.
+    /// Position of a node, or of a point fixed to it.
     Position => OutputId, "position";
     ["kind" = "position"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Change of place since the start.
+    /// Displacement since the start.
     Displacement => OutputId, "displacement";
     ["kind" = "displacement"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
@@ -33,48 +33,48 @@ entry! {
     ["kind" = "rotation"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Axes of a node as a unit quaternion, q0 not negative.
+    /// Orientation of a node as a unit quaternion with non-negative q0.
     Quaternion => OutputId, "quaternion";
     ["kind" = "quaternion"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Axes of a node as angles about x, the turned y and the twice turned z.
+    /// Orientation of a node as Cardan angles: rotations about x, the rotated y and the twice rotated z.
     CardanAngles => OutputId, "cardan_angles";
     ["kind" = "cardan_angles"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Angle of a node about an axis since the start, continued beyond half a turn.
+    /// Rotation angle of a node about an axis since the start, continuous beyond half a revolution.
     Angle => OutputId, "angle";
     ["kind" = "angle"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
-    /// - `axis`: the axis at the start, global axes; `relative_to` carries it
+    /// - `of`: the node, such as "beam@0.5"
+    /// - `axis`: axis at the start, global axes; it is fixed in `relative_to`
     new(of: Node = "of", axis: [f64; 3] = "axis")
 }
 
 entry! {
-    /// Velocity of a node or of a point it carries.
+    /// Velocity of a node, or of a point fixed to it.
     Velocity => OutputId, "velocity";
     ["kind" = "velocity"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
@@ -84,42 +84,42 @@ entry! {
     ["kind" = "angular_velocity"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Acceleration of a node or of a point it carries.
+    /// Acceleration of a node, or of a point fixed to it.
     Acceleration => OutputId, "acceleration";
     ["kind" = "acceleration"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Axial and shear forces in a beam, local axes.
+    /// Axial and shear forces in a beam, section axes.
     SectionForce => OutputId, "section_force";
     ["kind" = "section_force"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Torsion and bending moments in a beam, local axes.
+    /// Torsion and bending moments in a beam, section axes.
     SectionMoment => OutputId, "section_moment";
     ["kind" = "section_moment"]
     /// With what must be given.
     ///
-    /// - `of`: the node, as in "beam@0.5"
+    /// - `of`: the node, such as "beam@0.5"
     new(of: Node = "of")
 }
 
 entry! {
-    /// Places of all nodes of a beam along its axis, from its start to its end.
+    /// Positions of all nodes of a beam, from its start to its end.
     Line => OutputId, "line";
     ["kind" = "line"]
     /// With what must be given.
@@ -156,12 +156,12 @@ entry! {
     ///
     /// - `of`: the joint
     new(of: JointId = "of")
-    /// Global axes, or those of the joint frame that base or tip carries; default ground.
+    /// Global axes, or those of the joint frame fixed in base or tip; default ground.
     axes: words::Axes = "axes";
 }
 
 entry! {
-    /// Relative coordinate of a joint.
+    /// Relative coordinates of a joint.
     Relative => OutputId, "relative";
     ["kind" = "relative"]
     /// With what must be given.
@@ -181,7 +181,7 @@ entry! {
 }
 
 entry! {
-    /// Place and rotation vector of a joint's tip frame, in the axes of its base frame.
+    /// Position and rotation vector of a joint's tip frame, in the axes of its base frame.
     RelativeMotion => OutputId, "relative_motion";
     ["kind" = "relative_motion"]
     /// With what must be given.
@@ -191,7 +191,7 @@ entry! {
 }
 
 entry! {
-    /// Place of contact of a wheel on a rail, its normal force, creep forces and creepages.
+    /// Contact position of a wheel on a rail, with normal force, creep forces and creepages.
     Contact => OutputId, "contact";
     ["kind" = "contact"]
     /// With what must be given.
@@ -211,7 +211,7 @@ entry! {
 }
 
 entry! {
-    /// Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.
+    /// Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.
     Power => OutputId, "power";
     ["kind" = "power"]
     /// With what must be given.
@@ -221,7 +221,7 @@ entry! {
 }
 
 entry! {
-    /// Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.
+    /// Work that a spring, a load, a drive or the friction of a joint has delivered to the rest of the model.
     Work => OutputId, "work";
     ["kind" = "work"]
     /// With what must be given.
@@ -262,13 +262,13 @@ entry! {
     ["kind" = "expression"]
     /// With what must be given.
     ///
-    /// - `value`: as "hypot(a.x - b.x, a.y - b.y)", of components of outputs
+    /// - `value`: expression such as "hypot(a.x - b.x, a.y - b.y)", of components of outputs
     new(value: Expression = "value")
 }
 
 keys! {
     [Position, Displacement, Rotation, Angle, Velocity, AngularVelocity, Acceleration]
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    /// Body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground.
     relative_to: Node = "relative_to";
 }
 
@@ -280,13 +280,13 @@ keys! {
 
 keys! {
     [Position, Displacement, Velocity, Acceleration]
-    /// A place at the start, carried by the node \[m\].
+    /// Position at the start of a point fixed to the node; default: the node \[m\].
     point: [f64; 3] = "point";
 }
 
 keys! {
     [SectionForce, SectionMoment, Recovered, Reaction, Spring, Signal, ExpressionOutput]
-    /// Exponent of Woehler's line: the summary then has `damage_equivalent` of each component.
+    /// Exponent of the Wöhler curve; the summary then has `damage_equivalent` of each component.
     woehler_exponent: f64 = "woehler_exponent";
     /// Number of cycles of the damage equivalent range; default one per second of the run.
     reference_cycles: f64 = "reference_cycles";

@@ -12,11 +12,11 @@ entry! {
     /// With what must be given.
     ///
     /// - `youngs_modulus`: Young's modulus \[Pa\]
-    /// - `density`: mass per volume \[kg/m³\]
+    /// - `density`: mass density \[kg/m³\]
     new(youngs_modulus: f64 = "E", density: f64 = "density")
-    /// Poisson's ratio; give it or `G`.
+    /// Poisson's ratio; either it or `G` is required.
     poisson_ratio: f64 = "nu";
-    /// Shear modulus; give it or `nu` \[Pa\].
+    /// Shear modulus; either it or `nu` is required \[Pa\].
     shear_modulus: f64 = "G";
 }
 
@@ -56,7 +56,7 @@ entry! {
 }
 
 entry! {
-    /// Given by its stiffness and mass.
+    /// Specified by its stiffness and mass matrices.
     General => SectionId, "general";
     ["shape" = "general"]
     /// With what must be given.

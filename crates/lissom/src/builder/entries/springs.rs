@@ -15,58 +15,58 @@ entry! {
     ///
     /// - `joint`: the joint whose relative displacement it acts on
     new(joint: JointId = "joint")
-    /// Relative displacement at which it is free of force; default 0 \[m\].
+    /// Relative displacement without force; default 0 \[m\].
     displacement: f64 = "displacement";
 }
 
 entry! {
-    /// Spring and damper between two points, along the line that joins them.
+    /// Spring and damper between two points, along the line through them.
     Point => SpringId, "point";
     ["kind" = "point"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
-    /// Length at which it is free of force; default: the length at the start \[m\].
+    /// Free length; default: the length at the start \[m\].
     length: f64 = "length";
 }
 
 entry! {
-    /// A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.
+    /// A wheel, disc or ball on a compliant plane with friction: it may lift off and slide.
     RollingContact => SpringId, "rolling_contact";
     ["kind" = "rolling_contact"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
-    /// - `normal`: Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
+    /// - `normal`: Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane
     /// - `wheel_axis`: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre
     /// - `stiffness`: Normal force per penetration \[N/m\]
     new(base: Node = "base", tip: Node = "tip", normal: [f64; 3] = "normal", wheel_axis: [f64; 3] = "wheel_axis", stiffness: f64 = "stiffness")
-    /// Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` \[m\].
+    /// Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` \[m\].
     radius: f64 = "radius";
-    /// Radius of the rounding of the rim; default 0 \[m\].
+    /// Rounding radius of the rim; default 0 \[m\].
     rim: f64 = "rim";
-    /// Increase of the normal force per velocity of penetration, relative to it; default 0 \[s/m\].
+    /// Relative increase of the normal force per penetration velocity; default 0 \[s/m\].
     dissipation: f64 = "dissipation";
-    /// Friction over normal force of a wheel that slides; default 0.
+    /// Coefficient of sliding friction; default 0.
     friction_coefficient: f64 = "friction_coefficient";
-    /// Velocity v\_s of the law μ tanh(v/v\_s): below it the wheel creeps; default 0.01 \[m/s\].
+    /// Velocity v\_s of the law μ tanh(v/v\_s), below which the wheel creeps; default 0.01 \[m/s\].
     slip_velocity: f64 = "slip_velocity";
-    /// Coefficient of friction over the sliding velocity `slip` \[m/s\], in place of the law of `friction_coefficient`.
+    /// Coefficient of friction over the sliding velocity `slip` \[m/s\], instead of the law of `friction_coefficient`.
     traction: Function = "traction";
 }
 
 entry! {
-    /// Rope that slides over several points without friction: reeving over pulleys, and hoists by its length.
+    /// Rope that slides over several points without friction: pulleys, and hoists by its free length.
     Rope => SpringId, "rope";
     ["kind" = "rope"]
     /// With what must be given.
     ///
-    /// - `along`: the points it passes over, from one end to the other \[m\]
+    /// - `along`: points over which it passes, from one end to the other \[m\]
     new(along: Vec<(Node, Place)> = "along")
-    /// Coordinates of joints that pay it out, such as "drum.angle"; a joint's name alone means all of its.
+    /// Coordinates of joints that pay it out, such as "drum.angle"; the name of a joint stands for all its coordinates.
     drums: Vec<JointId> = "drums";
     /// Stiffness of the whole rope; default 0 \[N/m\].
     stiffness: f64 = "stiffness";
@@ -76,11 +76,11 @@ entry! {
     force: Function = "force";
     /// Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
     damper_force: Function = "damper_force";
-    /// Least and greatest tension; default none \[N\].
+    /// Minimum and maximum tension; default: none \[N\].
     limits: [f64; 2] = "limits";
-    /// Free length of the whole rope, over time where a winch changes it; default: the length at the start \[m\].
+    /// Free length of the whole rope; a function of time for a winch; default: the length at the start \[m\].
     length: Function = "length";
-    /// Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up \[m\].
+    /// Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up \[m\].
     drum_radii: Vec<f64> = "drum_radii";
 }
 
@@ -100,18 +100,18 @@ entry! {
     moment: Function = "moment";
     /// Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate` \[N m\].
     damper_moment: Function = "damper_moment";
-    /// Where it acts: on rotations above the free one, below it, or both; default both.
+    /// Where it acts: above its free rotation ("positive"), below it ("negative"), or both; default both.
     side: words::SignedSide = "side";
-    /// Least and greatest moment; default none \[N m\].
+    /// Minimum and maximum moment; default: none \[N m\].
     limits: [f64; 2] = "limits";
-    /// Width of the free play about the free rotation, without moment; default 0 \[rad\].
+    /// Width of the backlash about the free rotation, without moment; default 0 \[rad\].
     backlash: f64 = "backlash";
-    /// Relative rotation at which it is free of moment; default 0 \[rad\].
+    /// Relative rotation without moment; default 0 \[rad\].
     angle: f64 = "angle";
 }
 
 entry! {
-    /// Dry and viscous friction on a joint's relative displacement; it sticks without creeping.
+    /// Dry and viscous friction on a joint's relative displacement; sticking is free of creep.
     AxialFriction => SpringId, "axial_friction";
     ["kind" = "axial_friction"]
     /// With what must be given.
@@ -123,7 +123,7 @@ entry! {
     breakaway: f64 = "breakaway";
     /// Velocity at which the additional force has fallen to 1/e; default 0.01 \[m/s\].
     stribeck: f64 = "stribeck";
-    /// Force per velocity besides; default 0 \[N s/m\].
+    /// Additional force per velocity; default 0 \[N s/m\].
     viscous: f64 = "viscous";
     /// Elastic displacement before it slips; default 1e-4 \[m\].
     deflection: f64 = "deflection";
@@ -132,7 +132,7 @@ entry! {
 }
 
 entry! {
-    /// Dry and viscous friction on a joint's relative rotation; it sticks without creeping.
+    /// Dry and viscous friction on a joint's relative rotation; sticking is free of creep.
     TorsionalFriction => SpringId, "torsional_friction";
     ["kind" = "torsional_friction"]
     /// With what must be given.
@@ -144,7 +144,7 @@ entry! {
     breakaway: f64 = "breakaway";
     /// Rate at which the additional moment has fallen to 1/e; default 0.01 \[rad/s\].
     stribeck: f64 = "stribeck";
-    /// Moment per rate besides; default 0 \[N m s/rad\].
+    /// Additional moment per rate; default 0 \[N m s/rad\].
     viscous: f64 = "viscous";
     /// Elastic rotation before it slips; default 1e-4 \[rad\].
     deflection: f64 = "deflection";
@@ -153,19 +153,19 @@ entry! {
 }
 
 entry! {
-    /// Springs and dampers along and about three axes, with full matrices; its length may be zero.
+    /// Springs and dampers along and about three axes, with full matrices, also between coincident points.
     Bushing => SpringId, "bushing";
     ["kind" = "bushing"]
     /// With what must be given.
     ///
-    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
-    /// - `tip`: the node it leads to
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
     /// 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 \[N/m, N, N m/rad\].
     stiffness: Matrix = "stiffness";
-    /// 6 x 6 or its diagonal, likewise; default 0 \[N s/m, N s, N m s/rad\].
+    /// 6 x 6 or its diagonal, as `stiffness`; default 0 \[N s/m, N s, N m s/rad\].
     damping: Matrix = "damping";
-    /// First axis at the start, global axes; default global x. The axes turn with the base.
+    /// First axis at the start, global axes; default global x. The axes rotate with the base.
     axis: [f64; 3] = "axis";
     /// Second axis at the start, global axes, made perpendicular to the first; default global y.
     second_axis: [f64; 3] = "second_axis";
@@ -177,7 +177,7 @@ entry! {
     ["kind" = "coordinate_dynamics"]
     /// With what must be given.
     ///
-    /// - `coordinates`: coordinates that it acts on, such as "arm.angle", in the order of its matrices; a joint's name alone means all of its
+    /// - `coordinates`: coordinates on which it acts, such as "arm.angle", in the order of its matrices; the name of a joint stands for all its coordinates
     new(coordinates: Vec<JointId> = "coordinates")
     /// Mass matrix, symmetric, without negative eigenvalues; default 0 \[kg, kg m or kg m²\].
     mass: Vec<Vec<f64>> = "mass";
@@ -185,7 +185,7 @@ entry! {
     damping: Vec<Vec<f64>> = "damping";
     /// Stiffness matrix; it may be unsymmetric (circulatory forces); default 0 \[N/m, N/rad or N m/rad\].
     stiffness: Vec<Vec<f64>> = "stiffness";
-    /// Values of the coordinates at which `stiffness` is free of force; default zeros \[m or rad\].
+    /// Values of the coordinates without force of `stiffness`; default zeros \[m or rad\].
     rest: Vec<f64> = "rest";
 }
 
@@ -196,7 +196,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `joint`: the joint whose relative displacement it acts on
-    /// - `range`: Displacements between the stops; an end that is infinite has none \[m\]
+    /// - `range`: Displacements of the two stops; none at an infinite end \[m\]
     /// - `stiffness`: Force at a penetration of 1 m \[N/m^n\]
     new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
     /// Factor a of the penetration rate; default 0 \[s/m\].
@@ -214,7 +214,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `joint`: the joint whose relative rotation it acts on
-    /// - `range`: Rotations between the stops; an end that is infinite has none \[rad\]
+    /// - `range`: Rotations of the two stops; none at an infinite end \[rad\]
     /// - `stiffness`: Moment at a penetration of 1 rad \[N m/rad^n\]
     new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
     /// Factor a of the penetration rate; default 0 \[s/rad\].
@@ -226,24 +226,24 @@ entry! {
 }
 
 entry! {
-    /// Holds a joint's relative displacement where it is while an input is set: latches and releases.
+    /// Locks a joint's relative displacement at its current value while an input is set: latches and releases.
     AxialLatch => SpringId, "axial_latch";
     ["kind" = "axial_latch"]
     /// With what must be given.
     ///
     /// - `joint`: the joint whose relative displacement it acts on
-    /// - `engaged`: The input that engages it: above 0.5 it holds, otherwise it is free; events set it
+    /// - `engaged`: Input that engages it: locked above 0.5, otherwise free; set by events
     new(joint: JointId = "joint", engaged: InputId = "engaged")
 }
 
 entry! {
-    /// Holds a joint's relative rotation where it is while an input is set: latches and releases.
+    /// Locks a joint's relative rotation at its current value while an input is set: latches and releases.
     TorsionalLatch => SpringId, "torsional_latch";
     ["kind" = "torsional_latch"]
     /// With what must be given.
     ///
     /// - `joint`: the joint whose relative rotation it acts on
-    /// - `engaged`: The input that engages it: above 0.5 it holds, otherwise it is free; events set it
+    /// - `engaged`: Input that engages it: locked above 0.5, otherwise free; set by events
     new(joint: JointId = "joint", engaged: InputId = "engaged")
 }
 
@@ -257,17 +257,17 @@ keys! {
     force: Function = "force";
     /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
     damper_force: Function = "damper_force";
-    /// Where it acts: where it is longer than its free length, where it is shorter, or both; default both.
+    /// Where it acts: beyond its free length ("tension"), below it ("compression"), or both; default both.
     side: words::Side = "side";
-    /// Least and greatest force; default none \[N\].
+    /// Minimum and maximum force; default: none \[N\].
     limits: [f64; 2] = "limits";
-    /// Width of the free play about the free length, without force; default 0 \[m\].
+    /// Width of the backlash about the free length, without force; default 0 \[m\].
     backlash: f64 = "backlash";
 }
 
 keys! {
     [Axial, Torsional, AxialFriction, TorsionalFriction, AxialStop, TorsionalStop, AxialLatch, TorsionalLatch]
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    /// Number of the joint's coordinate, from 1; default: the first suitable one.
     coordinate: f64 = "coordinate";
 }
 
@@ -281,6 +281,6 @@ keys! {
 
 keys! {
     [AxialStop, TorsionalStop]
-    /// N, from 1 on; default 1.
+    /// Exponent n, at least 1; default 1.
     exponent: f64 = "exponent";
 }

@@ -26,7 +26,7 @@ pub(super) struct Request {
     pub(super) body: Vec<u8>,
 }
 
-/// Why a request is rejected: a status, with its words.
+/// Why a request is rejected: the status code and its text.
 pub(super) type Rejection = (u16, &'static str);
 
 impl Request {
@@ -57,7 +57,7 @@ impl Request {
                 // A number that overflows a machine word is too large for a body.
                 length.parse().unwrap_or(usize::MAX)
             }
-            _ => return Err((400, "the length of the body is no number")),
+            _ => return Err((400, "the length of the body is not a number")),
         };
         if length > MAX_BODY {
             return Err((413, "the body is too long"));

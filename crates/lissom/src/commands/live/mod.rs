@@ -21,9 +21,9 @@ const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Show a model in the browser and simulate it again whenever its file is saved.
 ///
-/// The page has a slider for every number in `[parameters]`. While the model is wrong the page says why, and the last
-/// picture stays. Only this machine can reach the page, and only at the printed address, which contains a random word.
-/// No file is written.
+/// The page has a slider for every number in `[parameters]`. While the model has errors the page shows them together with the
+/// last picture. The page is accessible only from this machine and at the printed address, which contains a random word. No
+/// file is written.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -40,7 +40,7 @@ pub(super) struct Live {
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
 
-    /// Port of the page [default: any that is free].
+    /// Port of the page [default: any free port].
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     port: u16,
 
@@ -52,7 +52,7 @@ pub(super) struct Live {
 impl Live {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        // A missing file is a mistake in the command; an invalid model may be corrected while the page is open.
+        // A missing file is an error of the command; an invalid model may be corrected while the page is open.
         Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let shared = Arc::new(Shared::default());
         let address = server::start(self.port, &self.model, &shared).map_err(|error| {
@@ -61,7 +61,7 @@ impl Live {
         simulation::start(self.model, self.set, &shared);
         terminal::print(&format!("{address}\n"));
         if self.open && !open(&address) {
-            terminal::complain("warning: no browser could be started: open the address in one\n");
+            terminal::complain("warning: no browser could be started: open the address in a browser\n");
         }
         while !interrupt.is_noted() {
             std::thread::sleep(PATIENCE);

@@ -15,7 +15,7 @@ use lissom::view;
 use super::http::{self, Request};
 use super::simulation::Shared;
 
-/// Longest time for which a page waits for news before it asks again.
+/// Maximum duration of a request for new results; the page then repeats it.
 const PATIENCE: Duration = Duration::from_secs(20);
 /// Maximum number of simultaneous connections; each page has one open while it waits.
 const MAX_CONNECTIONS: usize = 24;
@@ -80,7 +80,7 @@ struct Site {
 impl Site {
     fn serve(&self, stream: &mut TcpStream, request: &Request, shared: &Shared) {
         if !self.is_own(request) {
-            return answer(stream, 403, "text/plain", "this page is for requests of its own alone");
+            return answer(stream, 403, "text/plain", "only requests of this page itself are answered");
         }
         let (path, query) = request.target.split_once('?').unwrap_or((&request.target, ""));
         let Some(path) = path.strip_prefix('/').and_then(|path| path.strip_prefix(&*self.word)) else {
@@ -100,7 +100,7 @@ impl Site {
                     shared.ask(values);
                     answer(stream, 204, "text/plain", "");
                 }
-                _ => answer(stream, 400, "text/plain", "numbers by name are wanted"),
+                _ => answer(stream, 400, "text/plain", "the body must be numbers by name"),
             },
             _ => answer(stream, 404, "text/plain", "there is nothing here"),
         }
@@ -131,6 +131,6 @@ fn answer(stream: &mut TcpStream, status: u16, kind: &str, text: &str) {
         ("Cross-Origin-Opener-Policy", "same-origin"),
         ("Referrer-Policy", "no-referrer"),
     ];
-    // A closed page reads no answer.
+    // The page may have been closed: errors are ignored.
     let _ = http::answer(stream, status, &headers, text.as_bytes());
 }

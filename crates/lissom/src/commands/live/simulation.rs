@@ -22,9 +22,9 @@ use serde_json::{Value, json};
 const LOOK: Duration = Duration::from_millis(5);
 /// A file that was changed more recently than this may still be being written.
 const SETTLED: Duration = Duration::from_millis(10);
-/// A mistake in a file is reported if the file has been unchanged for this time: it may have been written only in part.
+/// An error in a file is reported if the file has been unchanged for this time: it may have been written only in part.
 const SURE: Duration = Duration::from_millis(200);
-/// The same for an empty file, as files are for a moment while they are saved.
+/// The same for an empty file: files are empty for a moment while they are saved.
 const SURE_TO_BE_EMPTY: Duration = Duration::from_secs(2);
 
 /// Data for pages, and their requests.
@@ -91,7 +91,7 @@ struct Message {
 
 impl Message {
     fn to_json(&self) -> String {
-        serde_json::to_string(self).expect("plain numbers and texts can always be said in JSON")
+        serde_json::to_string(self).expect("plain numbers and texts can always be written as JSON")
     }
 }
 

@@ -13,9 +13,9 @@ use crate::terminal::{self, Interrupt};
 
 /// Show the conditioning of the equations over the step size, with and without scaling.
 ///
-/// For every step size, and for every value of --vary, the model is simulated to its end; the table has the
-/// condition numbers of the last step's tangent at convergence: without scaling (none), with s = 1 (unit) and with
-/// s = m + d h + k h² (physical). The augmented term is there if the model has it.
+/// The model is simulated to its end for every step size and every value of --vary. The table has the condition
+/// numbers of the last step's tangent at convergence: without scaling (none), with s = 1 (unit) and with
+/// s = m + d h + k h² (physical). The augmented term is included if the model uses it.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -24,9 +24,9 @@ Examples:
     --vary point_masses.bob.mass=1e-2,1,1e2,1e4
   lissom study conditioning examples/tip-crank.toml --steps 1e-3,1e-4 --set analysis.end=0.01
 
-The condition number of small models is exact, in the 2-norm and far beyond 1e16; for large ones the 1-norm is estimated. \
+The condition number of small models is exact in the 2-norm, also far beyond 1e16; for large models it is estimated in the 1-norm. \
 The table goes to a CSV file (columns step_size, the varied path, none, unit, physical, method, end), the \
-plot beside it. A run of more than two million steps ends earlier, and the table says when.
+plot beside it. A run of more than two million steps ends earlier; the table then has its end.
 Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Conditioning {
     #[command(flatten)]
@@ -40,7 +40,7 @@ pub(super) struct Conditioning {
     #[arg(long, value_name = "PATH=LIST", value_parser = parse_variation)]
     vary: Option<Variation>,
 
-    /// File for the table; the plot goes beside it [default: out/study-conditioning/<model>.csv].
+    /// File for the table; the plot is written to the same folder [default: out/study-conditioning/<model>.csv].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -63,7 +63,7 @@ impl Conditioning {
         let interrupt = Interrupt::listen();
         let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let request = self.request();
-        // The model alone need not be consistent: its end may be before its own first step.
+        // The model without these values need not be consistent: its end may be before its own first step.
         let document = model.document(&request.first())?;
         show_warnings(&document);
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;

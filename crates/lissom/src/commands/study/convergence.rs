@@ -10,12 +10,12 @@ use lissom::study::convergence::{Request, Table, study};
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal::{self, Interrupt};
 
-/// Show how fast schemes converge: relative error and observed order over the step size.
+/// Show the convergence of schemes: relative error and observed order over the step size.
 ///
-/// For every scheme and step size the model is simulated, and one output compared with a reference run at the
-/// instants of the largest step. The error is the root of the mean square of the difference of all components of
-/// the output over these instants, divided by that of the reference; the order is log(e1/e2) / log(h1/h2) of a
-/// scheme's successive steps. Choose an output of one unit: a position, a force.
+/// The model is simulated with every scheme and step size, and one output is compared with a reference run at the
+/// instants of the largest step. The error is the root mean square of the difference over all components of the output
+/// and all instants, divided by that of the reference. The order is log(e1/e2) / log(h1/h2) for successive steps of a
+/// scheme. Choose an output whose components have one unit, such as a position or a force.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -25,12 +25,12 @@ Examples:
     --steps 1e-3,5e-4,2.5e-4 --reference radau-iia:5e-5 --output midspan.u2 --set analysis.end=0.1
 
 A scheme is a word of the model file, with its parameter in parentheses (alpha of hht, spectral radius of \
-generalized-alpha and energy-decaying) or else its default; quote the list for the shell. Scheme and its \
-parameter in the model have no effect. Steps and the reference's step must divide the largest step; the runs \
-end at the last whole one of it. Newton's tolerance is 1e-10, or the model's if smaller; --set \
+generalized-alpha and energy-decaying); without it the default is used. Quote the list for the shell. The scheme and its \
+parameter in the model have no effect. All steps, also that of the reference, must divide the largest step; the runs \
+end at its last whole multiple. Newton's tolerance is 1e-10, or the model's if smaller; --set \
 analysis.tolerance=… sets another.
 The table goes to a CSV file (columns scheme, step_size, error, order), the plot of errors over 1/h beside it. \
-The order of a scheme's first step is empty, as are error and order of a run that failed.
+The order is empty for the first step of a scheme; error and order are empty for a run that failed.
 Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Convergence {
     #[command(flatten)]
@@ -44,7 +44,7 @@ pub(super) struct Convergence {
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     steps: Vec<String>,
 
-    /// Scheme and step size [s] of the run that counts as exact, such as `radau-iia:1e-4`.
+    /// Scheme and step size [s] of the reference run, such as `radau-iia:1e-4`.
     #[arg(long, value_name = "SCHEME:STEP", value_parser = parse_reference)]
     reference: Reference,
 
@@ -52,7 +52,7 @@ pub(super) struct Convergence {
     #[arg(long, value_name = "NAME")]
     output: String,
 
-    /// File for the table; the plot goes beside it [default: out/study-convergence/<model>.csv].
+    /// File for the table; the plot is written to the same folder [default: out/study-convergence/<model>.csv].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -89,7 +89,7 @@ impl Convergence {
             }
         }
         if table.is_far_from_reference() {
-            terminal::complain("warning: no run is near the reference, which may be wrong itself\n");
+            terminal::complain("warning: no run is close to the reference, which may itself be inaccurate\n");
         }
         let drawn = super::draw(&table.figure(&title), &path)?;
         terminal::print(&format!("results in {}{drawn}\n", path.display()));

@@ -10,21 +10,21 @@ use lissom_core::analysis::factorization_study::{Case, ITERATIONS};
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
-/// Show whether the equations can be factored without pivoting, and how exactly they are solved.
+/// Show whether the equations can be factored without pivoting, and how accurately they are solved.
 ///
 /// The tangent of the first step is factored under every combination of scaling (none, unit, physical), augmented
-/// term (without, with) and solver (skyline and sparse do not pivot). A known problem is solved, the same one in SI
-/// for every combination, and Newton's method makes 15 iterations, each with a new tangent.
+/// term (without, with) and solver (skyline and sparse do not pivot). A system with known solution, the same in SI
+/// for every combination, is solved, and Newton's method makes 15 iterations, each with a new tangent.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom study factorization examples/tip-crank.toml
   lissom study factorization examples/tip-crank.toml --set analysis.step=1e-6 --out pivots.csv
 
-Columns: smallest over largest pivot (the solver that pivots estimates it); growth of the numbers while \
-factoring; error of the coordinates' and of the multipliers' corrections, relative to their largest, found by \
+Columns: ratio of the smallest to the largest pivot (estimated by the solver that pivots); growth factor of the \
+factorisation; errors of the corrections of coordinates and multipliers, relative to the largest one, determined by \
 refinement with 32 digits (~ if that does not converge); after 15 iterations the last update relative \
-to what the step has to find out, the largest residual of an equation of motion [N, N m], and the largest \
+to the increment of the step, the largest residual of an equation of motion [N, N m], and the largest \
 violation |C| of a constraint [m, rad].
 Exit code: 0 success; 2 wrong model or command line; 3 no consistent initial values.")]
 pub(super) struct Factorization {

@@ -1,4 +1,4 @@
-//! `lissom study`: families of runs that show the effects of a scaling or a scheme on a model. One study per file.
+//! `lissom study`: series of runs that show the effects of scaling, scheme and step size on a model. One study per file.
 
 mod conditioning;
 mod convergence;
@@ -19,7 +19,7 @@ use lissom_model::output::LogFigure;
 use super::{Exit, Failure};
 use crate::terminal::{self, Interrupt};
 
-/// Show the effects of scaling, step size and solver.
+/// Study the effects of scaling, scheme, step size and solver on a model.
 #[derive(Args)]
 pub(super) struct Study {
     #[command(subcommand)]
@@ -78,7 +78,7 @@ fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
         .map_err(|error| Failure::file(Exit::Failed, &error))
 }
 
-/// Draws the plot beside the table. A failure to draw is a warning: the numbers are written.
+/// Draws the plot beside the table. A failure to draw is a warning, because the table is written.
 fn draw(figure: &LogFigure, table: &Path) -> Result<String, Failure> {
     let drawn = figure.svg().and_then(|svg| Ok((svg, figure.png()?)));
     let (svg, png) = match drawn {
@@ -129,7 +129,7 @@ fn short(value: f64) -> String {
     format!("{value:.1e}")
 }
 
-/// The outcome of `study`, with a bar on the terminal while it runs; Ctrl-C ends it.
+/// The outcome of `study`, with a progress bar on the terminal while it runs; Ctrl-C ends it.
 fn watched<T>(
     interrupt: &Interrupt,
     study: impl FnOnce(Watch<'_>) -> Result<T, StudyError>,
@@ -144,7 +144,7 @@ fn watched<T>(
     Ok(outcome?)
 }
 
-/// A bar of steps over all runs; nothing in a pipe.
+/// A progress bar of the steps of all runs; none in a pipe.
 fn bar() -> ProgressBar {
     let bar = if stderr().is_terminal() { ProgressBar::new(0) } else { ProgressBar::hidden() };
     let style = ProgressStyle::with_template("{bar:30} {human_pos} of {human_len} steps  {eta} left");

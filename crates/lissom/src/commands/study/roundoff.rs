@@ -12,20 +12,20 @@ use crate::terminal::{self, Interrupt};
 
 /// Show the round-off of an output, such as a reaction, at tiny steps.
 ///
-/// With every step size h, 50 steps are taken from the start, whatever end the model has, with the scheme of the
-/// model. The error is the distance of the output at their end from the same time reached with steps of h/8,
-/// relative to the size of the output there: both the scheme's error and round-off. The noise is the largest second
-/// difference of the output from step to step over the last 20 steps, relative to the size of the output: where the
-/// output is smooth it shrinks as h², and what is left at tiny steps is round-off alone.
+/// For every step size h, 50 steps are taken from the start with the scheme of the model, regardless of its end time. The
+/// error is the difference between the output at their end and that at the same time with steps of h/8, relative to
+/// the size of the output there; it contains both the error of the scheme and round-off. The noise is the largest second
+/// difference of the output over the last 20 steps, relative to the size of the output. For a smooth output it decreases
+/// as h²; at tiny steps only round-off remains.
 #[derive(Args)]
 #[command(after_help = "\
 Example:
   lissom study roundoff examples/pendulum.toml --steps 1e-3,1e-5,1e-7 --output force
 
-An error with ~ is not resolved: runs with steps of h/4 and h/8 differ by more than half of it. All components \
-of an output count together: choose one of one unit, and one that is not near zero at \
-the start: all is relative to its size there. What the start itself excites, such as waves in beams, counts as noise \
-until steps resolve it. Newton's tolerance is 1e-12, or the model's if smaller; \
+An error with ~ is not resolved: runs with steps of h/4 and h/8 differ by more than half of it. Error and noise are \
+norms over all components of the output, relative to its size at the start: choose an output of one unit that is not near \
+zero there. Oscillations excited by the initial state, such as waves in beams, count as noise until steps resolve \
+them. Newton's tolerance is 1e-12, or the model's if smaller; \
 --set analysis.tolerance=… sets another.
 The table goes to a CSV file (columns step_size, error, noise), the plot beside it.
 Exit code: 0 success; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
@@ -41,7 +41,7 @@ pub(super) struct Roundoff {
     #[arg(long, value_name = "NAME")]
     output: String,
 
-    /// File for the table; the plot goes beside it [default: out/study-roundoff/<model>.csv].
+    /// File for the table; the plot is written to the same folder [default: out/study-roundoff/<model>.csv].
     #[arg(long, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }

@@ -103,8 +103,10 @@ impl Element {
         });
         match unknown {
             None => Ok(()),
-            Some(key) => Err(self
-                .fault(format!("the attribute `{key}` is unknown here: take it out if it does not matter"))),
+            Some(key) => {
+                Err(self
+                    .fault(format!("the attribute `{key}` is not supported: remove it if it has no effect")))
+            }
         }
     }
 
@@ -120,13 +122,13 @@ impl Element {
     pub(super) fn list(&self, key: &str) -> Result<Option<Vec<f64>>, ImportError> {
         let Some(text) = self.text(key) else { return Ok(None) };
         let values = finite_numbers(text);
-        values.map(Some).ok_or_else(|| self.fault(format!("`{key}` must be finite numbers, and is `{text}`")))
+        values.map(Some).ok_or_else(|| self.fault(format!("`{key}` must be finite numbers, not `{text}`")))
     }
 
     pub(super) fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>, ImportError> {
         let Some(values) = self.list(key)? else { return Ok(None) };
         let text = self.text(key).unwrap_or_default();
-        let wrong = |_| self.fault(format!("`{key}` must be {N} numbers, and is `{text}`"));
+        let wrong = |_| self.fault(format!("`{key}` must be {N} numbers, not `{text}`"));
         values.try_into().map(Some).map_err(wrong)
     }
 
@@ -147,7 +149,7 @@ impl Element {
             None => Ok(default),
             Some("true") => Ok(true),
             Some("false") => Ok(false),
-            Some(other) => Err(self.fault(format!("`{key}` must be true or false, and is `{other}`"))),
+            Some(other) => Err(self.fault(format!("`{key}` must be true or false, not `{other}`"))),
         }
     }
 }

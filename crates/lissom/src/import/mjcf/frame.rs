@@ -23,7 +23,7 @@ impl Angles {
             "degree" => std::f64::consts::PI / 180.0,
             "radian" => 1.0,
             other => {
-                return Err(compiler.fault(format!("`angle` must be degree or radian, and is `{other}`")));
+                return Err(compiler.fault(format!("`angle` must be degree or radian, not `{other}`")));
             }
         };
         let letters = compiler.text("eulerseq").unwrap_or("xyz");
@@ -35,7 +35,7 @@ impl Angles {
         };
         let read: Option<Vec<(Vector3, bool)>> = letters.chars().map(axis).collect();
         let sequence = read.and_then(|axes| axes.try_into().ok()).ok_or_else(|| {
-            compiler.fault(format!("`eulerseq` must be three of x, y, z, X, Y, Z, and is `{letters}`"))
+            compiler.fault(format!("`eulerseq` must be three of x, y, z, X, Y, Z, not `{letters}`"))
         })?;
         Ok(Self { unit, sequence })
     }

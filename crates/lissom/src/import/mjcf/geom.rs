@@ -78,11 +78,13 @@ impl Geom {
             return Ok(None);
         }
         if element.flag("shellinertia", false)? {
-            return Err(element.fault("the inertia of a shell is unknown here: give the body an <inertial>"));
+            return Err(
+                element.fault("the inertia of a shell is not supported: add an <inertial> to the body")
+            );
         }
         if matches!(kind, "mesh" | "sdf") {
             let message = format!(
-                "the mass of a {kind} is unknown here: give the body an <inertial>, or the geom mass=\"0\""
+                "the mass of a {kind} is not supported: add an <inertial> to the body, or mass=\"0\" to the geom"
             );
             return Err(element.fault(message));
         }

@@ -47,12 +47,15 @@ pub(super) fn joint(
         "slide" => Freedom::Displacement,
         "ball" => Freedom::Ball,
         "free" => Freedom::Floating,
-        other => return Err(element.fault(format!("its type `{other}` is none of free, ball, slide, hinge"))),
+        other => {
+            return Err(element
+                .fault(format!("its type `{other}` is unknown: it must be free, ball, slide or hinge")));
+        }
     };
     let unit = if freedom == Freedom::Displacement { 1.0 } else { angles.unit };
     let mut joint = RobotJoint::new(name, freedom, parent, child, origin);
     if element.list("springdamper")?.unwrap_or_default().iter().any(|value| *value != 0.0) {
-        return Err(element.fault("`springdamper` is unknown here: give `stiffness` and `damping`"));
+        return Err(element.fault("`springdamper` is not supported: write `stiffness` and `damping`"));
     }
     joint.stiffness = element.not_negative("stiffness")?;
     joint.damping = element.not_negative("damping")?;
@@ -68,11 +71,13 @@ pub(super) fn joint(
             .map(|[low, high]| low.abs().max(high.abs()));
     } else if joint.armature > 0.0 {
         return Err(
-            element.fault("the armature of a ball or free joint is unknown here: add it to the inertia")
+            element.fault("the armature of a ball or free joint is not supported: add it to the inertia")
         );
     }
     if joint.freedom == Freedom::Floating && joint.stiffness > 0.0 {
-        return Err(element.fault("the stiffness of a free joint is unknown here: add a spring to the model"));
+        return Err(
+            element.fault("the stiffness of a free joint is not supported: add a spring to the model")
+        );
     }
     Ok(joint)
 }
@@ -88,8 +93,8 @@ fn limits(
         "true" => true,
         "false" => false,
         "auto" if autolimits || range.is_none() => range.is_some(),
-        "auto" => return Err(element.fault(format!("`{key}` without `{word}`, which `autolimits` asks for"))),
-        other => return Err(element.fault(format!("`{word}` must be true, false or auto, and is `{other}`"))),
+        "auto" => return Err(element.fault(format!("`{key}` requires `{word}`, because of `autolimits`"))),
+        other => return Err(element.fault(format!("`{word}` must be true, false or auto, not `{other}`"))),
     };
     match range.filter(|_| counts) {
         None if counts => Err(element.fault(format!("`{word}` without `{key}`"))),

@@ -30,13 +30,13 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
     let document = xml::parse(text)?;
     let root = document.root_element();
     if !root.has_tag_name("mujoco") {
-        let message = format!("this is no MJCF: its root is <{}>, not <mujoco>", root.tag_name().name());
+        let message = format!("this is not MJCF: its root is <{}>, not <mujoco>", root.tag_name().name());
         return Err(ImportError::new(message));
     }
     let mut compilers = children(root, "compiler");
     let compiler = compilers.next().map_or_else(|| Element::bare(root), Element::bare);
     if let Some(second) = compilers.next() {
-        return Err(Element::bare(second).fault("there is a <compiler> already: put both in one"));
+        return Err(Element::bare(second).fault("there are two <compiler> elements: merge them"));
     }
     outside::check_compiler(&compiler)?;
     let mut reader = Reader {
@@ -92,8 +92,7 @@ impl Inertias {
             "true" => Ok(Self::Geoms),
             "false" => Ok(Self::Given),
             other => {
-                Err(compiler
-                    .fault(format!("`inertiafromgeom` must be true, false or auto, and is `{other}`")))
+                Err(compiler.fault(format!("`inertiafromgeom` must be true, false or auto, not `{other}`")))
             }
         }
     }
@@ -170,7 +169,8 @@ impl Reader {
                 "plugin" => self.robot.unsupported.push("a <plugin>".to_owned()),
                 tag if SEEN.contains(&tag) => self.seen.push(tag.to_owned()),
                 tag => {
-                    let message = format!("<{tag}> is unknown in this position: write out what it makes");
+                    let message =
+                        format!("<{tag}> is not supported here: write the elements that it generates");
                     return Err(Element::bare(child).fault(message));
                 }
             }
@@ -209,7 +209,7 @@ impl Reader {
             self.robot.unsupported.push(format!("the compensated weight of body `{name}`"));
         }
         if own.flag("mocap", false)? {
-            self.robot.left_out.push(format!("the prescribed motion of body `{name}`, which stands still"));
+            self.robot.left_out.push(format!("the prescribed motion of body `{name}`, which is fixed"));
         }
         let has_inertial = children(node, "inertial").next().is_some();
         let place = Place {
@@ -243,7 +243,7 @@ impl Reader {
             let joint = joint::joint(element, compiled, (joint_name, carrier, child, origin))?;
             if joint.freedom == Freedom::Floating && (count > 1 || parent > 0) {
                 return Err(
-                    element.fault("a body that moves freely has no other joint, and no body that carries it")
+                    element.fault("a body with a free joint can have no other joint and no parent body")
                 );
             }
             self.robot.joints.push(joint);
@@ -267,7 +267,7 @@ fn inertial(own: &Element, placed: &Motion) -> Result<LinkInertia, ImportError> 
     let tensor = match (own.numbers::<3>("diaginertia")?, own.numbers::<6>("fullinertia")?) {
         (Some([x, y, z]), None) => Matrix3::from_diagonal(&[x, y, z].into()),
         (None, Some([xx, yy, zz, xy, xz, yz])) => Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
-        _ => return Err(own.fault("give either `diaginertia` or `fullinertia`")),
+        _ => return Err(own.fault("specify either `diaginertia` or `fullinertia`")),
     };
     if mass < 0.0 {
         return Err(own.fault(format!("`mass` is negative: {mass}")));

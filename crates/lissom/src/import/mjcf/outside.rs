@@ -30,7 +30,7 @@ pub(super) fn check_compiler(compiler: &Element) -> Result<(), ImportError> {
     for (key, harmless) in MASS_SETTINGS {
         let value = compiler.text(key);
         if value.is_some_and(|value| !harmless.contains(&value) && value.parse() != Ok(0.0)) {
-            return Err(compiler.fault(format!("`{key}` is unknown here: give the masses as they are")));
+            return Err(compiler.fault(format!("`{key}` is not supported: write the actual masses")));
         }
     }
     Ok(())
@@ -62,20 +62,19 @@ pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> 
                 let all = counted(inner(node).map(|own| own.tag_name().name().to_owned()));
                 if !all.is_empty() {
                     let words = format!(
-                        "actuators, also the forces they give without a command: {}; joints are driven by loads and signals",
+                        "actuators, also their forces without a command: {}; joints are driven by loads and signals",
                         all.join(", ")
                     );
                     robot.left_out.push(words);
                 }
             }
             "keyframe" if inner(node).next().is_some() => {
-                robot.left_out.push("key frames: values at the start are given by --position".to_owned());
+                robot.left_out.push("key frames: initial values are specified by --position".to_owned());
             }
             "include" => {
                 let file = node.attribute("file").unwrap_or_default();
-                return Err(Element::bare(node).fault(format!(
-                    "the file `{file}` is not read: put its text in the place of the <include>"
-                )));
+                return Err(Element::bare(node)
+                    .fault(format!("the file `{file}` is not read: replace the <include> by its text")));
             }
             _ if handled.contains(&tag) || SHOWN.contains(&tag) => {}
             other => robot.unsupported.push(format!("<{other}>")),
@@ -92,7 +91,7 @@ fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
     let option = Element::bare(node);
     for key in ["density", "viscosity"] {
         if option.number(key, 0.0)? != 0.0 {
-            robot.unsupported.push(format!("forces of the fluid around it, `{key}` of <option>"));
+            robot.unsupported.push(format!("fluid forces, `{key}` of <option>"));
         }
     }
     for flag in children(node, "flag") {
@@ -130,7 +129,7 @@ fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<
         let follows = Some((second.to_owned(), b, offset));
         for joint in robot.joints.iter_mut().filter(|joint| joint.name == first) {
             if !joint.moves() || joint.follows.is_some() || b == 0.0 {
-                return Err(own.fault(format!("joint `{first}` cannot follow `{second}` in this way")));
+                return Err(own.fault(format!("joint `{first}` cannot depend on `{second}` in this way")));
             }
             joint.follows.clone_from(&follows);
         }
@@ -149,7 +148,7 @@ fn tendons(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(
         if acts {
             robot.unsupported.push(format!("the tendon `{name}`"));
         } else {
-            robot.left_out.push(format!("the tendon `{name}`, which only leads actuators"));
+            robot.left_out.push(format!("the tendon `{name}`, which serves only actuators"));
         }
     }
     Ok(())

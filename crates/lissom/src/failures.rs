@@ -1,0 +1,498 @@
+//! Table of the failures of analyses, sweeps and units: code, values, cause, remedy and explanation of each.
+//!
+//! The enumerations are defined with their analyses. A new variant is an entry here, and `#[error("{}", self.diagnostic())]`
+//! above it. The catalogue, the chapter on warnings and `lissom explain` are generated from the table.
+
+use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
+use lissom_core::registry::ParameterError;
+
+use crate::buckling::BucklingRunError;
+use crate::campbell::CampbellError;
+use crate::fmu::FmuError;
+use crate::gradient::GradientError;
+use crate::modes::ModesError;
+use crate::path::{PathRunError, PathSessionError};
+use crate::ports::PortError;
+use crate::prepared::StartError;
+use crate::reduce::ReduceError;
+use crate::report::RunError;
+use crate::response::FrequencyError;
+use crate::session::SessionError;
+use crate::sweep::SweepError;
+
+/// A field of a failure, as a value for programs.
+trait Field {
+    fn value(&self) -> Value;
+}
+
+impl Field for f64 {
+    fn value(&self) -> Value {
+        Value::Number(*self)
+    }
+}
+
+impl Field for usize {
+    fn value(&self) -> Value {
+        Value::Count(*self)
+    }
+}
+
+macro_rules! texts {
+    ($($type:ty),*) => {
+        $(impl Field for $type {
+            fn value(&self) -> Value {
+                Value::Text(self.to_string())
+            }
+        })*
+    };
+}
+
+texts!(String, &'static str, std::io::Error, ParameterError);
+
+/// A failure with these values; a value `time` is its time.
+fn failure(
+    code: &'static str,
+    values: Vec<(&'static str, Value)>,
+    cause: String,
+    remedy: String,
+) -> Diagnostic {
+    let time = values.iter().find_map(|(name, value)| match value {
+        Value::Number(time) if *name == "time" => Some(*time),
+        _ => None,
+    });
+    Diagnostic {
+        code: Some(code),
+        severity: Severity::Failure,
+        time: time.filter(|time| time.is_finite()),
+        subject: None,
+        values: values.into_iter().filter(|(name, _)| *name != "time").collect(),
+        cause,
+        remedy,
+    }
+}
+
+/// Entries of the catalogue and diagnostics of enumerations. Each field of a variant is followed by its name in the message and
+/// among the values. `wraps` has the variants that contain another failure.
+macro_rules! failures {
+    ($(
+        $type:ident {
+            $($variant:ident { $($field:tt => $name:ident),* } => $code:literal {
+                cause: $cause:literal,
+                remedy: $remedy:literal,
+                meaning: $meaning:literal,
+                advice: $advice:literal,
+            })*
+        } wraps {
+            $($wrap:ident { $($wrapped:tt => $inner:ident),* } => $made:expr,)*
+        }
+    )*) => {
+        /// Entries of the catalogue.
+        pub(crate) const ENTRIES: &[Entry] = &[$($(Entry {
+            code: $code,
+            variant: concat!(stringify!($type), "::", stringify!($variant)),
+            severity: Severity::Failure,
+            message: $cause,
+            meaning: $meaning,
+            advice: $advice,
+        },)*)*];
+
+        $(impl Diagnose for $type {
+            fn diagnostic(&self) -> Diagnostic {
+                match self {
+                    $(Self::$variant { $($field: $name),* } => {
+                        let values = vec![$((stringify!($name), Field::value($name))),*];
+                        failure($code, values, format!($cause), format!($remedy))
+                    })*
+                    $(Self::$wrap { $($wrapped: $inner),* } => $made,)*
+                }
+            }
+        })*
+    };
+}
+
+failures! {
+    SessionError {
+        NotInTime { 0 => kind } => "session-kind" {
+            cause: "an analysis of kind `{kind}` has no time steps",
+            remedy: "use an analysis of kind `dynamics` or `statics`",
+            meaning: "A session advances a model step by step, which requires time steps or load steps.",
+            advice: "Use an analysis of kind `dynamics` or `statics`, or the function for the analysis of this kind.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Initial { 0 => error } => error.diagnostic(),
+    }
+
+    StartError {
+        OtherModel { what => what, found => found, wanted => wanted } => "state-of-other-model" {
+            cause: "the state has {found} {what}, but the model has {wanted}",
+            remedy: "use a state of this model",
+            meaning: "The numbers of nodes, coordinates or inputs of a given initial state differ from those of the model.",
+            advice: "Obtain the state from the prepared model itself, and change it.",
+        }
+        NotFinite {} => "state-not-finite" {
+            cause: "the state contains a number that is not finite",
+            remedy: "check the assigned positions and velocities",
+            meaning: "A position, velocity or other number of a given initial state is infinite or not a number.",
+            advice: "Check the expressions with which the state was changed.",
+        }
+        Violated { joint => joint, equation => equation, violation => violation } => "state-violates-joint" {
+            cause: "the positions of the state violate joint `{joint}` ({equation}) by {violation:.1e}",
+            remedy: "move all connected parts consistently, or change the positions in the model",
+            meaning: "A given initial state has positions at which a joint is open. Positions of states are not corrected.",
+            advice: "Move all connected parts consistently, or change the positions in the model and use `[assembly]`.",
+        }
+    } wraps {
+        Initial { 0 => error } => error.diagnostic(),
+    }
+
+    RunError {
+        Write { 0 => error } => "results-not-written" {
+            cause: "the results cannot be written: {error}",
+            remedy: "check the folder and the free disk space",
+            meaning: "A file of results could not be written during a run.",
+            advice: "Check the permissions of the folder and the free disk space.",
+        }
+    } wraps {
+        Step { 0 => error } => error.diagnostic(),
+    }
+
+    PathRunError {
+        Write { 0 => error } => "path-not-written" {
+            cause: "the results cannot be written: {error}",
+            remedy: "check the folder and the free disk space",
+            meaning: "A file of results could not be written while an equilibrium path was followed.",
+            advice: "Check the permissions of the folder and the free disk space.",
+        }
+    } wraps {
+        Path { 0 => error } => error.diagnostic(),
+        Model { 0 => report } => report.diagnostic(),
+    }
+
+    PathSessionError {
+        NotAPath { 0 => kind } => "path-kind" {
+            cause: "the analysis is of kind `{kind}`, not `path`",
+            remedy: "set `analysis.kind` to `path`",
+            meaning: "An equilibrium path was requested for a model with an analysis of another kind.",
+            advice: "Set `analysis.kind` to `path`.",
+        }
+        AlreadyCritical { path => path, load_factor => load_factor } => "path-loads-critical" {
+            cause: "`{path}` is varied from the equilibrium under the loads of the model, but they exceed a critical point at load \
+                    factor {load_factor:.6e}",
+            remedy: "start with smaller loads, or vary a parameter of the loads instead",
+            meaning: "A path along a number of the model starts from the equilibrium under its loads. It is ambiguous if the loads \
+                      exceed a critical point.",
+            advice: "Start with smaller loads, or vary a parameter of the loads instead.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Start { 0 => error } => error.diagnostic(),
+        NotLoaded { path => path, error => error } => error.diagnostic().within(&format!(
+            "`{path}` is varied from the equilibrium under the loads of the model, which is not found"
+        )),
+    }
+
+    ModesError {
+        Time { time => time, reason => reason } => "linearization-time" {
+            cause: "the model cannot be linearised at t = {time} s: {reason}",
+            remedy: "choose a time of the analysis, `static` or `undeformed`",
+            meaning: "The time `about` is outside of the analysis, or the analysis has no time steps.",
+            advice: "Choose a time of the analysis, `static` or `undeformed`.",
+        }
+        Shift { 0 => frequency } => "modes-shift" {
+            cause: "modes near {frequency} Hz were requested",
+            remedy: "the frequency must be a number that is not negative",
+            meaning: "The frequency near which modes are computed is negative or not a number.",
+            advice: "Choose a `shift` of zero or more, or none for the lowest modes.",
+        }
+        NotInEquilibrium { state => state, imbalance => imbalance, hint => hint } => "not-in-equilibrium" {
+            cause: "the {state} is not in equilibrium: unbalanced forces would move it by {imbalance:.1e} of the model's length, so \
+                    modes about it are not defined",
+            remedy: "{hint}",
+            meaning: "The model would start to move from the state of linearisation, so its linear equations describe no oscillation \
+                      about this state.",
+            advice: "Linearise about static equilibrium, or about the end of an analysis of kind `statics` with more load steps.",
+        }
+        Unsteady { 0 => change } => "rotation-not-steady" {
+            cause: "the velocities at the start are not a steady rotation: in the axes of the nodes they change by {change:.1e} of \
+                    their squares",
+            remedy: "remove gravity across the axis, loads fixed in space and other motions, which are not steady in rotating axes",
+            meaning: "Linearisation about `rotation` requires velocities that are constant in rotating axes.",
+            advice: "Remove gravity across the axis, loads fixed in space and motions other than the rotation.",
+        }
+        SteadyHereAlone { 0 => change } => "rotation-steady-at-azimuth" {
+            cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, such as \
+                    under gravity across the axis or other loads fixed in space",
+            remedy: "remove these loads (`--unset gravity`), or let gravity act along the axis",
+            meaning: "The velocities are steady at the azimuth of the start, but not at another one: a load is fixed in space.",
+            advice: "Remove loads that are fixed in space, or let gravity act along the axis.",
+        }
+        Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
+            cause: "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
+                    rotating and non-rotating parts are coupled across the axis, for example by a flexible support; there are no \
+                    multi-blade coordinates in which the coefficients are constant, because {reason}",
+            remedy: "such modes require Floquet theory, which is not implemented",
+            meaning: "The linear equations of a rotating model have periodic coefficients, so natural modes do not exist.",
+            advice: "Use at least three identical blades for multi-blade coordinates, a rigid support, or a simulation in time.",
+        }
+        Missing { 0 => missed } => "modes-missed" {
+            cause: "{missed} of the modes between the first and the last one were missed, according to the count of negative pivots",
+            remedy: "request another `count`; if very light parts make some frequencies thousands of times higher than others, \
+                     request fewer modes, or those near a frequency by `shift`",
+            meaning: "The search for modes found fewer modes than the factorisation counts in the interval.",
+            advice: "Request another `count`, or modes near a frequency by `shift`.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Initial { 0 => error } => error.diagnostic(),
+        Step { 0 => error } => error.diagnostic(),
+        Steady { 0 => error } => error.diagnostic(),
+        Linear { 0 => error } => error.diagnostic(),
+        Mode { 0 => error } => error.diagnostic(),
+    }
+
+    PortError {
+        Input { name => name, known => known } => "port-input" {
+            cause: "the model has no input `{name}`; its inputs are {known}",
+            remedy: "specify an entry of [inputs], a load or a prescribed motion",
+            meaning: "An input of a frequency response or linear model does not exist.",
+            advice: "Specify an entry of [inputs], a load or a prescribed motion.",
+        }
+        Ambiguous { name => name, meanings => meanings } => "port-ambiguous" {
+            cause: "`{name}` is ambiguous",
+            remedy: "write {meanings}",
+            meaning: "Several entries of the model have the name of a requested input.",
+            advice: "Write the table before the name, such as `loads.motor`.",
+        }
+        Output { name => name, known => known } => "port-output" {
+            cause: "the model has no output or output column `{name}`",
+            remedy: "its columns are {known}",
+            meaning: "An output of a frequency response or linear model does not exist.",
+            advice: "Specify an entry of [outputs], or a column of one.",
+        }
+        NotLinear { 0 => name } => "port-not-linear" {
+            cause: "the output `{name}` has no linear response",
+            remedy: "use positions, velocities, accelerations, reactions, section forces or signals",
+            meaning: "Energies, powers and other quantities of second order have no linear response.",
+            advice: "Use positions, velocities, accelerations, reactions, section forces or signals.",
+        }
+        WithoutEffect { 0 => name } => "port-without-effect" {
+            cause: "the input `{name}` has no effect: no load, state or requested output depends on it in this state",
+            remedy: "use another input, or a state in which it acts",
+            meaning: "The derivative of the equations and of all requested outputs with respect to an input is zero.",
+            advice: "Use another input, or a state in which it acts.",
+        }
+    } wraps {
+        Model { 0 => error } => error.diagnostic(),
+    }
+
+    FrequencyError {
+        Range { from => from, to => to } => "response-range" {
+            cause: "the frequencies are from {from} to {to} Hz",
+            remedy: "both must be greater than zero, and the first smaller than the last",
+            meaning: "The range of a frequency response is empty, or not positive.",
+            advice: "Specify two frequencies greater than zero, the smaller one first.",
+        }
+        RollsOn {} => "response-rolling" {
+            cause: "wheels are rolling in this state: their contacts move relative to the axes of the parts, in which responses are \
+                    computed",
+            remedy: "use a state at rest, or `lissom modes`, which supports axes that do not spin with the wheels",
+            meaning: "The linear equations of rolling wheels have constant coefficients only in axes that do not spin with them, which \
+                      frequency responses do not support.",
+            advice: "Linearise about a state at rest, or compute modes.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        State { 0 => error } => error.diagnostic(),
+        Port { 0 => error } => error.diagnostic(),
+        Response { frequency => frequency, error => error } => error.diagnostic().within(&format!("at {frequency} Hz")),
+    }
+
+    BucklingRunError {
+        AlreadyCritical { 0 => load_factor } => "buckling-loads-critical" {
+            cause: "the loads of the model exceed a critical load at load factor {load_factor:.6e}",
+            remedy: "reduce the loads, or follow the equilibrium path by an analysis of kind `path`",
+            meaning: "The linear estimate of buckling loads requires an equilibrium under loads below the first critical load.",
+            advice: "Reduce the loads, or follow the equilibrium path by an analysis of kind `path`.",
+        }
+        Missing { 0 => missed } => "load-factors-missed" {
+            cause: "{missed} of the load factors below the last one were missed, according to the count of negative pivots",
+            remedy: "request another `count`",
+            meaning: "The search for load factors found fewer of them than the factorisation counts in the interval.",
+            advice: "Request another `count`.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Path { 0 => error } => error.diagnostic(),
+        Linear { 0 => error } => error.diagnostic(),
+        Buckling { 0 => error } => error.diagnostic(),
+    }
+
+    CampbellError {
+        Range { path => path, from => from, to => to } => "campbell-range" {
+            cause: "`{path}` varies from {from} to {to}",
+            remedy: "both must be finite, and different",
+            meaning: "The range of the varied number of a Campbell diagram is empty or not finite.",
+            advice: "Specify two different finite numbers.",
+        }
+        Unlike { 0 => path } => "campbell-unknowns" {
+            cause: "a change of `{path}` changes the unknowns of the model, so modes cannot be tracked",
+            remedy: "vary a number that changes neither parts nor elements",
+            meaning: "Modes are tracked by their shapes, which requires the same unknowns for all values of the varied number.",
+            advice: "Vary a number that changes neither parts nor elements.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Modes { path => path, value => value, error => error } => {
+            error.diagnostic().within(&format!("at `{path}` = {value}"))
+        },
+    }
+
+    GradientError {
+        Column { name => name, known => known } => "gradient-column" {
+            cause: "the model has no output column `{name}`",
+            remedy: "its columns are {known}",
+            meaning: "The output to be differentiated does not exist.",
+            advice: "Specify a column of an entry of [outputs].",
+        }
+        Number { 0 => reason } => "gradient-number" {
+            cause: "{reason}",
+            remedy: "specify the path of a number in the model file",
+            meaning: "Derivatives are computed with respect to numbers that are written in the model file and are not zero.",
+            advice: "Specify the path of such a number, for example `bodies.top.mass` or `parameters.length`.",
+        }
+        Time { time => time, start => start, end => end } => "gradient-time" {
+            cause: "the output at t = {time} s was requested, but the analysis is from {start} to {end} s",
+            remedy: "choose a time of the analysis",
+            meaning: "The time at which an output is differentiated is outside of the analysis.",
+            advice: "Choose a time of the analysis.",
+        }
+        NotInTime { 0 => kind } => "gradient-kind" {
+            cause: "an analysis of kind `{kind}` has no time steps along which outputs are differentiated",
+            remedy: "use an analysis of kind `dynamics` or `statics`",
+            meaning: "Derivatives are computed along time steps or load steps.",
+            advice: "Use an analysis of kind `dynamics` or `statics`.",
+        }
+        Unlike { 0 => path } => "gradient-unknowns" {
+            cause: "a change of `{path}` changes the unknowns of the model, so there is no derivative with respect to it",
+            remedy: "choose a number that changes neither parts nor elements",
+            meaning: "The number of unknowns depends on the number with respect to which an output is differentiated.",
+            advice: "Choose a number that changes neither parts nor elements.",
+        }
+        KinkMoves { path => path, time => time } => "gradient-breakpoint" {
+            cause: "a change of `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s, at which a step ends",
+            remedy: "smooth it over several steps, or compare runs",
+            meaning: "Steps end at kinks and jumps of functions of time. Their derivative with respect to the time of the kink is not \
+                      computed.",
+            advice: "Smooth the function over several steps, or compare runs.",
+        }
+        Feedback {} => "gradient-feedback" {
+            cause: "outputs of models with feedback, states or sampled signals cannot be differentiated",
+            remedy: "remove loads and states whose signals depend on the motion",
+            meaning: "Derivatives along the motion are not implemented for feedback, states and sampled signals.",
+            advice: "Remove loads and states whose signals depend on the motion, or compare runs.",
+        }
+        InParts { 0 => time } => "gradient-bisected-step" {
+            cause: "the step to t = {time:.6e} s was bisected, and bisected steps cannot be differentiated: the whole step has no \
+                    solution, or a load or drive has a kink or jump there",
+            remedy: "choose a smaller step, steps that end at the kinks, or smooth them",
+            meaning: "Derivatives are not computed along steps that were bisected.",
+            advice: "Choose a smaller step, steps that end at kinks of loads and drives, or smooth these.",
+        }
+        NotSmooth { path => path } => "gradient-not-smooth" {
+            cause: "there is no derivative with respect to `{path}`: forces switch during the run, for example at a stop or a slack \
+                    spring, and differences of runs over two distances disagree",
+            remedy: "choose another time, a smaller `analysis.relative_tolerance`, or compare runs",
+            meaning: "The output is not smooth in this number, or a force switches at the time of the output.",
+            advice: "Choose another time, a smaller `analysis.relative_tolerance`, or compare runs.",
+        }
+        Denied { expected => expected, found => found } => "gradient-refuted" {
+            cause: "the derivatives add up to a change of {expected:e}, but runs of the model with perturbed numbers change by {found:e}",
+            remedy: "choose another time, because the output may have jumps or kinks nearby; if that does not help, report an error \
+                     of the program",
+            meaning: "The finite-difference check refutes the derivatives of `lissom gradient`: the output has a jump or a kink nearby.",
+            advice: "Use another time; if that does not help, it is an error of the program: please report it.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Initial { 0 => error } => error.diagnostic(),
+        Step { 0 => error } => error.diagnostic(),
+    }
+
+    ReduceError {
+        Question { 0 => reason } => "reduction-request" {
+            cause: "{reason}",
+            remedy: "",
+            meaning: "The parts, interfaces or modes requested for a reduction do not match the model, or have elements that a \
+                      superelement cannot represent.",
+            advice: "Follow the message: change the interfaces, or remove the named elements by `--unset`.",
+        }
+        Matrices { 0 => error } => "reduction-matrices" {
+            cause: "the reduced {error}, so the reduction cannot be used",
+            remedy: "check whether the parts are free to move as a rigid body",
+            meaning: "The reduced matrices are not those of a free part: rigid motions cause forces, or the mass is not positive.",
+            advice: "Remove connections of the parts to the ground, and check their masses.",
+        }
+        Archive { 0 => error } => "reduction-archive" {
+            cause: "the archive of matrices cannot be packed: {error}",
+            remedy: "reduce the number of modes or interfaces",
+            meaning: "The matrices exceed the size of a NumPy archive, or memory is insufficient.",
+            advice: "Reduce the number of modes or interfaces.",
+        }
+    } wraps {
+        State { 0 => error } => error.diagnostic(),
+        Reduction { 0 => error } => error.diagnostic(),
+    }
+
+    SweepError {
+        NotInTime { 0 => kind } => "sweep-kind" {
+            cause: "an analysis of kind `{kind}` has no history from which scalars are collected",
+            remedy: "use an analysis of kind `dynamics` or `statics`",
+            meaning: "Sweeps collect scalars from histories over time.",
+            advice: "Use an analysis of kind `dynamics` or `statics`.",
+        }
+        Column { name => name, column => column, known => known } => "sweep-column" {
+            cause: "`{name}` collects `{column}`, which the model does not record",
+            remedy: "{known}",
+            meaning: "A sweep collects a column that is not an output of the model.",
+            advice: "Specify a column of an entry of [outputs].",
+        }
+        NoExponent { name => name, column => column } => "sweep-exponent" {
+            cause: "`{name}` collects the damage equivalent range of `{column}`, whose output has no `woehler_exponent`",
+            remedy: "add it to the output",
+            meaning: "Damage equivalent ranges require the exponent of the Wöhler curve.",
+            advice: "Add `woehler_exponent` to the output.",
+        }
+        Event { name => name, event => event, known => known } => "sweep-event" {
+            cause: "`{name}` collects the time of the event `{event}`, which the model does not have",
+            remedy: "{known}",
+            meaning: "A sweep collects the time of an event that the model does not have.",
+            advice: "Specify an entry of [events].",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+    }
+
+    FmuError {
+        NotInTime { 0 => kind } => "unit-kind" {
+            cause: "an analysis of kind `{kind}` has no time steps, which a unit requires",
+            remedy: "use an analysis of kind `dynamics` or `statics`",
+            meaning: "A co-simulation unit advances its model in time.",
+            advice: "Use an analysis of kind `dynamics` or `statics`.",
+        }
+        SameName { 0 => name } => "unit-name" {
+            cause: "`{name}` would be the name of two variables",
+            remedy: "rename one of them in the model",
+            meaning: "The variables of a co-simulation unit (inputs, parameters, columns) must have distinct names.",
+            advice: "Rename one of them in the model.",
+        }
+        Archive { 0 => error } => "unit-archive" {
+            cause: "the archive cannot be created: {error}",
+            remedy: "check the free memory",
+            meaning: "The archive of a co-simulation unit could not be packed.",
+            advice: "Check the free memory, and the size of the included files.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+    }
+}
