@@ -3,6 +3,7 @@
 mod assembly;
 mod builder;
 mod constraints;
+pub mod element_quantity;
 mod feedback;
 mod parameter_difference;
 mod reading;
@@ -48,7 +49,7 @@ pub struct System {
     /// Numbering of the unknowns.
     pub layout: Layout,
     /// Elements by kind, then the targets of signals.
-    pub batches: Vec<Box<dyn AnyBatch>>,
+    pub batches: Vec<Arc<dyn AnyBatch>>,
     /// Joints, drives, couplings and sliders.
     pub constraints: Constraints,
     /// The joints by kind, in lanes.

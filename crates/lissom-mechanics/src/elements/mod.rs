@@ -40,6 +40,7 @@ pub use kinds::{LOADS, SPRINGS};
 
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Switch};
+use crate::signals::measurement::Gradient;
 use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
@@ -280,6 +281,12 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         None
     }
 
+    /// Derivatives of the three numbers of [`spring_motion`](Self::spring_motion) with respect to its local unknowns. Default:
+    /// zero.
+    fn spring_gradients(&self, _at: &Kinematics) -> [Gradient; 3] {
+        [Gradient::zero(); 3]
+    }
+
     /// Known breakpoints of its forces [s]. Default: none.
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
@@ -358,6 +365,7 @@ mod tests {
         assert!(<Bare as Element>::blocks(&[Bare]).is_none() && Bare::derivative(&[(&Bare, 1.0)]).is_none());
         assert_eq!(Bare.deformation_rate(at), None);
         assert_eq!(Bare.spring_motion(at), None);
+        assert_eq!(Bare.spring_gradients(at), [Gradient::zero(); 3]);
         assert_eq!(Bare.max_relative_rotation(at), None);
         for limit in LinearLimit::ALL {
             assert_eq!(Bare.linear_range(limit, at), None);

@@ -10,7 +10,7 @@ use super::scatter_map::{ScatterMap, free_rows};
 use super::scratch::with_scratch;
 use super::tangent_assembler::{Slot, TangentAssembler};
 use super::threads::Threads;
-use super::work::{power, work};
+use super::work::{power, power_gradient, work};
 use crate::elements::blocks::Blocks;
 use crate::elements::switch_states::SwitchStates;
 use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
@@ -19,6 +19,7 @@ use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
+use crate::signals::measurement::Gradient;
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -74,8 +75,20 @@ pub trait AnyBatch: Send + Sync {
     }
     /// Elongation, rate and force of a spring-like item.
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
+    /// Gradients of these three with respect to the item's local unknowns.
+    fn spring_gradients(&self, _item: usize, _at: &Kinematics) -> [Gradient; 3] {
+        [Gradient::zero(); 3]
+    }
+    /// Nodes and coordinates of an item, in the order of its local unknowns.
+    fn unknowns(&self, _item: usize) -> (&[NodeId], &[CoordinateId]) {
+        (&[], &[])
+    }
     /// Power of an item's forces [W].
     fn power(&self, item: usize, at: &Kinematics) -> f64;
+    /// Gradient of the power with respect to the item's local unknowns; none if there are more than those of a gradient.
+    fn power_gradient(&self, _item: usize, _at: &Kinematics) -> Option<Gradient> {
+        None
+    }
     /// Work of an item's forces between two configurations [J].
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
     /// Known breakpoints of forces [s].
@@ -386,8 +399,20 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.get(item)?.spring_motion(at)
     }
 
+    fn spring_gradients(&self, item: usize, at: &Kinematics) -> [Gradient; 3] {
+        self.items[item].spring_gradients(at)
+    }
+
+    fn unknowns(&self, item: usize) -> (&[NodeId], &[CoordinateId]) {
+        (self.items[item].nodes(), self.items[item].coordinates())
+    }
+
     fn power(&self, item: usize, at: &Kinematics) -> f64 {
         self.items.get(item).map_or(0.0, |item| power(item, at))
+    }
+
+    fn power_gradient(&self, item: usize, at: &Kinematics) -> Option<Gradient> {
+        power_gradient(self.items.get(item)?, at)
     }
 
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
