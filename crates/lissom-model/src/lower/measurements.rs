@@ -7,9 +7,9 @@ use lissom_core::system::Builder;
 
 use super::Names;
 use super::signals::relative_components;
-use crate::channel_components::{component_position, components_of_motion};
+use crate::channel_components::{component_position, components};
 use crate::document::{Document, Feeds, Output, OutputKind, OutputSource};
-use crate::outputs::{Subjects, source};
+use crate::outputs::{Build, Subjects, all_components};
 use crate::report::Problem;
 use crate::suggest;
 
@@ -104,16 +104,18 @@ fn of_output(
     let (start, resolver) = (builder.initial_kinematics(), names.resolver());
     let joint_frames = |joint: &str| builder.output_frames(joint);
     let subjects = Subjects { names: &resolver, drawn: &start, start: &start, joint_frames: &joint_frames };
-    let source = source(output, &subjects)?;
-    let Some((source, measurements)) =
-        source.and_then(|source| source.measurements().map(|measurements| (source, measurements)))
-    else {
+    let Build::Motion(build) = output.kind.build() else {
+        return of_solution(format!("`{owner}` has no gradient"));
+    };
+    let quantity = build(output, &subjects)?;
+    let measurements = all_components(quantity.measurements());
+    if measurements.is_empty() {
         let message =
             format!("`{owner}` lies between nodes of a beam, where only sampled signals can measure");
         return of_solution(message);
-    };
-    let quantity = |coordinate| builder.coordinate_quantity(coordinate);
-    let (known, _) = components_of_motion(output.kind, &source, &quantity);
+    }
+    let quantity_of = |coordinate| builder.coordinate_quantity(coordinate);
+    let (known, _) = components(output.kind, &*quantity, &quantity_of);
     match component_position(known.iter().map(String::as_str), component) {
         Some(index) => Ok(builder.add_component(measurements[index].clone())),
         None => unknown_component(owner, component, &known),

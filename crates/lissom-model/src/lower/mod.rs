@@ -34,10 +34,11 @@ use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
-use crate::channels::{self, Channel};
+use crate::channels::Channel;
 use crate::document::{Component, Document, NodeReference, interface_name};
 use crate::functions::Ramp;
 use crate::output_channels;
+use crate::outputs::Resolver;
 use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
@@ -240,8 +241,8 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
 }
 
 impl Names {
-    fn resolver(&self) -> channels::Resolver<'_> {
-        channels::Resolver {
+    fn resolver(&self) -> Resolver<'_> {
+        Resolver {
             nodes: &self.nodes,
             lines: &self.lines,
             deformations: &self.deformations,
