@@ -4,6 +4,7 @@ mod assembly;
 mod builder;
 mod constraints;
 pub mod element_quantity;
+pub mod energy_derivatives;
 mod feedback;
 mod parameter_difference;
 mod reading;
@@ -28,7 +29,7 @@ use lissom_solver::Structure;
 
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
-pub use feedback::{DrivenBatch, Feedback};
+pub use feedback::{DrivenBatch, Feedback, ScaledPower};
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
 use lissom_mechanics::elements::{Energy, LinearLimit, LinearRange};

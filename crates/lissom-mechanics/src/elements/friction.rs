@@ -194,6 +194,11 @@ impl Element for Friction {
         [value, rate, elastic.plus(self.viscous, &rate)]
     }
 
+    /// Of the bristle alone: the force of the coordinate is that of the bristle.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        out[1] += self.stiffness * fall.coordinates[self.coordinates[1]].value;
+    }
+
     fn energy(&self, at: &Kinematics) -> Energy {
         let deflection = at.coordinates[self.coordinates[1]].value;
         Energy { strain: 0.5 * self.stiffness * deflection * deflection, ..Energy::default() }

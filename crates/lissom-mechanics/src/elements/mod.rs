@@ -265,6 +265,15 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;
 
+    /// Adds the derivatives of its strain energy with respect to its local unknowns, from the configuration at rest and in free
+    /// `fall`, where neither inertia nor weight acts. Default, for elements whose other forces vanish there: their forces, unless
+    /// they are a load.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        if !self.is_load() {
+            self.forces(fall, out);
+        }
+    }
+
     /// Whether its forces supply or dissipate energy, so that their work is computed. Default: they do not. Stored
     /// energy is then reported by [`energy`](Self::energy), and dissipated energy is lost.
     fn is_load(&self) -> bool {

@@ -83,6 +83,19 @@ pub trait AnyBatch: Send + Sync {
     fn unknowns(&self, _item: usize) -> (&[NodeId], &[CoordinateId]) {
         (&[], &[])
     }
+    /// Passes the derivatives of every item's strain energy to `each`, with their rows; `fall` is the configuration at rest and in
+    /// free fall.
+    fn strain_slopes(&self, _fall: &Kinematics, _each: &mut dyn FnMut(&[u32], &[f64])) {}
+    /// Passes the mass matrix M of every item that has one to `each`, with the derivatives of M v with respect to positions: row by
+    /// row of the item's unknowns. `rest` is the configuration at rest, and `thrust` has the velocities v as accelerations.
+    fn mass_slopes(
+        &self,
+        _rest_thrust: (&Kinematics, &Kinematics),
+        _each: &mut dyn FnMut(&Mass<'_>, &[f64]),
+    ) {
+    }
+    /// Passes the angular momentum of items in addition to that of the masses to `each`, inertial axes, with the node that turns it.
+    fn angular_momenta(&self, _at: &Kinematics, _each: &mut dyn FnMut(NodeId, Vector3)) {}
     /// Power of an item's forces [W].
     fn power(&self, item: usize, at: &Kinematics) -> f64;
     /// Gradient of the power with respect to the item's local unknowns; none if there are more than those of a gradient.
@@ -393,6 +406,43 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn angular_momentum(&self, at: &Kinematics) -> Vector3 {
         self.items.iter().map(|item| item.angular_momentum(at)).sum()
+    }
+
+    fn strain_slopes(&self, fall: &Kinematics, each: &mut dyn FnMut(&[u32], &[f64])) {
+        for (index, item) in self.items.iter().enumerate() {
+            let rows = self.item_rows(index);
+            let mut local = vec![0.0; rows.len()];
+            item.strain_slopes(fall, &mut local);
+            each(rows, &local);
+        }
+    }
+
+    fn mass_slopes(
+        &self,
+        (rest, thrust): (&Kinematics, &Kinematics),
+        each: &mut dyn FnMut(&Mass<'_>, &[f64]),
+    ) {
+        let mut matrix = Vec::new();
+        for (index, item) in self.items.iter().enumerate() {
+            item.mass(thrust, &mut matrix);
+            if !matrix.is_empty() {
+                let rows = self.item_rows(index);
+                let [mut slopes, mut still] = [Tangents::new(rows.len()), Tangents::new(rows.len())];
+                item.linearize(thrust, &mut slopes);
+                item.linearize(rest, &mut still);
+                slopes.stiffness.iter_mut().zip(&still.stiffness).for_each(|(own, still)| *own -= still);
+                each(&Mass { nodes: item.nodes(), rows, matrix: &matrix }, &slopes.stiffness);
+                matrix.clear();
+            }
+        }
+    }
+
+    fn angular_momenta(&self, at: &Kinematics, each: &mut dyn FnMut(NodeId, Vector3)) {
+        for item in &self.items {
+            if let Some(&node) = item.nodes().first() {
+                each(node, item.angular_momentum(at));
+            }
+        }
     }
 
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]> {

@@ -68,6 +68,9 @@ impl Builder {
     ) -> bool {
         let Some(index) = element.batch else { return false };
         let batch = &*self.batches[index];
+        if of == Of::Spring && batch.spring_motion(element.item, &self.initial_kinematics()).is_none() {
+            return false;
+        }
         let Some(quantity) = ElementQuantity::new(of, batch, element.item).map(Arc::new) else {
             return false;
         };
