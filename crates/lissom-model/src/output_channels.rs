@@ -74,7 +74,7 @@ impl Made<'_> {
         };
         match output.kind.build() {
             Build::Motion(build) => build(output, &subjects),
-            Build::System(_, build) => build(output, self.system, &subjects),
+            Build::Element(_, build) | Build::System(_, build) => build(output, self.system, &subjects),
             Build::Accumulated(build) => {
                 self.check_motion(output)?;
                 let number = build(output, self.system, &subjects)?;

@@ -38,9 +38,9 @@ pub enum PortError {
         /// The existing outputs.
         known: String,
     },
-    /// Energy or momentum.
+    /// An accumulated number.
     #[error(
-        "the output `{0}` has no linear response: name positions, velocities, accelerations, reactions, section forces or signals"
+        "the output `{0}` has no linear response: it is accumulated from step to step; name a power or a relative coordinate instead"
     )]
     NotLinear(String),
     /// An input without effect.

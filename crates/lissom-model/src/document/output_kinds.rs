@@ -175,7 +175,7 @@ impl OutputKind {
     /// When signals can depend on it.
     pub(crate) fn feeds(self) -> Feeds {
         match self.declaration().build {
-            Build::Motion(_) | Build::Expression => Feeds::Signals,
+            Build::Motion(_) | Build::Element(..) | Build::Expression => Feeds::Signals,
             Build::System(reason, _) => Feeds::Samples(reason),
             Build::Accumulated(_) => Feeds::Samples("it is accumulated from step to step"),
         }

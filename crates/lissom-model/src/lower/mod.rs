@@ -111,6 +111,8 @@ pub struct Names {
     /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the
     /// signals are sampled.
     measured: BTreeMap<(String, bool), Argument>,
+    /// Those of them that are of elements, which are added after signals.
+    later_measurements: Vec<measurements::LaterMeasurement>,
     /// Those of them that are read at samples.
     readings: Vec<readings::NamedReading>,
     /// Outputs that are expressions and are being resolved, each named by the one before.

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use lissom_core::linear::OutputDerivatives;
 use lissom_core::system::System;
 
-use super::differences::Touched;
+use super::derivatives::of_local;
 use super::frames::name_of;
-use super::reaction::{multipliers, touched_by};
+use super::reaction::multipliers;
 use super::{Build, Evaluation, Found, OutputQuantity, SOLUTION, Subjects};
 use crate::document::{Declaration, Feature, Output, Subject};
 use crate::report::Problem;
@@ -54,7 +55,9 @@ impl OutputQuantity for OfJoint {
         out.extend(contact.forces.iter().chain(&contact.creepages));
     }
 
-    fn touched(&self, system: &System) -> Option<Touched> {
-        Some(touched_by(&system.joints()[self.0]))
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let joint = &at.system.joints()[self.0];
+        let found = joint.rail_contact_derivatives(at.motion(), &multipliers(joint, at.state))?;
+        Some(of_local(&found, joint.first_multiplier, at.system))
     }
 }

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use lissom_core::kinematics::local_derivatives::LocalDerivatives;
 use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId};
 use lissom_core::linear::{LinearModel, OutputDerivatives};
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Gradient};
+use lissom_core::system::energy_derivatives::Slopes;
 use lissom_core::system::{State, System};
 
 use super::Evaluation;
@@ -110,6 +112,42 @@ pub(super) fn of_gradient(
         add(&mut output.by_place, row as usize, gradient.by_place[slot]);
         add(&mut output.by_rate, row as usize, gradient.by_rate[slot]);
         add(&mut output.by_acceleration, row as usize, gradient.by_acceleration[slot]);
+    }
+    output
+}
+
+/// Derivatives of several numbers of a joint, by row.
+pub(super) fn of_local<const N: usize>(
+    of: &LocalDerivatives<N>,
+    first_multiplier: usize,
+    system: &System,
+) -> Vec<OutputDerivatives> {
+    let layout = system.layout();
+    let nodes = of.nodes.iter().flat_map(|&node| layout.rows_of_node(node).iter().copied());
+    let coordinates = of.coordinates.iter().map(|&own| layout.row_of_coordinate(own) as u32);
+    let mut outputs = vec![OutputDerivatives::default(); N];
+    for (slot, row) in nodes.chain(coordinates).enumerate().filter(|&(_, row)| row != LOCKED) {
+        for (k, output) in outputs.iter_mut().enumerate() {
+            add(&mut output.by_place, row as usize, of.by_place[slot][k]);
+            add(&mut output.by_rate, row as usize, of.by_rate[slot][k]);
+        }
+    }
+    for (equation, column) in of.by_multiplier.iter().enumerate() {
+        let row = multiplier_row(system, first_multiplier + equation);
+        outputs
+            .iter_mut()
+            .zip(column)
+            .for_each(|(output, &value)| add(&mut output.by_multiplier, row, value));
+    }
+    outputs
+}
+
+/// Derivatives of a number of the whole model.
+pub(super) fn of_slopes(of: &Slopes) -> OutputDerivatives {
+    let mut output = OutputDerivatives::default();
+    for (row, (&by_place, &by_rate)) in of.by_place.iter().zip(&of.by_rate).enumerate() {
+        add(&mut output.by_place, row, by_place);
+        add(&mut output.by_rate, row, by_rate);
     }
     output
 }

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Build, Evaluation, OutputQuantity, WITHOUT_GRADIENT};
+use lissom_core::linear::OutputDerivatives;
+
+use super::derivatives::{add_scaled, of_slopes};
+use super::{Build, Evaluation, OutputQuantity, WHOLE_MODEL};
 use crate::document::{Declaration, Feature, Subject};
 
 /// Registry entry.
@@ -12,7 +15,7 @@ pub(crate) const ENERGY: Declaration = Declaration {
     subject: Subject::Model,
     features: &[Feature::Rates],
     components: &[("kinetic", "J"), ("strain", "J"), ("potential", "J"), ("total", "J")],
-    build: Build::System(WITHOUT_GRADIENT, |_, _, _| Ok(Arc::new(Energy))),
+    build: Build::System(WHOLE_MODEL, |_, _, _| Ok(Arc::new(Energy))),
 };
 struct Energy;
 
@@ -20,5 +23,13 @@ impl OutputQuantity for Energy {
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
         let energy = at.system.energy(at.motion());
         out.extend([energy.kinetic, energy.strain, energy.potential, energy.total()]);
+    }
+
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let mut all = at.system.energy_slopes(at.motion()).each_ref().map(of_slopes).to_vec();
+        let mut total = OutputDerivatives::default();
+        all.iter().for_each(|own| add_scaled(&mut total, own, 1.0));
+        all.push(total);
+        Some(all)
     }
 }

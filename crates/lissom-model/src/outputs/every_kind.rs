@@ -11,7 +11,7 @@ use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
 use crate::channels::{Channel, signal_value};
-use crate::document::{Feeds, OutputKind};
+use crate::document::{Feature, Feeds, OutputKind};
 use crate::lower::registry::registry;
 use crate::lower::{Lowered, lower};
 use crate::outputs::Evaluation;
@@ -22,6 +22,9 @@ const MASS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 8\n1 1 
                     7 7 0.5\n7 1 0.1\n";
 const STIFFNESS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 1\n7 7 100\n";
 const RECOVERY: &str = "%%MatrixMarket matrix coordinate real general\n1 7 1\n1 7 3\n";
+
+/// Outputs of kinds that feed signals at all times, but of a reaction, a drive and a load that a signal scales.
+const AT_SAMPLES_ALONE: [&str; 3] = ["mixed", "drive_power", "scaled_power"];
 
 /// The model with more signals.
 fn lowered(signals: &str) -> Lowered {
@@ -86,7 +89,7 @@ fn signals_have_the_values_that_are_recorded() {
             let of = format!("{}.{component}", channel.name);
             // Writing to a string cannot fail.
             let _ = writeln!(signals, "sampled_{name} = {{ value = \"{of}\", sample = 1 }}");
-            if channel.kind.feeds() == Feeds::Signals && channel.name != "mixed" {
+            if channel.kind.feeds() == Feeds::Signals && !AT_SAMPLES_ALONE.contains(&&*channel.name) {
                 let _ = writeln!(signals, "at_all_times_{name} = \"{of}\"");
             }
         }
@@ -190,7 +193,8 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
             Box::new(move |of| at(&of.by_multiplier, row)),
         ));
     }
-    for own in 0..state.kinematics.held.len() {
+    // The sides of switches follow, which do not vary.
+    for own in 0..system.signals().first_side() {
         all.push((
             format!("held value {own}"),
             Box::new(move |state, change| state.kinematics.held[own] += change),
@@ -208,7 +212,7 @@ fn derivatives_are_those_of_differences() {
     let directions = directions(system, &state);
     for channel in &model.channels {
         let Some(found) = channel.derivatives_at(system, &state, 1.0) else {
-            assert!(channel.kind.feeds() != Feeds::Signals, "{} has no derivatives", channel.name);
+            assert!(channel.kind.has(Feature::Accumulated), "{} has no derivatives", channel.name);
             continue;
         };
         if channel.kind.feeds() == Feeds::Signals {

@@ -33,6 +33,7 @@ use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Qu
 use lissom_core::linear::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Measurement};
+use lissom_core::system::element_quantity;
 use lissom_core::system::{ElementId, State, System};
 
 use crate::channels::Channel;
@@ -114,6 +115,8 @@ pub(crate) type Found = Result<Arc<dyn OutputQuantity>, Problem>;
 pub(crate) enum Build {
     /// From what is known before the system is built, so that signals can depend on it.
     Motion(fn(&Output, &Subjects<'_>) -> Found),
+    /// From an element; signals depend on this quantity of it, which is known when the elements are added.
+    Element(element_quantity::Of, fn(&Output, &System, &Subjects<'_>) -> Found),
     /// From the system; why signals can depend on it at samples alone.
     System(&'static str, fn(&Output, &System, &Subjects<'_>) -> Found),
     /// The simulation accumulates it.
@@ -124,8 +127,8 @@ pub(crate) enum Build {
 
 /// Why signals can depend on a kind at samples alone: it follows from the solution of a step.
 const SOLUTION: &str = "it follows from the solution of a step";
-/// Why signals can depend on a kind at samples alone: it depends on the deformation of an element or the motion of the whole model.
-const WITHOUT_GRADIENT: &str = "it has no gradient for Newton's method";
+/// Why signals can depend on a kind at samples alone: the tangent of a load would be full.
+const WHOLE_MODEL: &str = "it depends on the motion of the whole model";
 
 /// Names resolved by the lowering.
 pub(crate) struct Resolver<'a> {

@@ -4,13 +4,14 @@ use std::slice::from_ref;
 use std::sync::Arc;
 
 use lissom_core::linear::OutputDerivatives;
+use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::Measurement;
 use lissom_core::system::element_quantity::Of;
-use lissom_core::system::{ElementId, System};
+use lissom_core::system::{ElementId, ScaledPower, System};
 
-use super::derivatives::{add, multiplier_row};
+use super::derivatives::{add, add_argument, add_scaled, multiplier_row, of_gradient};
 use super::frames::name_of;
-use super::{Build, Evaluation, Found, OutputQuantity, Resolver, Subjects, WITHOUT_GRADIENT};
+use super::{Build, Evaluation, Found, OutputQuantity, Resolver, Subjects};
 use crate::document::{Declaration, Feature, Output, Subject};
 use crate::report::{Located, Problem};
 
@@ -21,7 +22,7 @@ pub(crate) const POWER: Declaration = Declaration {
     subject: Subject::Actor,
     features: &[Feature::Rates],
     components: &[("power", "W")],
-    build: Build::System(WITHOUT_GRADIENT, quantity),
+    build: Build::Element(Of::Power, quantity),
 };
 /// What puts power into a model.
 #[derive(Clone, Copy)]
@@ -67,6 +68,16 @@ struct OfElement(ElementId);
 impl OutputQuantity for OfElement {
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
         out.push(at.system.power(self.0, at.motion()));
+    }
+
+    /// Of a load that a signal scales, by the product rule.
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let ScaledPower { signal, size, unit, gradient, nodes, coordinates } =
+            at.system.scaled_power(self.0, at.motion())?;
+        let mut own = OutputDerivatives::default();
+        add_argument(&mut own, unit, Argument::Signal(signal), at.system, at.motion());
+        add_scaled(&mut own, &of_gradient(&gradient, (nodes, coordinates), at.system), size);
+        Some(vec![own])
     }
 }
 

@@ -9,8 +9,7 @@ use lissom_core::linear::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{rotation_part, translation_part};
 
-use super::derivatives::{add, multiplier_row};
-use super::differences::Touched;
+use super::derivatives::{add, multiplier_row, of_local};
 use super::frames::name_of;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, SOLUTION, Subjects};
 use crate::channel_components::numbered;
@@ -67,17 +66,6 @@ pub(super) fn multipliers(joint: &AttachedJoint, state: &State) -> Equations {
     mu
 }
 
-/// The unknowns that the multipliers and creep forces of a joint depend on.
-pub(super) fn touched_by(joint: &AttachedJoint) -> Touched {
-    let mut touched = Touched::default();
-    touched.nodes.extend(joint.frames.iter().chain(&joint.output_frames).map(|frame| frame.node));
-    touched.coordinates.extend(&joint.coordinates);
-    // Forces against sliding are their rates.
-    touched.coordinates.extend(&joint.impulses);
-    touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
-    touched
-}
-
 /// Force and moment of a joint between two nodes.
 struct OfJoint {
     index: usize,
@@ -102,8 +90,15 @@ impl OutputQuantity for OfJoint {
         }
     }
 
-    fn touched(&self, system: &System) -> Option<Touched> {
-        Some(touched_by(&system.joints()[self.index]))
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let joint = &at.system.joints()[self.index];
+        let axes = match self.axes {
+            ReactionAxes::Ground => None,
+            ReactionAxes::Base => Some(joint.output_frames[0]),
+            ReactionAxes::Tip => Some(joint.output_frames[1]),
+        };
+        let found = joint.reaction_derivatives(at.motion(), &multipliers(joint, at.state), axes);
+        Some(of_local(&found, joint.first_multiplier, at.system))
     }
 }
 
@@ -126,11 +121,12 @@ impl OutputQuantity for OfSlider {
         out.extend(reaction.iter().take(count).flatten());
     }
 
-    fn touched(&self, system: &System) -> Option<Touched> {
-        let slider = &system.sliders()[self.index];
-        let multipliers = slider.first_multiplier..slider.first_multiplier + slider.equations();
-        // The moment turns with the tip and with the line.
-        (!self.is_aligned).then(|| Touched { multipliers, ..Touched::default() })
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let own = &at.system.sliders()[self.index];
+        let found = own.reaction_derivatives(at.motion(), &at.state.multipliers[own.first_multiplier..]);
+        let mut all = of_local(&found, own.first_multiplier, at.system);
+        all.truncate(if self.is_aligned { 6 } else { 3 });
+        Some(all)
     }
 }
 
@@ -152,12 +148,20 @@ impl OutputQuantity for OfCoupling {
         out.extend(coupling.forces(at.motion(), at.state.multipliers[coupling.multiplier]));
     }
 
-    fn touched(&self, system: &System) -> Option<Touched> {
-        let coupling = &system.couplings()[self.index];
-        let mut touched = Touched::default();
-        touched.coordinates.extend(&coupling.coordinates);
-        touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
-        Some(touched)
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let coupling = &at.system.couplings()[self.index];
+        let (slopes, hessian) = (coupling.slopes(at.motion()), coupling.hessian(at.motion()));
+        let mu = at.state.multipliers[coupling.multiplier];
+        let of = |k: usize| {
+            let mut own = OutputDerivatives::default();
+            add(&mut own.by_multiplier, multiplier_row(at.system, coupling.multiplier), -slopes[k]);
+            for (column, &coordinate) in hessian.iter().zip(&coupling.coordinates) {
+                let row = at.system.layout().row_of_coordinate(coordinate);
+                add(&mut own.by_place, row, -mu * column[k]);
+            }
+            own
+        };
+        Some((0..coupling.count()).map(of).collect())
     }
 }
 

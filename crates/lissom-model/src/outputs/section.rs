@@ -1,14 +1,14 @@
 //! Forces and moments in beams.
 
+use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_core::system::System;
-use lissom_motion::{Vector3, Vector6, rotation_part, translation_part};
+use lissom_core::kinematics::{Kinematics, NodeId};
+use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 
-use super::differences::Touched;
 use super::frames::{node_of, section};
 use super::location::BeamSection;
-use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WITHOUT_GRADIENT};
+use super::{Build, Found, OutputQuantity, Subjects};
 use crate::document::{Declaration, Feature, Output, Subject};
 
 /// Registry entry.
@@ -18,9 +18,7 @@ pub(crate) const SECTION_FORCE: Declaration = Declaration {
     subject: Subject::Section,
     features: &[Feature::Fatigue],
     components: &[("f1", "N"), ("f2", "N"), ("f3", "N")],
-    build: Build::System(WITHOUT_GRADIENT, |output, _, subjects| {
-        quantity(translation_part, output, subjects)
-    }),
+    build: Build::Motion(|output, subjects| quantity(0, output, subjects)),
 };
 /// Registry entry.
 pub(crate) const SECTION_MOMENT: Declaration = Declaration {
@@ -29,25 +27,55 @@ pub(crate) const SECTION_MOMENT: Declaration = Declaration {
     subject: Subject::Section,
     features: &[Feature::Fatigue],
     components: &[("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
-    build: Build::System(WITHOUT_GRADIENT, |output, _, subjects| quantity(rotation_part, output, subjects)),
+    build: Build::Motion(|output, subjects| quantity(3, output, subjects)),
 };
-/// A part of the forces and moments of a section.
+/// Force or moment of a section.
 struct OfSection {
     section: BeamSection,
-    part: fn(&Vector6) -> Vector3,
+    nodes: Vec<NodeId>,
+    /// Position of its first component among those of force and moment.
+    first: usize,
 }
 
-fn quantity(part: fn(&Vector6) -> Vector3, output: &Output, subjects: &Subjects<'_>) -> Found {
+fn quantity(first: usize, output: &Output, subjects: &Subjects<'_>) -> Found {
     let (node, point) = node_of(output)?;
-    Ok(Arc::new(OfSection { section: section(node, point, subjects)?, part }))
+    let section = section(node, point, subjects)?;
+    let nodes = section.nodes.iter().map(|(node, _)| *node).collect();
+    Ok(Arc::new(MeasuredSection(Arc::new(OfSection { section, nodes, first }))))
 }
 
-impl OutputQuantity for OfSection {
-    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
-        out.extend_from_slice((self.part)(&self.section.forces(at.motion())).as_slice());
+/// The same as an output.
+struct MeasuredSection(Arc<dyn Measurement>);
+
+impl OutputQuantity for MeasuredSection {
+    fn measurements(&self) -> &[Arc<dyn Measurement>] {
+        from_ref(&self.0)
+    }
+}
+
+impl Measurement for OfSection {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
     }
 
-    fn touched(&self, _: &System) -> Option<Touched> {
-        Some(Touched { nodes: self.section.nodes().collect(), ..Touched::default() })
+    fn component_count(&self) -> usize {
+        3
+    }
+
+    fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
+        let mut values = [0.0; MAX_COMPONENTS];
+        let forces = self.section.probe.section_forces_at(at, self.section.xi);
+        values[..3].copy_from_slice(&forces.as_slice()[self.first..self.first + 3]);
+        values
+    }
+
+    fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
+        let found = self.section.probe.section_force_derivatives_at(at, self.section.xi);
+        let mut gradient = Gradient::zero();
+        for (slot, (by_place, by_rate)) in found.by_place.iter().zip(&found.by_rate).enumerate() {
+            gradient.by_place[slot] = by_place[self.first + component];
+            gradient.by_rate[slot] = by_rate[self.first + component];
+        }
+        gradient
     }
 }

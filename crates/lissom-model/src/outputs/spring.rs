@@ -9,8 +9,8 @@ use lissom_core::system::System;
 use lissom_core::system::element_quantity::Of;
 
 use super::frames::name_of;
-use super::{Build, Found, NamesAndUnits, OutputQuantity, Subjects, WITHOUT_GRADIENT};
-use crate::document::{Declaration, Feature, Output, Subject};
+use super::{Build, Found, NamesAndUnits, OutputQuantity, Subjects};
+use crate::document::{Declaration, Feature, Output, OutputComponent, Subject};
 use crate::report::Problem;
 
 /// Registry entry.
@@ -20,7 +20,7 @@ pub(crate) const SPRING: Declaration = Declaration {
     subject: Subject::Spring,
     features: &[Feature::Fatigue, Feature::Rates],
     components: &[("elongation", "m"), ("rate", "m/s"), ("force", "N")],
-    build: Build::System(WITHOUT_GRADIENT, quantity),
+    build: Build::Element(Of::Spring, quantity),
 };
 /// Motion of a spring with its force.
 struct Spring {
@@ -43,11 +43,18 @@ fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found 
     Ok(Arc::new(spring))
 }
 
+/// Components of a spring whose elongation is of this quantity.
+pub(crate) fn components_of(elongation: Quantity) -> &'static [OutputComponent] {
+    match elongation {
+        Quantity::Angle => &[("rotation", "rad"), ("rate", "rad/s"), ("moment", "N m")],
+        Quantity::Length | Quantity::State => SPRING.components,
+    }
+}
+
 impl OutputQuantity for Spring {
     fn components(&self, _: &dyn Fn(CoordinateId) -> Quantity) -> Option<NamesAndUnits> {
-        let of_angle = [("rotation", "rad"), ("rate", "rad/s"), ("moment", "N m")];
-        let is_angle = self.elongation == Quantity::Angle;
-        is_angle.then(|| of_angle.map(|(word, unit)| (word.to_owned(), unit)).to_vec())
+        let words = components_of(self.elongation).iter();
+        Some(words.map(|&(word, unit)| (word.to_owned(), unit)).collect())
     }
 
     fn measurements(&self) -> &[Arc<dyn Measurement>] {
