@@ -606,5 +606,5 @@ fn moments_and_powers_of_springs_are_fed_back() {
         "{}{repeated}[outputs.work]\nkind = \"power\"\nof = \"again\"\n[states]\ns = {{ derivative = \"work.power\", start = 0 }}\n",
         spring(100.0, 4.0)
     );
-    assert!(refused(&arm(&scaled, "end = 1\nstep = 1e-3")).contains("a load that a signal scales"));
+    assert!(refused(&arm(&scaled, "end = 1\nstep = 1e-3")).contains("add `sample` to the signal"));
 }

@@ -1,11 +1,11 @@
-//! Derivatives by differences of sixth order, exact to about twelve digits, of quantities without formulas for them:
+//! Derivatives by differences of sixth order, exact to about twelve digits, of quantities without formulas for them: accelerations of
+//! coordinates, and motions of sections between nodes.
 //!
 //! ```text
 //! f' ≈ (3/4 (f₁ - f₋₁) - 3/20 (f₂ - f₋₂) + 1/60 (f₃ - f₋₃)) / h
 //! ```
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 use lissom_core::kinematics::{CoordinateId, GROUND, LOCKED, NodeId};
 use lissom_core::linear::OutputDerivatives;
@@ -13,11 +13,11 @@ use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
 use super::Evaluation;
-use super::derivatives::{add, multiplier_row};
+use super::derivatives::add;
 use crate::channels::Channel;
 
-/// Angle, and part of a length, by which positions are moved, and part of the units of velocities and forces, since creep
-/// forces saturate with both: far above round-off, and its sixth power far below.
+/// Angle, and part of a length, by which positions are moved, and part of the units of velocities: far above round-off, and its sixth
+/// power far below.
 const APART: f64 = 2e-3;
 /// Weights of the differences.
 const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
@@ -27,7 +27,6 @@ const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
 pub(crate) struct Touched {
     pub(super) nodes: BTreeSet<NodeId>,
     pub(super) coordinates: BTreeSet<CoordinateId>,
-    pub(super) multipliers: Range<usize>,
 }
 
 /// Derivatives of a channel by differences; none where it does not state what it depends on.
@@ -74,12 +73,6 @@ pub(super) fn of(channel: &Channel, at: &Evaluation<'_>, length: f64) -> Option<
             .iter_mut()
             .zip(found)
             .for_each(|(output, value)| add(&mut output.by_acceleration, row, value));
-    }
-    for multiplier in touched.multipliers {
-        let unit = difference.state.multipliers[multiplier].abs().max(1.0);
-        let found = difference.of(APART * unit, |state, change| state.multipliers[multiplier] += change);
-        let row = multiplier_row(system, multiplier);
-        outputs.iter_mut().zip(found).for_each(|(output, value)| add(&mut output.by_multiplier, row, value));
     }
     Some(outputs)
 }

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use lissom_core::joints::MAX_COORDINATES;
 use lissom_core::joints::slider::Slider;
 use lissom_core::kinematics::{CoordinateId, Kinematics, Quantity};
+use lissom_core::linear::OutputDerivatives;
 use lissom_core::system::System;
 
+use super::derivatives::add;
 use super::differences::Touched;
 use super::frames::name_of;
 use super::relative::coordinates;
@@ -66,6 +68,20 @@ impl OutputQuantity for Accelerations {
                 out.extend(self.coordinates.iter().map(own));
             }
         }
+    }
+
+    /// Exact where the coordinates are unknowns with accelerations of their own.
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let is_of_slider = |own| at.system.sliders().iter().any(|slider| slider.coordinate == own);
+        if self.owners.is_some() || self.coordinates.iter().any(|&own| is_of_slider(own)) {
+            return None;
+        }
+        let of = |&own: &CoordinateId| {
+            let mut output = OutputDerivatives::default();
+            add(&mut output.by_acceleration, at.system.layout().row_of_coordinate(own), 1.0);
+            output
+        };
+        Some(self.coordinates.iter().map(of).collect())
     }
 
     fn touched(&self, system: &System) -> Option<Touched> {
