@@ -7,6 +7,7 @@
 //! ```
 
 use super::System;
+use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::evaluation::batch::Mass;
 use lissom_mechanics::kinematics::{GROUND, Kinematics, split};
 use lissom_motion::{Matrix6, Vector3, Vector6, screw};
@@ -36,8 +37,7 @@ impl Moving<'_> {
 
     /// Derivatives of the momenta of the local node `node`, in its axes.
     fn of_node(&self, node: usize, column: usize) -> [Vector6; 2] {
-        let parts = [0, 1].map(|k| Vector6::from_fn(|i, _| self.entries(6 * node + i, column)[k]));
-        parts
+        [0, 1].map(|k| Vector6::from_fn(|i, _| self.entries(6 * node + i, column)[k]))
     }
 }
 
@@ -45,7 +45,7 @@ impl System {
     /// Derivatives of kinetic, strain and potential energy.
     pub fn energy_slopes(&self, at: &Kinematics) -> [Slopes; 3] {
         let [mut kinetic, mut strain, mut potential] = [(); 3].map(|()| self.no_slopes());
-        let fall = self.stopped(at, |at, node| {
+        let fall = stopped(at, |at, node| {
             let weight = at.nodes[node].frame.rotation.apply_inverse(&self.gravity.at(at.time));
             screw(&weight, &Vector3::zeros())
         });
@@ -69,6 +69,14 @@ impl System {
                 }
             }
         });
+        for CoordinateMass { coordinates, matrix } in &self.coordinate_masses {
+            for (i, &own) in coordinates.iter().enumerate() {
+                let momentum = coordinates.iter().enumerate();
+                let momentum: f64 =
+                    momentum.map(|(k, &k_own)| matrix[(i, k)] * at.coordinates[k_own].rate).sum();
+                add(&mut kinetic.by_rate, self.layout.coordinate_rows[own], momentum);
+            }
+        }
         [kinetic, strain, potential]
     }
 
@@ -127,19 +135,6 @@ impl System {
         Slopes { by_place: zeros.clone(), by_rate: zeros }
     }
 
-    /// The same configuration without velocities; `acceleration` is that of a node.
-    fn stopped(&self, at: &Kinematics, acceleration: impl Fn(&Kinematics, usize) -> Vector6) -> Kinematics {
-        let mut stopped = at.clone();
-        for (index, node) in stopped.nodes.iter_mut().enumerate() {
-            node.acceleration = if index == GROUND { Vector6::zeros() } else { acceleration(at, index) };
-            node.twist = Vector6::zeros();
-        }
-        for own in &mut stopped.coordinates {
-            (own.rate, own.acceleration) = (0.0, 0.0);
-        }
-        stopped
-    }
-
     /// Every mass, of nodes and of elements.
     fn each_mass(&self, at: &Kinematics, mut each: impl FnMut(&Moving<'_>)) {
         for inertia in &self.inertias {
@@ -150,8 +145,8 @@ impl System {
             let mass = Mass { nodes: &[node], rows, matrix: matrix.as_slice() };
             each(&Moving { mass, by_place: None });
         }
-        let rest = self.stopped(at, |_, _| Vector6::zeros());
-        let mut thrust = self.stopped(at, |at, node| at.nodes[node].twist);
+        let rest = stopped(at, |_, _| Vector6::zeros());
+        let mut thrust = stopped(at, |at, node| at.nodes[node].twist);
         for (own, moving) in thrust.coordinates.iter_mut().zip(&at.coordinates) {
             own.acceleration = moving.rate;
         }
@@ -162,6 +157,19 @@ impl System {
             });
         }
     }
+}
+
+/// The same configuration without velocities; `acceleration` is that of a node.
+fn stopped(at: &Kinematics, acceleration: impl Fn(&Kinematics, usize) -> Vector6) -> Kinematics {
+    let mut stopped = at.clone();
+    for (index, node) in stopped.nodes.iter_mut().enumerate() {
+        node.acceleration = if index == GROUND { Vector6::zeros() } else { acceleration(at, index) };
+        node.twist = Vector6::zeros();
+    }
+    for own in &mut stopped.coordinates {
+        (own.rate, own.acceleration) = (0.0, 0.0);
+    }
+    stopped
 }
 
 /// Adds to the entry of a row, unless the row is locked or of a multiplier.

@@ -599,12 +599,7 @@ fn moments_and_powers_of_springs_are_fed_back() {
     let quarter = 0.5 * std::f64::consts::PI / (200.0 / INERTIA).sqrt();
     let time = session.progress().time;
     assert!((time - quarter).abs() < 1e-6, "{time} {quarter}");
-    // Names that are no component, and powers that another signal scales.
+    // A name that is no component.
     let wrong = format!("{}[signals]\nbad = \"pull.force\"\n", spring(200.0, 0.0));
     assert!(refused(&arm(&wrong, "end = 1\nstep = 1e-3")).contains("`pull` has no component `force`"));
-    let scaled = format!(
-        "{}{repeated}[outputs.work]\nkind = \"power\"\nof = \"again\"\n[states]\ns = {{ derivative = \"work.power\", start = 0 }}\n",
-        spring(100.0, 4.0)
-    );
-    assert!(refused(&arm(&scaled, "end = 1\nstep = 1e-3")).contains("add `sample` to the signal"));
 }

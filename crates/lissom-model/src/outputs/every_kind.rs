@@ -15,7 +15,7 @@ use crate::document::{Feature, Feeds, OutputKind};
 use crate::lower::registry::registry;
 use crate::lower::{Lowered, lower};
 use crate::outputs::Evaluation;
-use crate::{Library, ModelText};
+use crate::{Library, ModelText, Report};
 
 const MODEL: &str = include_str!("../../tests/every_output.toml");
 const MASS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 8\n1 1 1\n2 2 1\n3 3 1\n4 4 0.1\n5 5 0.2\n6 6 0.25\n\
@@ -28,6 +28,11 @@ const AT_SAMPLES_ALONE: [&str; 3] = ["mixed", "drive_power", "scaled_power"];
 
 /// The model with more signals.
 fn lowered(signals: &str) -> Lowered {
+    attempt(signals).unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+/// The model with more signals, or why there is none.
+fn attempt(signals: &str) -> Result<Lowered, Report> {
     let files = [("mass.mtx", MASS), ("stiffness.mtx", STIFFNESS), ("recovery.mtx", RECOVERY)];
     let library = Library::of_texts(files.map(|(path, text)| (path.to_owned(), text.to_owned())));
     let text = MODEL.replacen("[signals]\n", &format!("[signals]\n{signals}"), 1);
@@ -35,7 +40,7 @@ fn lowered(signals: &str) -> Lowered {
         .unwrap_or_else(|report| panic!("{}", report.render(false)));
     let document =
         text.document(&registry(), &[]).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    lower(&document).unwrap_or_else(|report| panic!("{}", report.render(false)))
+    lower(&document)
 }
 
 fn waves(seed: f64) -> Vector6 {
@@ -118,6 +123,15 @@ fn signals_have_the_values_that_are_recorded() {
         assert!(compared.contains_key(&(kind.name(), "sampled")), "{}", kind.name());
         let feeds = kind.feeds() == Feeds::Signals;
         assert_eq!(compared.contains_key(&(kind.name(), "at_all_times")), feeds, "{}", kind.name());
+    }
+}
+
+#[test]
+fn powers_of_drives_and_scaled_loads_are_available_at_samples_alone() {
+    for name in ["drive_power", "scaled_power"] {
+        let refused = attempt(&format!("at_all_times = \"{name}.power\"\n")).err();
+        let report = refused.expect("there is no gradient").render(false);
+        assert!(report.contains("add `sample`"), "{report}");
     }
 }
 
