@@ -28,7 +28,9 @@ impl OutputQuantity for Energy {
     fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
         let mut all = at.system.energy_slopes(at.motion()).each_ref().map(of_slopes).to_vec();
         let mut total = OutputDerivatives::default();
-        all.iter().for_each(|own| add_scaled(&mut total, own, 1.0));
+        for own in &all {
+            add_scaled(&mut total, own, 1.0);
+        }
         all.push(total);
         Some(all)
     }

@@ -175,13 +175,11 @@ pub(super) fn name_of(output: &Output) -> Result<&Located<String>, Problem> {
 
 /// The node of an output, and the point that it carries.
 pub(super) fn node_of(output: &Output) -> Result<(&Located<NodeReference>, Option<&Vector3>), Problem> {
-    match &output.source {
-        OutputSource::Node { node, point } => Ok((node, point.as_ref())),
-        _ => {
-            let message = format!("output `{}` names no node", output.name.value);
-            Err(Problem::error(output.name.span, message))
-        }
+    if let OutputSource::Node { node, point } = &output.source {
+        return Ok((node, point.as_ref()));
     }
+    let message = format!("output `{}` names no node", output.name.value);
+    Err(Problem::error(output.name.span, message))
 }
 
 fn unknown(node: &Located<NodeReference>, name: &str) -> Problem {

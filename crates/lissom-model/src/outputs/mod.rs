@@ -111,6 +111,9 @@ pub(crate) fn all_components(measurements: &[Arc<dyn Measurement>]) -> Vec<Compo
 /// A quantity, or why there is none.
 pub(crate) type Found = Result<Arc<dyn OutputQuantity>, Problem>;
 
+/// A number that the simulation accumulates, or why there is none.
+pub(crate) type FoundNumber = Result<Arc<dyn Accumulated>, Problem>;
+
 /// How the quantity of an output is found.
 pub(crate) enum Build {
     /// From what is known before the system is built, so that signals can depend on it.
@@ -120,7 +123,7 @@ pub(crate) enum Build {
     /// From the system; why signals can depend on it at samples alone.
     System(&'static str, fn(&Output, &System, &Subjects<'_>) -> Found),
     /// The simulation accumulates it.
-    Accumulated(fn(&Output, &System, &Subjects<'_>) -> Result<Arc<dyn Accumulated>, Problem>),
+    Accumulated(fn(&Output, &System, &Subjects<'_>) -> FoundNumber),
     /// From other outputs.
     Expression,
 }

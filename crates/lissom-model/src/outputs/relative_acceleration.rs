@@ -57,16 +57,15 @@ impl OutputQuantity for Accelerations {
     }
 
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
-        match &self.owners {
-            Some(owners) => out.extend(owners.iter().map(|&(joint, own)| {
+        if let Some(owners) = &self.owners {
+            out.extend(owners.iter().map(|&(joint, own)| {
                 let all: [f64; MAX_COORDINATES] =
                     at.system.joints()[joint].coordinate_accelerations(at.motion());
                 all[own]
-            })),
-            None => {
-                let own = |&own: &CoordinateId| free_acceleration(at.system, own, at.motion());
-                out.extend(self.coordinates.iter().map(own));
-            }
+            }));
+        } else {
+            let own = |&own: &CoordinateId| free_acceleration(at.system, own, at.motion());
+            out.extend(self.coordinates.iter().map(own));
         }
     }
 
