@@ -3,90 +3,18 @@
 
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::signals::coordinate::Of;
-use lissom_core::system::System;
 
-use crate::channels::{Source, is_aligned};
-use crate::document::{OutputComponent, OutputKind};
+use crate::document::OutputKind;
+use crate::outputs::OutputQuantity;
 
-/// Names and units of the components of a kind of output.
+/// Names and units of the components of a quantity of a kind; `quantity_of` is that of a coordinate.
 pub(crate) fn components(
     kind: OutputKind,
-    source: &Source,
-    system: &System,
+    quantity: &dyn OutputQuantity,
+    quantity_of: &dyn Fn(CoordinateId) -> Quantity,
 ) -> (Vec<String>, Vec<&'static str>) {
-    let words = |components: &[OutputComponent]| {
-        components.iter().map(|&(word, unit)| (word.to_owned(), unit)).unzip()
-    };
-    match (kind, source) {
-        (OutputKind::Reaction, Source::Slider(index)) if !is_aligned(system, *index) => {
-            words(&kind.components()[..3])
-        }
-        (OutputKind::Reaction, Source::Drive(index)) => {
-            words(&[effort(system, system.drives()[*index].prescribed.coordinate)])
-        }
-        (OutputKind::Reaction, Source::Coupling(index)) => {
-            let coordinates = system.couplings()[*index].coordinates.iter();
-            let (words, units): (Vec<&str>, Vec<&'static str>) =
-                coordinates.map(|&coordinate| effort(system, coordinate)).unzip();
-            (numbered(&words), units)
-        }
-        (OutputKind::RelativeAcceleration, Source::Accelerations(owners)) => {
-            let of = |&(joint, own): &(usize, usize)| system.joints()[joint].coordinates[own];
-            accelerations(owners.iter().map(of).collect(), system)
-        }
-        (OutputKind::RelativeAcceleration, Source::FreeAccelerations(coordinates)) => {
-            accelerations(coordinates.clone(), system)
-        }
-        (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
-            words(&[("rotation", "rad"), ("rate", "rad/s"), ("moment", "N m")])
-        }
-        (OutputKind::Recovered, Source::Recovered(_, matrix)) => {
-            (1..=matrix.nrows()).map(|k| (format!("r{k}"), "")).unzip()
-        }
-        _ => {
-            components_of_motion(kind, source, &|coordinate| system.layout().coordinate_quantity(coordinate))
-        }
-    }
-}
-
-/// Names and units of the components of a source that needs nothing but the motion.
-pub(crate) fn components_of_motion(
-    kind: OutputKind,
-    source: &Source,
-    quantity: &dyn Fn(CoordinateId) -> Quantity,
-) -> (Vec<String>, Vec<&'static str>) {
-    match source {
-        Source::Coordinates(coordinates) => {
-            let quantities: Vec<Quantity> = coordinates.iter().map(|&own| quantity(own)).collect();
-            coordinate_components(&quantities).into_iter().map(|own| (own.name, own.unit)).unzip()
-        }
-        Source::Line(points) => {
-            let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
-            (0..points.len()).flat_map(of).unzip()
-        }
-        Source::Modal(unknowns) => {
-            let of = |k: usize| ["q", "v"].map(|letter| (format!("{letter}{k}"), ""));
-            (1..=unknowns.coordinates().len()).flat_map(of).unzip()
-        }
-        _ => kind.components().iter().map(|&(word, unit)| (word.to_owned(), unit)).unzip(),
-    }
-}
-
-/// What acts along a coordinate.
-fn effort(system: &System, coordinate: CoordinateId) -> OutputComponent {
-    match system.layout().coordinate_quantity(coordinate) {
-        Quantity::Angle => ("moment", "N m"),
-        Quantity::Length | Quantity::State => ("force", "N"),
-    }
-}
-
-/// Components and units of accelerations of coordinates.
-fn accelerations(coordinates: Vec<CoordinateId>, system: &System) -> (Vec<String>, Vec<&'static str>) {
-    let unit = |coordinate| match system.layout().coordinate_quantity(coordinate) {
-        Quantity::Angle => "rad/s²",
-        Quantity::Length | Quantity::State => "m/s²",
-    };
-    (numbered(&vec!["a"; coordinates.len()]), coordinates.into_iter().map(unit).collect())
+    let of_kind = || kind.components().iter().map(|&(word, unit)| (word.to_owned(), unit)).collect();
+    quantity.components(quantity_of).unwrap_or_else(of_kind).into_iter().unzip()
 }
 
 /// A value or a rate of a joint's coordinates, with the name that outputs, expressions and equations have for it.
@@ -114,7 +42,7 @@ pub(crate) fn coordinate_components(quantities: &[Quantity]) -> Vec<CoordinateCo
 }
 
 /// Names of components: a word, and a number from 1 where several components of an output have the same word.
-fn numbered(words: &[&str]) -> Vec<String> {
+pub(crate) fn numbered(words: &[&str]) -> Vec<String> {
     let alike = |own: &[&str], word: &str| own.iter().filter(|other| **other == word).count();
     let name = |(index, word): (usize, &&str)| match alike(words, word) {
         1 => (*word).to_owned(),

@@ -3,9 +3,7 @@
 //! A TOML text becomes a validated plain-data [`Document`], or a [`Report`] that names every
 //! mistake with its position and a remedy. Results leave as tables, summaries and plots. No physics is done here.
 
-mod accumulated;
 mod channel_components;
-mod channel_derivatives;
 pub mod channels;
 mod context;
 mod data_file;
@@ -39,7 +37,6 @@ mod schema;
 pub mod sections;
 mod solid;
 mod suggest;
-mod superelement_channels;
 mod surface;
 pub mod sweep;
 mod synonyms;

@@ -4,16 +4,15 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use lissom_core::analysis::accumulated::Accumulated;
-use lissom_core::kinematics::{CarriedFrame, GROUND};
 use lissom_core::system::{State, System};
-use lissom_motion::Vector3;
 
-use crate::accumulated::{Actor, AngleAboutAxis, Work};
 use crate::channel_components::{component_position, components};
-use crate::channels::{Channel, Resolver, Source, source};
-use crate::document::{AnalysisKind, Document, Feature, Output, OutputKind, OutputSource, ReactionAxes};
+use crate::channels::Channel;
+use crate::document::{AnalysisKind, Document, Output, OutputKind, OutputSource, ReactionAxes};
 use crate::expression::Formula;
-use crate::outputs::{Subjects, carried_frame};
+use crate::outputs::expression::Expression;
+use crate::outputs::signal::SignalValue;
+use crate::outputs::{Build, Evaluation, Found, OutputQuantity, Resolver, Subjects};
 use crate::report::{Located, Problem, Span};
 use crate::suggest;
 
@@ -52,17 +51,17 @@ struct Made<'a> {
 impl Made<'_> {
     /// The channel of an output; `path` are the expressions that led to it.
     fn channel(&self, output: &Output, path: &mut Vec<String>) -> Result<Channel, Problem> {
-        let source = match &output.source {
+        let quantity = match &output.source {
             OutputSource::Expression(formula) => self.expression(output, formula, path)?,
-            _ if output.kind.has(Feature::Accumulated) => self.accumulated(output)?,
-            _ => self.source(output)?,
+            _ => self.quantity(output)?,
         };
-        let (components, units) = components(output.kind, &source, self.system);
+        let quantity_of = |coordinate| self.system.layout().coordinate_quantity(coordinate);
+        let (components, units) = components(output.kind, &*quantity, &quantity_of);
         let (name, kind, fatigue) = (output.name.value.clone(), output.kind, output.fatigue);
-        Ok(Channel { name, kind, components, units, fatigue, source })
+        Ok(Channel { name, kind, components, units, fatigue, quantity })
     }
 
-    fn source(&self, output: &Output) -> Result<Source, Problem> {
+    fn quantity(&self, output: &Output) -> Found {
         let joint_frames = |name: &str| {
             let mut joints = self.system.joints().iter();
             joints.find(|joint| joint.name == name).map(|joint| joint.output_frames)
@@ -73,50 +72,38 @@ impl Made<'_> {
             start: &self.state.kinematics,
             joint_frames: &joint_frames,
         };
-        source(output, self.system, self.state, &subjects)
+        match output.kind.build() {
+            Build::Motion(build) => build(output, &subjects),
+            Build::Element(_, build) | Build::System(_, build) => build(output, self.system, &subjects),
+            Build::Accumulated(build) => {
+                self.check_motion(output)?;
+                let number = build(output, self.system, &subjects)?;
+                let mut accumulated = self.accumulated.borrow_mut();
+                accumulated.push(number);
+                Ok(Arc::new(AccumulatedNumber(accumulated.len() - 1)))
+            }
+            Build::Expression => {
+                Err(Problem::error(output.name.span, "an expression has no value".to_owned()))
+            }
+        }
     }
 
-    /// A number that the simulation accumulates.
-    fn accumulated(&self, output: &Output) -> Result<Source, Problem> {
-        let (document, at) = (self.document, &self.state.kinematics);
-        if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
-            let kind = document.analysis.kind.name();
-            let message = format!(
-                "output `{}` adds up along a motion, which `{kind}` does not have",
-                output.name.value
-            );
-            return Err(Problem::error(output.name.span, message)
-                .help("leave it out, or use `dynamics` or `statics`"));
+    /// Whether there is a motion along which a number can be accumulated.
+    fn check_motion(&self, output: &Output) -> Result<(), Problem> {
+        let analysis = &self.document.analysis.kind;
+        if matches!(analysis, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
+            return Ok(());
         }
-        let name = output.name.value.clone();
-        let number: Arc<dyn Accumulated> = match self.source(output)? {
-            Source::Power(element) => Arc::new(Work { name, of: Actor::Element(element) }),
-            Source::DrivePower(drive) => Arc::new(Work { name, of: Actor::Drive(drive) }),
-            Source::Angle(location) => {
-                let start = location.motion(at).frame;
-                let observer =
-                    output.relative_to.as_ref().map(|node| carried_frame(node, self.names)).transpose()?;
-                let observer = observer.unwrap_or(CarriedFrame::of_node(GROUND));
-                let own = observer.frame(at).rotation;
-                let axis = output.axis.unwrap_or_else(Vector3::z);
-                let axis = observer.frame(&self.drawn.kinematics).rotation.apply_inverse(&axis).normalize();
-                let start = own.inverse() * start.rotation;
-                Arc::new(AngleAboutAxis { name, location, observer, axis, start })
-            }
-            other => return Ok(other),
-        };
-        let mut accumulated = self.accumulated.borrow_mut();
-        accumulated.push(number);
-        Ok(Source::Accumulated(accumulated.len() - 1))
+        let message = format!(
+            "output `{}` adds up along a motion, which `{}` does not have",
+            output.name.value,
+            analysis.name()
+        );
+        Err(Problem::error(output.name.span, message).help("leave it out, or use `dynamics` or `statics`"))
     }
 
     /// An expression of components of other outputs, of joints' coordinates, signals, inputs and states.
-    fn expression(
-        &self,
-        output: &Output,
-        formula: &Located<Formula>,
-        path: &mut Vec<String>,
-    ) -> Result<Source, Problem> {
+    fn expression(&self, output: &Output, formula: &Located<Formula>, path: &mut Vec<String>) -> Found {
         let own = &output.name.value;
         if path.contains(own) {
             let message = format!("the output `{own}` is an expression of itself");
@@ -147,7 +134,7 @@ impl Made<'_> {
             arguments.push((channel, index));
         }
         path.pop();
-        Ok(Source::Expression(formula.value.clone(), arguments))
+        Ok(Arc::new(Expression { formula: formula.value.clone(), arguments }))
     }
 
     /// The channel and the component that a name in an expression means.
@@ -159,9 +146,9 @@ impl Made<'_> {
     ) -> Result<Option<(Channel, String)>, Problem> {
         if let Some(&argument) = self.names.signals.get(name) {
             let (components, units) = (vec!["value".to_owned()], vec![""]);
-            let (kind, source) = (OutputKind::Signal, Source::Signal(argument));
+            let (kind, quantity) = (OutputKind::Signal, Arc::new(SignalValue(argument)));
             let name = name.to_owned();
-            let channel = Channel { name, kind, components, units, fatigue: None, source };
+            let channel = Channel { name, kind, components, units, fatigue: None, quantity };
             return Ok(Some((channel, "value".to_owned())));
         }
         let Some((owner, component)) = name.rsplit_once('.') else { return Ok(None) };
@@ -185,5 +172,14 @@ impl Made<'_> {
             fatigue: None,
         };
         Ok(Some((self.channel(&output, path)?, component.to_owned())))
+    }
+}
+
+/// What the simulation accumulates, by its position.
+struct AccumulatedNumber(usize);
+
+impl OutputQuantity for AccumulatedNumber {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        out.push(at.state.accumulated.get(self.0).copied().unwrap_or(f64::NAN));
     }
 }

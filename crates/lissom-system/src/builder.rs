@@ -17,6 +17,7 @@ use lissom_solver::{Pattern, Structure};
 pub use self::drawn::PlaceOnTip;
 use self::drawn::{joint_rotation, start_values};
 use super::constraints::{Constraints, Placed};
+use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
 use super::{ElementId, System};
@@ -84,6 +85,8 @@ pub struct Builder {
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
+    /// Quantities of elements that signals depend on, with the batch of each.
+    element_quantities: Vec<(usize, Arc<ElementQuantity>)>,
     /// If parts are given approximately: the given initial values of joint coordinates.
     start_values: Option<Vec<(CoordinateId, f64)>>,
 }
@@ -121,6 +124,7 @@ impl Builder {
             functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
+            element_quantities: Vec::new(),
             start_values: None,
         }
     }
@@ -412,12 +416,16 @@ impl Builder {
         }
         let state = self.initial_state(&layout, time, held);
         let feedback = DrivenBatch(Arc::new(feedback));
+        let mut batches: Vec<Arc<dyn AnyBatch>> = self.batches.into_iter().map(Arc::from).collect();
+        for (batch, quantity) in &self.element_quantities {
+            quantity.find_in(&batches[*batch]);
+        }
         if !feedback.is_empty() {
-            self.batches.push(Box::new(feedback.clone()));
+            batches.push(Arc::new(feedback.clone()));
         }
         let system = System {
             layout,
-            batches: self.batches,
+            batches,
             joint_batches: Batches::new(&self.constraints.joints),
             constraints: self.constraints,
             placed,

@@ -13,18 +13,18 @@ use std::sync::Arc;
 
 use lissom_solver::Pattern;
 
-use super::System;
+use super::{ElementId, System};
 use lissom_mechanics::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS};
 use lissom_mechanics::evaluation::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
 use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
 use lissom_mechanics::evaluation::threads::Threads;
-use lissom_mechanics::evaluation::work::{power, work};
+use lissom_mechanics::evaluation::work::{power, power_gradient, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_mechanics::kinematics::step_stages::StepStages;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject, Switch};
 use lissom_mechanics::law::VisitLaw;
-use lissom_mechanics::signals::measurement::Component;
+use lissom_mechanics::signals::measurement::{Component, Gradient};
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
 
 /// Maximum number of local unknowns of a load or state and its signal.
@@ -288,6 +288,39 @@ impl System {
         let mut out = vec![0.0; self.layout.size()];
         self.feedback.add_input(held, at, &mut out);
         out
+    }
+}
+
+/// Power of a load that a signal scales: their product.
+pub struct ScaledPower<'s> {
+    /// The signal.
+    pub signal: SignalId,
+    /// Its value.
+    pub size: f64,
+    /// Power of the unit load [W].
+    pub unit: f64,
+    /// Gradient of the power of the unit load with respect to these nodes and coordinates.
+    pub gradient: Gradient,
+    /// Nodes of the load.
+    pub nodes: &'s [NodeId],
+    /// Coordinates of the load.
+    pub coordinates: &'s [CoordinateId],
+}
+
+impl System {
+    /// The power of a load scaled by a signal, with its parts; none of other elements.
+    pub fn scaled_power(&self, element: ElementId, at: &Kinematics) -> Option<ScaledPower<'_>> {
+        let feedback: &Feedback = &self.feedback;
+        let driven = feedback.driven.get(element.item).filter(|_| element.batch.is_none())?;
+        let Target::Load(load) = &driven.target else { return None };
+        Some(ScaledPower {
+            signal: driven.signal,
+            size: feedback.graph.value(driven.signal, at),
+            unit: power(&**load, at),
+            gradient: power_gradient(&**load, at)?,
+            nodes: load.nodes(),
+            coordinates: load.coordinates(),
+        })
     }
 }
 

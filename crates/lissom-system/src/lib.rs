@@ -3,6 +3,8 @@
 mod assembly;
 mod builder;
 mod constraints;
+pub mod element_quantity;
+pub mod energy_derivatives;
 mod feedback;
 mod parameter_difference;
 mod reading;
@@ -27,7 +29,7 @@ use lissom_solver::Structure;
 
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
-pub use feedback::{DrivenBatch, Feedback};
+pub use feedback::{DrivenBatch, Feedback, ScaledPower};
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
 use lissom_mechanics::elements::{Energy, LinearLimit, LinearRange};
@@ -49,7 +51,7 @@ pub struct System {
     /// Numbering of the unknowns.
     pub layout: Layout,
     /// Elements by kind, then the targets of signals.
-    pub batches: Vec<Box<dyn AnyBatch>>,
+    pub batches: Vec<Arc<dyn AnyBatch>>,
     /// Joints, drives, couplings and sliders.
     pub constraints: Constraints,
     /// The joints by kind, in lanes.

@@ -271,10 +271,10 @@ failures! {
             advice: "Specify an entry of [outputs], or a column of one.",
         }
         NotLinear { 0 => name } => "port-not-linear" {
-            cause: "the output `{name}` has no linear response",
-            remedy: "use positions, velocities, accelerations, reactions, section forces or signals",
-            meaning: "Energies, powers and other quantities of second order have no linear response.",
-            advice: "Use positions, velocities, accelerations, reactions, section forces or signals.",
+            cause: "the output `{name}` has no linear response: it is accumulated from step to step",
+            remedy: "use a power or a relative coordinate",
+            meaning: "Work and angles beyond half a revolution depend on the whole motion and have no linear response.",
+            advice: "Use a power or a relative coordinate.",
         }
         WithoutEffect { 0 => name } => "port-without-effect" {
             cause: "the input `{name}` has no effect: no load, state or requested output depends on it in this state",

@@ -39,7 +39,7 @@ pub enum PortError {
         /// The existing outputs.
         known: String,
     },
-    /// Energy or momentum.
+    /// An accumulated number.
     #[error("{}", self.diagnostic())]
     NotLinear(String),
     /// An input without effect.

@@ -563,3 +563,43 @@ fn friction_has_no_equation_in_statics() {
         slider(tables, "").replace("\"dynamics\"", "\"statics\"").replace("velocity = [0.5, 0, 0]\n", "");
     assert!(refused(&statics).contains("have no rates"));
 }
+
+/// A load that repeats the moment of a spring and damper doubles it, with every scheme, and events and powers follow the spring.
+#[test]
+fn moments_and_powers_of_springs_are_fed_back() {
+    let spring = |stiffness: f64, damping: f64| {
+        format!(
+            "[springs.bar]\nkind = \"torsional\"\njoint = \"arm\"\nangle = 0.3\n\
+             stiffness = {stiffness}\ndamping = {damping}\n\
+             [outputs.pull]\nkind = \"spring\"\nof = \"bar\"\n[outputs.flow]\nkind = \"power\"\nof = \"bar\"\n"
+        )
+    };
+    let repeated = "[loads.again]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"-pull.moment\"\n\
+                    [signals]\ngain = \"2*flow.power\"\n";
+    for scheme in ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"] {
+        let analysis = format!("scheme = \"{scheme}\"\nend = 0.3\nstep = 1e-3\ntolerance = 1e-10");
+        let [twice, once] = [
+            finished(&arm(&format!("{}{repeated}", spring(100.0, 4.0)), &analysis)),
+            finished(&arm(&spring(200.0, 8.0), &analysis)),
+        ];
+        let [twice_angle, once_angle] = [&twice, &once].map(|session| session.value("arm.angle").unwrap());
+        assert!((twice_angle - once_angle).abs() < 1e-9, "{scheme}: {twice_angle} {once_angle}");
+        assert!(
+            (twice.value("pull.moment").unwrap() * 2.0 - once.value("pull.moment").unwrap()).abs() < 1e-7
+        );
+        let power = -twice.value("pull.moment").unwrap() * twice.value("pull.rate").unwrap();
+        assert!((twice.value("gain").unwrap() - 2.0 * power).abs() < 1e-12, "{scheme}: {power}");
+    }
+    // θ = 0.3 (1 - cos ωt): the moment vanishes after a quarter of a period.
+    let event = "[events.slack]\nzero_of = \"pull.moment\"\nstop = true\n";
+    let session = finished(&arm(
+        &format!("{}{event}", spring(200.0, 0.0)),
+        "scheme = \"radau-iia-5\"\nend = 1\nstep = 1e-3",
+    ));
+    let quarter = 0.5 * std::f64::consts::PI / (200.0 / INERTIA).sqrt();
+    let time = session.progress().time;
+    assert!((time - quarter).abs() < 1e-6, "{time} {quarter}");
+    // A name that is no component.
+    let wrong = format!("{}[signals]\nbad = \"pull.force\"\n", spring(200.0, 0.0));
+    assert!(refused(&arm(&wrong, "end = 1\nstep = 1e-3")).contains("`pull` has no component `force`"));
+}

@@ -568,10 +568,10 @@ fn questions_without_sense_are_refused() {
     let error =
         response(&Model::from_text("model.toml", &idle), &[], &request(&["command"], &["place"], 0.1, 1.0));
     assert!(matches!(error, Err(FrequencyError::Port(_))));
-    let energy = OSCILLATOR.replace("[outputs]", "[outputs]\nall = { kind = \"energy\" }");
+    let work = OSCILLATOR.replace("[outputs]", "[outputs]\nall = { kind = \"work\", of = \"push\" }");
     let error =
-        response(&Model::from_text("model.toml", &energy), &[], &request(&["push"], &["all"], 0.1, 1.0));
-    assert!(error.expect_err("energies are not linear").to_string().contains("no linear response"));
+        response(&Model::from_text("model.toml", &work), &[], &request(&["push"], &["all"], 0.1, 1.0));
+    assert!(error.expect_err("works are accumulated").to_string().contains("no linear response"));
     let sampled = CONTROLLED.replace(
         "torque = \"30*(command - pivot.angle) - 2*pivot.rate + 8*wound\"",
         "torque = { value = \"-pivot.angle\", sample = 0.1 }",

@@ -19,7 +19,7 @@ const BROKEN: [&str; 8] = [
     "crates/lissom-model/src/lower",
     "crates/lissom-model/src/output",
     "crates/lissom-model/src/sections",
-    "crates/lissom-model/src/channels.rs",
+    "crates/lissom-model/src/outputs",
     "crates/lissom-model/src/output_channels.rs",
 ];
 

@@ -1,8 +1,10 @@
-//! Every registered spring: its forces at rest are the gradient of its energy, and the motion that it reports belongs to them.
+//! Every registered spring: its forces at rest are the gradient of its energy, and the motion that it reports belongs to them. What
+//! springs and loads report has exact gradients.
 
-use lissom_core::elements::{Attached, Attachment, ElementKind, SPRINGS};
-use lissom_core::kinematics::{Kinematics, Quantity};
+use lissom_core::elements::{Attached, Attachment, ElementKind, LOADS, SPRINGS};
+use lissom_core::kinematics::{Kinematics, LOCKED, Quantity};
 use lissom_core::registry::{ParameterType, Parameters, Value};
+use lissom_core::system::element_quantity::Of;
 use lissom_core::system::{ElementId, Placement, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
@@ -146,5 +148,56 @@ fn springs_report_the_motion_that_their_forces_work_on() {
         };
         let slope = difference(along)[0];
         assert!((rate - slope).abs() < 1e-8 * (1.0 + rate.abs()), "{}: {rate} {slope}", kind.name);
+    }
+}
+
+/// Gradients of elongations, rates and forces of springs, and of powers of springs and loads.
+#[test]
+fn gradients_of_what_elements_report_are_those_of_differences() {
+    for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
+        let mut random = Random::new(seed as u64 + 110);
+        let (system, state, element) = with_spring(kind, true, &mut random);
+        let here = Configuration::random(&system, &state, 0.3, &mut random);
+        let Some(element) = element else { continue };
+        for of in [Of::Spring, Of::Power] {
+            let quantity = system.element_quantity(element, of).expect("few unknowns");
+            let values =
+                |here: &Configuration| quantity.values(&here.at)[..quantity.component_count()].to_vec();
+            if values(&here)[0].is_nan() {
+                assert!(
+                    of == Of::Spring && system.spring_motion(element, &here.at).is_none(),
+                    "{}",
+                    kind.name
+                );
+                continue;
+            }
+            let layout = system.layout();
+            let nodes = quantity.nodes().iter().flat_map(|&node| layout.rows_of_node(node).iter().copied());
+            let coordinates = quantity.coordinates().iter().map(|&own| layout.row_of_coordinate(own) as u32);
+            let rows: Vec<u32> = nodes.chain(coordinates).collect();
+            for row in 0..layout.coordinate_count() {
+                let found = [
+                    difference(|step| values(&here.displaced(&system, row, step, false))),
+                    difference(|step| values(&here.accelerated(&system, row, step, 1))),
+                    difference(|step| values(&here.accelerated(&system, row, step, 2))),
+                ];
+                for component in 0..quantity.component_count() {
+                    let gradient = quantity.gradient(component, &here.at);
+                    let parts = [gradient.by_place, gradient.by_rate, gradient.by_acceleration];
+                    for (order, (part, found)) in parts.iter().zip(&found).enumerate() {
+                        let slots = rows.iter().zip(part).filter(|(own, _)| **own != LOCKED);
+                        let exact: f64 =
+                            slots.filter(|(own, _)| **own as usize == row).map(|(_, value)| value).sum();
+                        assert!(
+                            (exact - found[component]).abs() < 2e-8 * (1.0 + exact.abs()),
+                            "{} {of:?} {component}, order {order}, {}: {exact} but difference {}",
+                            kind.name,
+                            layout.name_of(row),
+                            found[component]
+                        );
+                    }
+                }
+            }
+        }
     }
 }

@@ -19,7 +19,7 @@
 use lissom_motion::{Matrix3, Vector3};
 
 use super::profile::{RailProfile, WheelProfile};
-use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
+use crate::dual::{Dual, Number, Three, arc_tangent_of_ratio, cross, dot, sum, times};
 use crate::round_off;
 
 /// Added to C², so that it never vanishes.
@@ -267,13 +267,15 @@ impl RailContact {
     }
 
     /// Angle between the spoke at a position and the lowest one, along the rail [rad].
-    pub fn shift_angle(&self, pose: &Pose<f64>, along: f64) -> f64 {
+    pub fn shift_angle<T: Number>(&self, pose: &Pose<T>, along: T) -> T {
         let WheelPoint { axis: [first, second, third], spoke, .. } = self.wheel_point(pose, along);
-        let up = second * self.side;
-        let down =
-            [up * first, up * second - self.side, up * third].map(|value| value / (1.0 - up * up).sqrt());
-        let forward = [-third, 0.0, first].map(|value| value / first.hypot(third));
-        dot(spoke, forward).atan2(dot(spoke, down))
+        let up = second.scaled(self.side);
+        let size = (T::constant(1.0) - up * up).square_root();
+        let down = [up * first, (up * second).plus(-self.side), up * third].map(|value| value / size);
+        let level = (first * first + third * third).square_root();
+        let level = level.composed(first.value().hypot(third.value()), 1.0);
+        let forward = [-third, T::constant(0.0), first].map(|value| value / level);
+        arc_tangent_of_ratio(dot(spoke, forward), dot(spoke, down))
     }
 
     /// Gap [m], positive if the surfaces are separated.

@@ -10,6 +10,7 @@ use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
 use crate::law::VisitLaw;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// Registry entry of the spring on a rotation.
 pub(crate) const TORSIONAL: ElementKind = ElementKind {
@@ -189,5 +190,10 @@ impl Element for CoordinateSpring {
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let [elongation, rate] = self.motion(at);
         Some([elongation, rate, self.law.evaluate(elongation, rate, self.switch_states.of(at)).force])
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let [elongation, rate] = self.motion(at);
+        self.law.evaluate(elongation, rate, self.switch_states.of(at)).gradients(Gradient::of_unknown(0))
     }
 }

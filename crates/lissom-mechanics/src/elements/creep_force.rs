@@ -2,13 +2,15 @@
 //! that keeps wheel and rail in contact.
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
+use nalgebra::{SMatrix, SVector};
 
 use super::frame_pair::{FramePair, RelativeMotion};
 use super::{Element, Energy, Tangents};
 use crate::contact::CreepLaw;
 use crate::contact::creep_law::Creep;
 use crate::contact::wheel_on_rail::{Pose, RailContact};
-use crate::dual::Dual;
+use crate::dual::{Dual, Number};
+use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
 /// Derivatives of a force: with respect to the tip's variation, its twist relative to the base, and the normal force.
@@ -67,8 +69,22 @@ impl Element for CreepForce {
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        self.linearize_pressed(at, self.normal_force(at), out);
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+
+    fn is_load(&self) -> bool {
+        true
+    }
+}
+
+impl CreepForce {
+    /// The derivatives of its forces at this normal force; the multiplier is the last local unknown.
+    pub(crate) fn linearize_pressed(&self, at: &Kinematics, normal_force: f64, out: &mut Tangents) {
         let motion = self.frames.motion(at);
-        let normal_force = self.normal_force(at);
         if normal_force <= 0.0 {
             return;
         }
@@ -90,12 +106,42 @@ impl Element for CreepForce {
         self.frames.add_wrench(&motion, &Vector6::from_fn(|i, _| -wrench[i].by[12]), &mut column);
         out.add_by_multiplier(&column);
     }
+}
 
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
+/// Derivatives of the numbers of a contact between frames at this normal force, of which the multiplier is the negative one:
+/// positions on wheel and rail, shift angle, normal force, creep forces and creepages.
+pub(crate) fn contact_derivatives(
+    frames: [CarriedFrame; 2],
+    (contact, law): (&RailContact, Option<&CreepLaw>),
+    at: &Kinematics,
+    normal_force: f64,
+) -> LocalDerivatives<9> {
+    let pair = FramePair::new(frames);
+    let motion = pair.motion(at);
+    let pose = Pose::new(&motion.rotation, &motion.position);
+    let varied = pose.varied::<DIRECTIONS>();
+    let place = contact.varied_place(&pose, &varied);
+    let pressed = Dual::variable(normal_force, 12);
+    let shift = contact.shift_angle(&varied, place.along);
+    let mut values = [Dual::constant(0.0); 9];
+    values[..4].copy_from_slice(&[place.along, place.on_rail, shift, pressed]);
+    if let Some(law) = law {
+        let twist: [Dual<DIRECTIONS>; 6] = std::array::from_fn(|k| Dual::variable(motion.twist[k], 6 + k));
+        let creep = law.creep(contact, (&varied, &place), &twist, pressed);
+        values[4..6].copy_from_slice(&creep.forces);
+        values[6..].copy_from_slice(&creep.creepages);
     }
-
-    fn is_load(&self) -> bool {
-        true
+    let mut out = LocalDerivatives::zero(frames.map(|frame| frame.node).to_vec(), Vec::new(), 1);
+    let by_rate = SMatrix::<f64, 9, 6>::from_fn(|i, j| values[i].by[6 + j]);
+    // Changes of the relative twist at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
+    let by_place =
+        SMatrix::<f64, 9, 6>::from_fn(|i, j| values[i].by[j]) - by_rate * lie_bracket_matrix(&motion.carried);
+    for (side, columns) in pair.columns(&motion).iter().enumerate() {
+        for k in 0..6 {
+            out.by_place[6 * side + k] = by_place * columns.column(k);
+            out.by_rate[6 * side + k] = by_rate * columns.column(k);
+        }
     }
+    out.by_multiplier[0] = SVector::from_fn(|i, _| -values[i].by[12]);
+    out
 }

@@ -15,6 +15,7 @@ use super::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
 use crate::law::{Interval, ScalarLaw, hull, scaled, sum};
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// On which side of the free length it acts, for lengths.
 pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
@@ -49,6 +50,14 @@ pub(crate) struct Response {
     pub stiffness: f64,
     /// Derivative with respect to the rate [N s/m, N m s/rad].
     pub damping: f64,
+}
+
+impl Response {
+    /// Gradients of the elongation, its rate and the force, from those of the first two.
+    pub(crate) fn gradients(&self, [elongation, rate]: [Gradient; 2]) -> [Gradient; 3] {
+        let force = Gradient::zero().plus(self.stiffness, &elongation).plus(self.damping, &rate);
+        [elongation, rate, force]
+    }
 }
 
 /// The law of a spring and damper.

@@ -14,6 +14,7 @@ use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// Default deflection at which the bristle slips [rad, m].
 const DEFLECTION: f64 = 1e-4;
@@ -185,6 +186,17 @@ impl Element for Friction {
         let mut forces = [0.0; 2];
         self.forces(at, &mut forces);
         Some([coordinate.value, coordinate.rate, forces[0]])
+    }
+
+    fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {
+        let ([value, rate], [deflection, deflecting]) = (Gradient::of_unknown(0), Gradient::of_unknown(1));
+        let elastic = Gradient::zero().plus(self.stiffness, &deflection).plus(self.damping, &deflecting);
+        [value, rate, elastic.plus(self.viscous, &rate)]
+    }
+
+    /// Of the bristle alone: the force of the coordinate is that of the bristle.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        out[1] += self.stiffness * fall.coordinates[self.coordinates[1]].value;
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {

@@ -14,6 +14,7 @@ use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// An input above this locks the coordinate.
 const HOLDS: f64 = 0.5;
@@ -108,6 +109,11 @@ impl Element for Latch {
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let [own, impulse] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
         Some([own.value, own.rate, impulse.rate])
+    }
+
+    fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {
+        let ([value, rate], [_, force]) = (Gradient::of_unknown(0), Gradient::of_unknown(1));
+        [value, rate, force]
     }
 }
 

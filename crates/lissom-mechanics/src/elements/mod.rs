@@ -41,6 +41,7 @@ pub use kinds::{LOADS, SPRINGS};
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
+use crate::signals::measurement::Gradient;
 use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
@@ -265,6 +266,15 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;
 
+    /// Adds the derivatives of its strain energy with respect to its local unknowns, from the configuration at rest and in free
+    /// `fall`, where neither inertia nor weight acts. Default, for elements whose other forces vanish there: their forces, unless
+    /// they are a load.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        if !self.is_load() {
+            self.forces(fall, out);
+        }
+    }
+
     /// Whether its forces supply or dissipate energy, so that their work is computed. Default: they do not. Stored
     /// energy is then reported by [`energy`](Self::energy), and dissipated energy is lost.
     fn is_load(&self) -> bool {
@@ -279,6 +289,12 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Elongation, its rate and the opposing force [SI], for springs and similar elements. Default: none.
     fn spring_motion(&self, _at: &Kinematics) -> Option<[f64; 3]> {
         None
+    }
+
+    /// Derivatives of the three numbers of [`spring_motion`](Self::spring_motion) with respect to its local unknowns. Default:
+    /// zero.
+    fn spring_gradients(&self, _at: &Kinematics) -> [Gradient; 3] {
+        [Gradient::zero(); 3]
     }
 
     /// Known breakpoints of its forces [s]. Default: none.
@@ -363,6 +379,7 @@ mod tests {
         assert!(<Bare as Element>::blocks(&[Bare]).is_none() && Bare::derivative(&[(&Bare, 1.0)]).is_none());
         assert_eq!(Bare.deformation_rate(at), None);
         assert_eq!(Bare.spring_motion(at), None);
+        assert_eq!(Bare.spring_gradients(at), [Gradient::zero(); 3]);
         assert_eq!(Bare.max_relative_rotation(at), None);
         for limit in LinearLimit::ALL {
             assert_eq!(Bare.linear_range(limit, at), None);

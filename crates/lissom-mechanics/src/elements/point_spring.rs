@@ -5,7 +5,7 @@
 //! ```
 
 use lissom_motion::{Matrix3, Vector3, skew};
-use nalgebra::SMatrix;
+use nalgebra::{RowVector6, SMatrix};
 
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
@@ -17,6 +17,7 @@ use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
 use crate::law::VisitLaw;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
@@ -129,6 +130,15 @@ impl Point {
         gradient.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.rotation);
         gradient.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-self.rotation * skew(&self.offset)));
         gradient
+    }
+
+    /// Derivative of the velocity along a `direction` with respect to the node's position, with which the velocity rotates:
+    /// δ(R v) = -R ṽ δθ.
+    pub(super) fn turning(&self, direction: &Vector3) -> RowVector6<f64> {
+        let by_rotation = -direction.transpose() * (self.rotation * skew(&self.local_velocity));
+        let mut row = RowVector6::zeros();
+        row.fixed_columns_mut::<3>(3).copy_from(&by_rotation);
+        row
     }
 }
 
@@ -274,5 +284,23 @@ impl Element for PointSpring {
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let (_, length, rate, tension) = self.tension(at, &self.points(at));
         Some([length - self.length, rate, tension.force])
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let points = self.points(at);
+        let (u, length, _, response) = self.tension(at, &points);
+        let speed = points[1].velocity - points[0].velocity;
+        // ℓ̇ = u·Δ̇, and δu = (Δ̇ across u)/ℓ at fixed Δ̇.
+        let turned = (speed - u.dot(&speed) * u) / length;
+        let (mut elongation, mut rate) = (Gradient::zero(), Gradient::zero());
+        for (i, sign) in [(0, -1.0), (1, 1.0)] {
+            let along = sign * u.transpose() * points[i].gradient();
+            let by_place = sign * (turned.transpose() * points[i].gradient() + points[i].turning(&u));
+            let slots = 6 * i..6 * i + 6;
+            elongation.by_place[slots.clone()].copy_from_slice(along.as_slice());
+            rate.by_rate[slots.clone()].copy_from_slice(along.as_slice());
+            rate.by_place[slots].copy_from_slice(by_place.as_slice());
+        }
+        response.gradients([elongation, rate])
     }
 }

@@ -13,6 +13,7 @@
 use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix};
 
 use super::contribution::Contribution;
+use super::force_law::Response;
 use super::frame_pair::{FramePair, RelativeMotion};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
@@ -21,6 +22,7 @@ use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId, Switch};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// Sliding velocities below this are those of rolling, where the law is linear [m/s].
 const STILL: f64 = 1e-9;
@@ -235,6 +237,12 @@ impl RollingContact {
             -normal[0] * normal_row + friction * sliding[0] * rows[0] + friction * sliding[1] * rows[1];
         Touch { motion, normal_row, rows, gap, gap_rate, sliding, normal, traction, wrench }
     }
+
+    /// Derivative of the gap's rate with respect to η at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
+    fn closing(&self, Touch { motion, normal_row, .. }: &Touch) -> Vector6 {
+        let hessian = self.contact.gap_hessian(&motion.rotation);
+        hessian.tr_mul(&motion.twist) - lie_bracket_matrix(&motion.carried).tr_mul(normal_row)
+    }
 }
 
 impl Element for RollingContact {
@@ -258,7 +266,7 @@ impl Element for RollingContact {
         // Changes of rates at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
         let bracket = lie_bracket_matrix(&motion.carried);
         let slides = [0, 1].map(|k| turns[k] - bracket.tr_mul(&rows[k]));
-        let closing = hessian.tr_mul(&motion.twist) - bracket.tr_mul(normal_row);
+        let closing = self.closing(&touch);
         let force_by_place = by_gap * normal_row + by_gap_rate * closing;
         let force_by_rate = by_gap_rate * normal_row;
         let direction = -normal_row + ratio * (sliding[0] * rows[0] + sliding[1] * rows[1]);
@@ -297,5 +305,19 @@ impl Element for RollingContact {
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let touch = self.touch(at);
         Some([touch.gap, touch.gap_rate, touch.normal[0]])
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let touch = self.touch(at);
+        let closing = self.closing(&touch);
+        let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
+        for (j, columns) in self.frames.columns(&touch.motion).iter().enumerate() {
+            let slots = 6 * j..6 * j + 6;
+            gap.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&touch.normal_row).as_slice());
+            rate.by_place[slots].copy_from_slice(columns.tr_mul(&closing).as_slice());
+        }
+        rate.by_rate = gap.by_place;
+        let [force, stiffness, damping] = touch.normal;
+        Response { force, stiffness, damping }.gradients([gap, rate])
     }
 }

@@ -23,6 +23,7 @@ use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
+use crate::signals::measurement::{Gradient, MAX_TOUCHED};
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -81,8 +82,8 @@ pub const KIND: ElementKind = ElementKind {
 const MAX_NODES: usize = 4;
 /// Maximum number of drums: one at each end.
 const MAX_DRUMS: usize = 2;
-/// Maximum number of local unknowns.
-const MAX_UNKNOWNS: usize = 6 * MAX_NODES + MAX_DRUMS;
+/// Its unknowns fit into a gradient.
+const _: () = assert!(6 * MAX_NODES + MAX_DRUMS <= MAX_TOUCHED);
 /// Maximum number of positions of a rope.
 const MAX_PLACES: usize = 16;
 
@@ -265,6 +266,32 @@ impl Rope {
         }
     }
 
+    /// Gradients of the elongation and its rate.
+    fn gradients(&self, shape: &Shape) -> [Gradient; 2] {
+        let (mut elongation, mut rate) = (Gradient::zero(), Gradient::zero());
+        let add = |sum: &mut [f64], node: usize, row: &SMatrix<f64, 1, 6>| {
+            sum[6 * node..].iter_mut().zip(row.iter()).for_each(|(sum, value)| *sum += value);
+        };
+        for (index, (node, _)) in self.places.iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let (point, pull) = (&shape.points[index], shape.pull(index));
+            add(&mut elongation.by_place, node, &(pull.transpose() * point.gradient()));
+            add(&mut rate.by_place, node, &point.turning(&pull));
+        }
+        for (index, Segment { direction, length, speed }) in shape.segments().iter().enumerate() {
+            let turned = ((speed - direction.dot(speed) * direction) / *length).transpose();
+            for (end, sign) in [(index, -1.0), (index + 1, 1.0)] {
+                let Some(node) = self.places[end].0 else { continue };
+                add(&mut rate.by_place, node, &(sign * turned * shape.points[end].gradient()));
+            }
+        }
+        for (k, [radius, _]) in self.pays_out.iter().enumerate() {
+            elongation.by_place[6 * self.nodes.len() + k] = -radius;
+        }
+        rate.by_rate = elongation.by_place;
+        [elongation, rate]
+    }
+
     fn tension(&self, shape: &Shape, at: &Kinematics) -> Response {
         self.law.evaluate(shape.elongation, shape.rate, self.switch_states.of(at))
     }
@@ -344,22 +371,11 @@ impl Element for Rope {
         let first_drum = 6 * self.nodes.len();
         let size = first_drum + self.drums.len();
         let gradients = shape.points.each_ref().map(Point::gradient);
-        let mut by_length = [0.0; MAX_UNKNOWNS];
-        let mut by_rate = [0.0; MAX_UNKNOWNS];
-        let add = |sum: &mut [f64; MAX_UNKNOWNS], node: usize, row: &SMatrix<f64, 1, 6>| {
-            for k in 0..6 {
-                sum[6 * node + k] += row[k];
-            }
-        };
+        let [Gradient { by_place: by_length, .. }, Gradient { by_place: by_rate, .. }] =
+            self.gradients(&shape);
         for (index, (node, _)) in self.places.iter().enumerate() {
             let Some(node) = *node else { continue };
             let (point, pull) = (&shape.points[index], shape.pull(index));
-            add(&mut by_length, node, &(pull.transpose() * gradients[index]));
-            // The velocity rotates with the node: δ(R v) = -R ṽ δθ.
-            let turning = -pull.transpose() * (point.rotation * skew(&point.local_velocity));
-            for k in 0..3 {
-                by_rate[6 * node + 3 + k] += turning[k];
-            }
             // The force in the axes of the rotating node: δ(Rᵀ f) = (Rᵀ f)~ δθ.
             let local = skew(&point.rotation.tr_mul(&(response.force * pull)));
             add_block(&mut out.stiffness, size, (6 * node, 6 * node + 3), &local);
@@ -368,11 +384,9 @@ impl Element for Rope {
         for (index, segment) in shape.segments().iter().enumerate() {
             let u = segment.direction;
             let across = (Matrix3::identity() - u * u.transpose()) / segment.length;
-            let turned = (across * segment.speed).transpose();
             let ends = [(index, -1.0), (index + 1, 1.0)];
             for (a, sign) in ends {
                 let Some(row) = self.places[a].0 else { continue };
-                add(&mut by_rate, row, &(sign * turned * gradients[a]));
                 for (b, other) in ends {
                     let Some(column) = self.places[b].0 else { continue };
                     let block =
@@ -380,9 +394,6 @@ impl Element for Rope {
                     add_block(&mut out.stiffness, size, (6 * row, 6 * column), &block);
                 }
             }
-        }
-        for (k, [radius, _]) in self.pays_out.iter().enumerate() {
-            by_length[first_drum + k] = -radius;
         }
         for i in 0..size {
             for j in 0..size {
@@ -430,5 +441,10 @@ impl Element for Rope {
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let shape = self.shape(at);
         Some([shape.elongation, shape.rate, self.tension(&shape, at).force])
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let shape = self.shape(at);
+        self.tension(&shape, at).gradients(self.gradients(&shape))
     }
 }

@@ -13,12 +13,14 @@
 //! between e and the impact velocity: slower impacts dissipate less.
 
 use super::contribution::Contribution;
+use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::{SwitchStates, is_on_upper_branch};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::signals::measurement::Gradient;
 
 /// Smallest restitution of a contact.
 const MIN_RESTITUTION: f64 = 0.01;
@@ -198,6 +200,20 @@ impl Stop {
             direction * self.stiffness * depth.powf(self.exponent) * (1.0 + self.dissipation * rate).max(0.0)
         })
     }
+
+    /// The force with its derivatives.
+    fn response(&self, at: &Kinematics) -> Response {
+        let mut response = Response { force: self.force(at), ..Response::default() };
+        if let Some((depth, rate, _)) = self.contact(at) {
+            let factor = 1.0 + self.dissipation * rate;
+            if factor > 0.0 {
+                let slope = self.exponent * depth.powf(self.exponent - 1.0);
+                response.stiffness = self.stiffness * slope * factor;
+                response.damping = self.stiffness * depth.powf(self.exponent) * self.dissipation;
+            }
+        }
+        response
+    }
 }
 
 impl Element for Stop {
@@ -214,13 +230,9 @@ impl Element for Stop {
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        let Some((depth, rate, _)) = self.contact(at) else { return };
-        let factor = 1.0 + self.dissipation * rate;
-        if factor > 0.0 {
-            let slope = self.exponent * depth.powf(self.exponent - 1.0);
-            out.stiffness[0] += self.stiffness * slope * factor;
-            out.damping[0] += self.stiffness * depth.powf(self.exponent) * self.dissipation;
-        }
+        let response = self.response(at);
+        out.stiffness[0] += response.stiffness;
+        out.damping[0] += response.damping;
     }
 
     fn switch_count(&self) -> usize {
@@ -245,6 +257,10 @@ impl Element for Stop {
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let coordinate = &at.coordinates[self.coordinate[0]];
         Some([coordinate.value, coordinate.rate, self.force(at)])
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        self.response(at).gradients(Gradient::of_unknown(0))
     }
 }
 

@@ -10,7 +10,7 @@ use super::scatter_map::{ScatterMap, free_rows};
 use super::scratch::with_scratch;
 use super::tangent_assembler::{Slot, TangentAssembler};
 use super::threads::Threads;
-use super::work::{power, work};
+use super::work::{power, power_gradient, work};
 use crate::elements::blocks::Blocks;
 use crate::elements::switch_states::SwitchStates;
 use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
@@ -20,6 +20,7 @@ use crate::kinematics::lanes::processor_for;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
 use crate::law::VisitLaw;
+use crate::signals::measurement::Gradient;
 
 /// All elements of one kind.
 pub struct Batch<E> {
@@ -75,8 +76,33 @@ pub trait AnyBatch: Send + Sync {
     }
     /// Elongation, rate and force of a spring-like item.
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
+    /// Gradients of these three with respect to the item's local unknowns.
+    fn spring_gradients(&self, _item: usize, _at: &Kinematics) -> [Gradient; 3] {
+        [Gradient::zero(); 3]
+    }
+    /// Nodes and coordinates of an item, in the order of its local unknowns.
+    fn unknowns(&self, _item: usize) -> (&[NodeId], &[CoordinateId]) {
+        (&[], &[])
+    }
+    /// Passes the derivatives of every item's strain energy to `each`, with their rows; `fall` is the configuration at rest and in
+    /// free fall.
+    fn strain_slopes(&self, _fall: &Kinematics, _each: &mut dyn FnMut(&[u32], &[f64])) {}
+    /// Passes the mass matrix M of every item that has one to `each`, with the derivatives of M v with respect to positions: row by
+    /// row of the item's unknowns. `rest` is the configuration at rest, and `thrust` has the velocities v as accelerations.
+    fn mass_slopes(
+        &self,
+        _rest_thrust: (&Kinematics, &Kinematics),
+        _each: &mut dyn FnMut(&Mass<'_>, &[f64]),
+    ) {
+    }
+    /// Passes the angular momentum of items in addition to that of the masses to `each`, inertial axes, with the node that turns it.
+    fn angular_momenta(&self, _at: &Kinematics, _each: &mut dyn FnMut(NodeId, Vector3)) {}
     /// Power of an item's forces [W].
     fn power(&self, item: usize, at: &Kinematics) -> f64;
+    /// Gradient of the power with respect to the item's local unknowns; none if there are more than those of a gradient.
+    fn power_gradient(&self, _item: usize, _at: &Kinematics) -> Option<Gradient> {
+        None
+    }
     /// Work of an item's forces between two configurations [J].
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
     /// Known breakpoints of forces [s].
@@ -396,12 +422,61 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.iter().map(|item| item.angular_momentum(at)).sum()
     }
 
+    fn strain_slopes(&self, fall: &Kinematics, each: &mut dyn FnMut(&[u32], &[f64])) {
+        for (index, item) in self.items.iter().enumerate() {
+            let rows = self.item_rows(index);
+            let mut local = vec![0.0; rows.len()];
+            item.strain_slopes(fall, &mut local);
+            each(rows, &local);
+        }
+    }
+
+    fn mass_slopes(
+        &self,
+        (rest, thrust): (&Kinematics, &Kinematics),
+        each: &mut dyn FnMut(&Mass<'_>, &[f64]),
+    ) {
+        let mut matrix = Vec::new();
+        for (index, item) in self.items.iter().enumerate() {
+            item.mass(thrust, &mut matrix);
+            if !matrix.is_empty() {
+                let rows = self.item_rows(index);
+                let [mut slopes, mut still] = [Tangents::new(rows.len()), Tangents::new(rows.len())];
+                item.linearize(thrust, &mut slopes);
+                item.linearize(rest, &mut still);
+                slopes.stiffness.iter_mut().zip(&still.stiffness).for_each(|(own, still)| *own -= still);
+                each(&Mass { nodes: item.nodes(), rows, matrix: &matrix }, &slopes.stiffness);
+                matrix.clear();
+            }
+        }
+    }
+
+    fn angular_momenta(&self, at: &Kinematics, each: &mut dyn FnMut(NodeId, Vector3)) {
+        for item in &self.items {
+            if let Some(&node) = item.nodes().first() {
+                each(node, item.angular_momentum(at));
+            }
+        }
+    }
+
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]> {
         self.items.get(item)?.spring_motion(at)
     }
 
+    fn spring_gradients(&self, item: usize, at: &Kinematics) -> [Gradient; 3] {
+        self.items[item].spring_gradients(at)
+    }
+
+    fn unknowns(&self, item: usize) -> (&[NodeId], &[CoordinateId]) {
+        (self.items[item].nodes(), self.items[item].coordinates())
+    }
+
     fn power(&self, item: usize, at: &Kinematics) -> f64 {
         self.items.get(item).map_or(0.0, |item| power(item, at))
+    }
+
+    fn power_gradient(&self, item: usize, at: &Kinematics) -> Option<Gradient> {
+        power_gradient(self.items.get(item)?, at)
     }
 
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {

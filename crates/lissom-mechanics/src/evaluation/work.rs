@@ -1,11 +1,19 @@
 //! Work and power of elements' forces on nodes and coordinates.
 
+use std::cell::RefCell;
+
 use lissom_motion::Vector3;
 
 use super::scratch::with_scratch;
-use crate::elements::Element;
+use crate::elements::{Element, Tangents};
 use crate::kinematics::Kinematics;
 use crate::kinematics::work::along;
+use crate::signals::measurement::{Gradient, MAX_TOUCHED};
+
+thread_local! {
+    /// Derivatives of forces, for gradients of powers.
+    static TANGENTS: RefCell<Tangents> = RefCell::new(Tangents::new(MAX_TOUCHED));
+}
 
 /// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
 /// inertial axes along the displacement of their nodes, moments along the rotation, forces on coordinates along their
@@ -71,4 +79,37 @@ pub fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
         // Forces are on the left-hand side of the equations of motion.
         -twists.chain(rates).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
     })
+}
+
+/// Gradient of the power of an element's forces with respect to its local unknowns; none if there are more than those of a
+/// gradient, or multipliers among them.
+///
+/// ```text
+/// P = -v·f,      ∂P/∂q = -Kᵀ v,      ∂P/∂v = -f - Cᵀ v,      ∂P/∂a = -Mᵀ v
+/// ```
+pub fn power_gradient<E: Element + ?Sized>(element: &E, at: &Kinematics) -> Option<Gradient> {
+    let size = 6 * element.nodes().len() + element.coordinates().len();
+    if size > MAX_TOUCHED || !element.multipliers().is_empty() {
+        return None;
+    }
+    let mut gradient = Gradient::zero();
+    element.forces(at, &mut gradient.by_rate[..size]);
+    gradient.by_rate.iter_mut().for_each(|force| *force = -*force);
+    let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
+    let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
+    TANGENTS.with_borrow_mut(|tangents| {
+        tangents.clear(size);
+        element.linearize(at, tangents);
+        for (row, rate) in twists.chain(rates).enumerate() {
+            for (own, matrix) in [
+                (&mut gradient.by_place, &tangents.stiffness),
+                (&mut gradient.by_rate, &tangents.damping),
+                (&mut gradient.by_acceleration, &tangents.mass),
+            ] {
+                let entries = &matrix[row * size..(row + 1) * size];
+                own.iter_mut().zip(entries).for_each(|(own, entry)| *own -= rate * entry);
+            }
+        }
+    });
+    Some(gradient)
 }

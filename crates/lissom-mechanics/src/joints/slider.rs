@@ -12,13 +12,14 @@
 //! angular momentum are conserved. The row of s requires that the force is perpendicular to the line. Equations of a tip that
 //! rotates with the line or with the sections are those of `alignment`.
 
-use lissom_motion::{Matrix3, Vector3, Vector6, skew};
+use lissom_motion::{Matrix3, Vector3, Vector6, screw, skew};
 
 use super::alignment::{Aligned, Alignment};
 use super::centerline::{Centerline, SUPPORT, Support};
 use super::constraint::{Constraint, Port};
 use super::kind::{Build, JointKind};
 use crate::joints::evaluation_point::Increments;
+use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, NodeMotion, Quantity};
 use crate::registry::{Parameter, ParameterType};
 
@@ -137,6 +138,46 @@ impl Slider {
         let place = self.place(at);
         let moments = self.aligned().map(|(e, own)| -own.moment(&place, at, multipliers[e]));
         [-Vector3::from_column_slice(&multipliers[..ON_LINE]), moments.sum()]
+    }
+
+    /// Derivatives of [`reaction`](Self::reaction), force and moment. With the moment M_t of the alignments on the tip's node in its
+    /// axes on the left-hand side:
+    ///
+    /// ```text
+    /// moment = -R_t M_t,      δ(R_t M_t) = R_t (δM_t + θ_t × M_t)
+    /// ```
+    pub fn reaction_derivatives(&self, at: &Kinematics, multipliers: &[f64]) -> LocalDerivatives<6> {
+        let place = self.place(at);
+        let Support { first, count, .. } = place.support;
+        let mut nodes: Vec<NodeId> = self.nodes[first..first + count].iter().map(|own| own.node).collect();
+        nodes.push(self.tip.node);
+        let mut out = LocalDerivatives::zero(nodes, vec![self.coordinate], self.equations());
+        for k in 0..ON_LINE {
+            out.by_multiplier[k][k] = -1.0;
+        }
+        let axes = self.tip.motion(at).frame.rotation;
+        let moment = |column: &dyn Fn(usize) -> f64| {
+            let own = Vector3::from_fn(|i, _| column(6 * TIP + 3 + i));
+            screw(&Vector3::zeros(), &-axes.apply(&own))
+        };
+        let mut sum = Vector3::zeros();
+        for (e, own) in self.aligned() {
+            let row = own.gradient(&place, at);
+            out.by_multiplier[e] += moment(&|local| row[local]);
+            sum += multipliers[e] * Vector3::from_fn(|i, _| row[6 * TIP + 3 + i]);
+        }
+        let mut of_alignments = [0.0; MAX_EQUATIONS];
+        of_alignments[ON_LINE..self.equations()].copy_from_slice(&multipliers[ON_LINE..self.equations()]);
+        let hessian = self.row_derivatives(&place, at, &of_alignments);
+        let locals = (0..6 * count).chain(6 * TIP..=OWN);
+        for (column, local) in out.by_place.iter_mut().zip(locals) {
+            *column += moment(&|row| hessian[row][local]);
+        }
+        for k in 0..3 {
+            let turned = axes.apply(&Vector3::ith(k, 1.0).cross(&sum));
+            out.by_place[6 * count + 3 + k] -= screw(&Vector3::zeros(), &turned);
+        }
+        out
     }
 
     /// Length of the undeformed beams [m].

@@ -4,6 +4,7 @@
 mod carried_frame;
 pub mod lanes;
 mod layout;
+pub mod local_derivatives;
 mod motion;
 mod quantity;
 pub mod step_stages;

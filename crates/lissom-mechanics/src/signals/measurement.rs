@@ -6,8 +6,8 @@ use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
 /// Most components of a measurement.
 pub const MAX_COMPONENTS: usize = 6;
-/// Most unknowns that a measurement depends on: four nodes.
-pub const MAX_TOUCHED: usize = 24;
+/// Most unknowns that a measurement depends on: four nodes and two coordinates.
+pub const MAX_TOUCHED: usize = 26;
 
 /// Derivatives of a component: six per node of the measurement, by body variations, twists and their rates, then one per
 /// coordinate.
@@ -27,11 +27,31 @@ impl Gradient {
         let zero = [0.0; MAX_TOUCHED];
         Self { by_place: zero, by_rate: zero, by_acceleration: zero }
     }
+
+    /// That of the value of the unknown number `slot`, and that of its rate.
+    pub fn of_unknown(slot: usize) -> [Self; 2] {
+        let (mut value, mut rate) = (Self::zero(), Self::zero());
+        (value.by_place[slot], rate.by_rate[slot]) = (1.0, 1.0);
+        [value, rate]
+    }
+
+    /// The same plus `factor` times another gradient.
+    #[must_use]
+    pub fn plus(mut self, factor: f64, other: &Self) -> Self {
+        for (own, other) in [
+            (&mut self.by_place, &other.by_place),
+            (&mut self.by_rate, &other.by_rate),
+            (&mut self.by_acceleration, &other.by_acceleration),
+        ] {
+            own.iter_mut().zip(other).for_each(|(own, other)| *own += factor * other);
+        }
+        self
+    }
 }
 
 /// A quantity of the motion: one to six numbers. A new one is a file with a type that implements this.
 pub trait Measurement: Send + Sync {
-    /// Nodes that it depends on, at most three; one may be named several times.
+    /// Nodes that it depends on, at most four; one may be named several times.
     fn nodes(&self) -> &[NodeId] {
         &[]
     }

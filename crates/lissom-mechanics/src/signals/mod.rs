@@ -21,7 +21,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::instants;
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Subject, Switch};
+use crate::kinematics::{Kinematics, Subject, Switch};
 use crate::law::{Interval, ScalarLaw, VisitLaw};
 use measurement::Component;
 
@@ -331,19 +331,6 @@ impl Graph {
                 }
             }
         });
-    }
-
-    /// Nodes and coordinates on which an argument of a signal depends between samples.
-    pub fn touched_by(&self, argument: Argument) -> (BTreeSet<NodeId>, BTreeSet<CoordinateId>) {
-        let measurements = match argument {
-            Argument::Held(_) => BTreeSet::new(),
-            Argument::Measured(measurement) => BTreeSet::from([measurement]),
-            Argument::Signal(signal) => self.measurements_of(signal),
-        };
-        let of = || measurements.iter().map(|&measurement| &self.measurements[measurement]);
-        let nodes = of().flat_map(|measurement| measurement.of.nodes().iter().copied()).collect();
-        let coordinates = of().flat_map(|measurement| measurement.of.coordinates().iter().copied()).collect();
-        (nodes, coordinates)
     }
 
     /// Measurements on which a signal depends between samples.

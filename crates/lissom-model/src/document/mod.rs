@@ -45,7 +45,7 @@ pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use output_kinds::OutputKind;
-pub(crate) use output_kinds::{Feature, Feeds, OutputComponent, Subject};
+pub(crate) use output_kinds::{Declaration, Feature, Feeds, OutputComponent, Subject};
 pub use outputs::{Output, OutputSource, ReactionAxes};
 pub use signals::{SignalEntry, StateEntry};
 pub use tables::VERSION;

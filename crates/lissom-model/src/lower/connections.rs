@@ -70,6 +70,7 @@ pub(super) fn add(
             }
         }
     }
+    super::measurements::bind(document, builder, names, problems);
 }
 
 /// Lets failures name the functions of time of a component.

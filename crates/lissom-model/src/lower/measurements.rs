@@ -4,13 +4,15 @@ use lissom_core::kinematics::CoordinateId;
 use lissom_core::signals::MeasurementId;
 use lissom_core::signals::coordinate::Coordinate;
 use lissom_core::system::Builder;
+use lissom_core::system::element_quantity::Of;
 
 use super::Names;
 use super::signals::relative_components;
-use crate::channel_components::{component_position, components_of_motion};
-use crate::document::{Document, Feeds, Output, OutputKind, OutputSource};
-use crate::outputs::{Subjects, source};
-use crate::report::Problem;
+use crate::channel_components::{component_position, components};
+use crate::document::{Component, Document, Feeds, Output, OutputKind, OutputSource};
+use crate::outputs::spring::components_of;
+use crate::outputs::{Build, Subjects, all_components};
+use crate::report::{Problem, Span};
 use crate::suggest;
 
 /// Why a name cannot be measured.
@@ -19,6 +21,14 @@ pub(super) struct Fault {
     pub(super) help: Option<String>,
     /// Whether it can be measured at samples.
     pub(super) is_of_solution: bool,
+}
+
+/// What measures a name.
+pub(super) enum Measured {
+    /// A measurement.
+    By(MeasurementId),
+    /// A quantity of an element that is not added yet.
+    Later,
 }
 
 fn fault<T>(message: String, help: Option<String>) -> Result<T, Fault> {
@@ -32,11 +42,11 @@ pub(super) fn measure(
     names: &Names,
     owner: &str,
     component: &str,
-) -> Result<MeasurementId, Fault> {
+) -> Result<Measured, Fault> {
     let output = document.outputs.iter().find(|output| output.name.value == owner);
     let coordinates = names.coordinates.get(owner);
     match (output, coordinates) {
-        (Some(output), None) => of_output(output, builder, names, component),
+        (Some(output), None) => of_output(document, output, builder, names, component),
         (None, Some(coordinates)) => of_coordinates(owner, coordinates, builder, component),
         (Some(output), Some(coordinates)) => {
             let same = matches!((&output.kind, &output.source),
@@ -50,7 +60,7 @@ pub(super) fn measure(
             if is_of_joint {
                 of_coordinates(owner, coordinates, builder, component)
             } else {
-                of_output(output, builder, names, component)
+                of_output(document, output, builder, names, component)
             }
         }
         (None, None) => {
@@ -75,24 +85,25 @@ fn of_coordinates(
     coordinates: &[CoordinateId],
     builder: &mut Builder,
     component: &str,
-) -> Result<MeasurementId, Fault> {
+) -> Result<Measured, Fault> {
     let components = relative_components(coordinates, builder);
     if components.is_empty() {
         return fault(format!("joint `{owner}` has no relative coordinate"), None);
     }
     if let Some((_, coordinate, of)) = components.iter().find(|(known, ..)| known == component) {
-        return Ok(builder.add_measurement(Coordinate::new(*coordinate, *of)));
+        return Ok(Measured::By(builder.add_measurement(Coordinate::new(*coordinate, *of))));
     }
     let known: Vec<String> = components.into_iter().map(|(known, ..)| known).collect();
     unknown_component(owner, component, &known)
 }
 
 fn of_output(
+    document: &Document,
     output: &Output,
     builder: &mut Builder,
     names: &Names,
     component: &str,
-) -> Result<MeasurementId, Fault> {
+) -> Result<Measured, Fault> {
     let owner = &output.name.value;
     if let Feeds::Samples(reason) = output.kind.feeds() {
         let message = format!(
@@ -104,19 +115,85 @@ fn of_output(
     let (start, resolver) = (builder.initial_kinematics(), names.resolver());
     let joint_frames = |joint: &str| builder.output_frames(joint);
     let subjects = Subjects { names: &resolver, drawn: &start, start: &start, joint_frames: &joint_frames };
-    let source = source(output, &subjects)?;
-    let Some((source, measurements)) =
-        source.and_then(|source| source.measurements().map(|measurements| (source, measurements)))
-    else {
-        let message =
-            format!("`{owner}` is between nodes of a beam, where only sampled signals can be measured");
-        return of_solution(message);
+    let build = match output.kind.build() {
+        Build::Motion(build) => build,
+        Build::Element(..) if is_unscaled(document, output) => return Ok(Measured::Later),
+        _ => {
+            let message = format!("`{owner}` is of a drive or of a load that a signal scales");
+            return of_solution(message);
+        }
     };
-    let quantity = |coordinate| builder.coordinate_quantity(coordinate);
-    let (known, _) = components_of_motion(output.kind, &source, &quantity);
+    let quantity = build(output, &subjects)?;
+    let measurements = all_components(quantity.measurements());
+    if measurements.is_empty() {
+        let message = format!(
+            "`{owner}` lies between nodes of a beam or depends on too many unknowns, where only sampled signals can measure"
+        );
+        return of_solution(message);
+    }
+    let quantity_of = |coordinate| builder.coordinate_quantity(coordinate);
+    let (known, _) = components(output.kind, &*quantity, &quantity_of);
     match component_position(known.iter().map(String::as_str), component) {
-        Some(index) => Ok(builder.add_component(measurements[index].clone())),
+        Some(index) => Ok(Measured::By(builder.add_component(measurements[index].clone()))),
         None => unknown_component(owner, component, &known),
+    }
+}
+
+/// Whether an output is of an element that no signal scales: a spring, a load, or the friction of a joint.
+fn is_unscaled(document: &Document, output: &Output) -> bool {
+    let (OutputSource::Spring(name) | OutputSource::Actor(name)) = &output.source else { return false };
+    let is_element = |own: &&Component| own.name.value == name.value && own.signal.is_none();
+    let elements = document.springs.iter().chain(&document.loads);
+    let with_friction = document.joints.iter().filter(|joint| joint.friction.is_some());
+    elements.chain(with_friction).find(is_element).is_some()
+}
+
+/// A measurement of an element that a signal names before the element is added.
+#[derive(Clone)]
+pub(super) struct LaterMeasurement {
+    pub(super) measurement: MeasurementId,
+    pub(super) output: String,
+    pub(super) component: String,
+    /// Where it is named, and by what.
+    pub(super) place: Span,
+    pub(super) reader: String,
+}
+
+/// Finds the elements of measurements that signals have named before.
+pub(super) fn bind(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    problems: &mut Vec<Problem>,
+) {
+    for later in std::mem::take(&mut names.later_measurements) {
+        let LaterMeasurement { measurement, output: owner, component, place, reader } = later;
+        let output = document.outputs.iter().find(|output| output.name.value == owner);
+        let Some((output, Build::Element(of, _))) = output.map(|output| (output, output.kind.build())) else {
+            continue;
+        };
+        let (OutputSource::Spring(name) | OutputSource::Actor(name)) = &output.source else { continue };
+        let spring = names.springs.get(&name.value);
+        let element = match of {
+            Of::Spring => spring.map(|&(element, elongation)| (element, components_of(elongation))),
+            Of::Power => names.powers.get(&name.value).map(|&own| (own, output.kind.components())),
+        };
+        // An element that could not be added, and a spring without elongation, have their own problems.
+        let Some((element, components)) = element else { continue };
+        let words = || components.iter().map(|(word, _)| *word);
+        let problem = |message: String| {
+            Problem::error(place, format!("{reader} cannot be read: {message}")).label("here")
+        };
+        let Some(index) = component_position(words(), &component) else {
+            let message = format!("`{owner}` has no component `{component}`");
+            problems.push(problem(message).maybe_help(suggest::help(&component, words())));
+            continue;
+        };
+        if !builder.measure_element(measurement, element, (*of, index)) {
+            let message =
+                format!("`{owner}` has no gradient: its element has none, or has too many unknowns");
+            problems.push(problem(message).help("add `sample` to the signal"));
+        }
     }
 }
 

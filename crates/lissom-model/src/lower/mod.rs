@@ -33,10 +33,11 @@ use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
-use crate::channels::{self, Channel};
+use crate::channels::Channel;
 use crate::document::{Component, Document, NodeReference, interface_name};
 use crate::functions::Ramp;
 use crate::output_channels;
+use crate::outputs::Resolver;
 use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
@@ -109,6 +110,8 @@ pub struct Names {
     /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the
     /// signals are sampled.
     measured: BTreeMap<(String, bool), Argument>,
+    /// Those of them that are of elements, which are added after signals.
+    later_measurements: Vec<measurements::LaterMeasurement>,
     /// Those of them that are read at samples.
     readings: Vec<readings::NamedReading>,
     /// Outputs that are expressions and are being resolved, each named by the one before.
@@ -239,8 +242,8 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
 }
 
 impl Names {
-    fn resolver(&self) -> channels::Resolver<'_> {
-        channels::Resolver {
+    fn resolver(&self) -> Resolver<'_> {
+        Resolver {
             nodes: &self.nodes,
             lines: &self.lines,
             deformations: &self.deformations,

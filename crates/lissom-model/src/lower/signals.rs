@@ -10,7 +10,7 @@ use lissom_core::signals::{Argument, HeldId, Sampling, Signal, SignalId};
 use lissom_core::system::Builder;
 
 use super::Names;
-use super::measurements::measure;
+use super::measurements::{Fault, LaterMeasurement, Measured, measure};
 use super::order::by_name;
 use super::readings::NamedReading;
 use crate::channel_components::coordinate_components;
@@ -274,10 +274,23 @@ fn resolve(
     }
     let measured = measure(document, builder, names, owner, component);
     let fault = match measured {
-        Ok(measured) => {
+        Ok(Measured::By(measured)) => {
             names.measured.insert(key, Argument::Measured(measured));
             return Ok(Argument::Measured(measured));
         }
+        Ok(Measured::Later) if !is_sampled => {
+            let measurement = builder.add_later_measurement();
+            names.later_measurements.push(LaterMeasurement {
+                measurement,
+                output: owner.to_owned(),
+                component: component.to_owned(),
+                place,
+                reader: what.to_string(),
+            });
+            names.measured.insert(key, Argument::Measured(measurement));
+            return Ok(Argument::Measured(measurement));
+        }
+        Ok(Measured::Later) => Fault { message: String::new(), help: None, is_of_solution: true },
         Err(fault) => fault,
     };
     if !(is_sampled && fault.is_of_solution) {

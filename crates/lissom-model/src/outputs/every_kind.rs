@@ -11,10 +11,11 @@ use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
 use crate::channels::{Channel, signal_value};
-use crate::document::{Feeds, OutputKind};
+use crate::document::{Feature, Feeds, OutputKind};
 use crate::lower::registry::registry;
 use crate::lower::{Lowered, lower};
-use crate::{Library, ModelText};
+use crate::outputs::Evaluation;
+use crate::{Library, ModelText, Report};
 
 const MODEL: &str = include_str!("../../tests/every_output.toml");
 const MASS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 8\n1 1 1\n2 2 1\n3 3 1\n4 4 0.1\n5 5 0.2\n6 6 0.25\n\
@@ -22,8 +23,16 @@ const MASS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 8\n1 1 
 const STIFFNESS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 1\n7 7 100\n";
 const RECOVERY: &str = "%%MatrixMarket matrix coordinate real general\n1 7 1\n1 7 3\n";
 
+/// Outputs of kinds that feed signals at all times, but of a reaction, a drive and a load that a signal scales.
+const AT_SAMPLES_ALONE: [&str; 3] = ["mixed", "drive_power", "scaled_power"];
+
 /// The model with more signals.
 fn lowered(signals: &str) -> Lowered {
+    attempt(signals).unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+/// The model with more signals, or why there is none.
+fn attempt(signals: &str) -> Result<Lowered, Report> {
     let files = [("mass.mtx", MASS), ("stiffness.mtx", STIFFNESS), ("recovery.mtx", RECOVERY)];
     let library = Library::of_texts(files.map(|(path, text)| (path.to_owned(), text.to_owned())));
     let text = MODEL.replacen("[signals]\n", &format!("[signals]\n{signals}"), 1);
@@ -31,7 +40,7 @@ fn lowered(signals: &str) -> Lowered {
         .unwrap_or_else(|report| panic!("{}", report.render(false)));
     let document =
         text.document(&registry(), &[]).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    lower(&document).unwrap_or_else(|report| panic!("{}", report.render(false)))
+    lower(&document)
 }
 
 fn waves(seed: f64) -> Vector6 {
@@ -85,7 +94,7 @@ fn signals_have_the_values_that_are_recorded() {
             let of = format!("{}.{component}", channel.name);
             // Writing to a string cannot fail.
             let _ = writeln!(signals, "sampled_{name} = {{ value = \"{of}\", sample = 1 }}");
-            if channel.kind.feeds() == Feeds::Signals && channel.name != "mixed" {
+            if channel.kind.feeds() == Feeds::Signals && !AT_SAMPLES_ALONE.contains(&&*channel.name) {
                 let _ = writeln!(signals, "at_all_times_{name} = \"{of}\"");
             }
         }
@@ -114,6 +123,15 @@ fn signals_have_the_values_that_are_recorded() {
         assert!(compared.contains_key(&(kind.name(), "sampled")), "{}", kind.name());
         let feeds = kind.feeds() == Feeds::Signals;
         assert_eq!(compared.contains_key(&(kind.name(), "at_all_times")), feeds, "{}", kind.name());
+    }
+}
+
+#[test]
+fn powers_of_drives_and_scaled_loads_are_available_at_samples_alone() {
+    for name in ["drive_power", "scaled_power"] {
+        let refused = attempt(&format!("at_all_times = \"{name}.power\"\n")).err();
+        let report = refused.expect("there is no gradient").render(false);
+        assert!(report.contains("add `sample`"), "{report}");
     }
 }
 
@@ -189,7 +207,8 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
             Box::new(move |of| at(&of.by_multiplier, row)),
         ));
     }
-    for own in 0..state.kinematics.held.len() {
+    // The sides of switches follow, which do not vary.
+    for own in 0..system.signals().first_side() {
         all.push((
             format!("held value {own}"),
             Box::new(move |state, change| state.kinematics.held[own] += change),
@@ -207,11 +226,12 @@ fn derivatives_are_those_of_differences() {
     let directions = directions(system, &state);
     for channel in &model.channels {
         let Some(found) = channel.derivatives_at(system, &state, 1.0) else {
-            assert!(channel.kind.feeds() != Feeds::Signals, "{} has no derivatives", channel.name);
+            assert!(channel.kind.has(Feature::Accumulated), "{} has no derivatives", channel.name);
             continue;
         };
         if channel.kind.feeds() == Feeds::Signals {
-            assert!(channel.exact_derivatives(system, &state, 1.0).is_some(), "{}", channel.name);
+            let at = Evaluation { system, state: &state };
+            assert!(channel.quantity.derivatives(&at, 1.0).is_some(), "{}", channel.name);
         }
         for (name, change, derivative) in &directions {
             let step = 1e-3;

@@ -1,85 +1,185 @@
 //! Outputs of frames that nodes carry, and of sections between the nodes of a beam.
 
+use std::slice::from_ref;
 use std::sync::Arc;
 
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::kinematics::{CarriedFrame, GROUND, NodeId};
 use lissom_core::signals::frame_quantity::{Formula, FrameQuantity, Of};
 use lissom_core::signals::measurement::Measurement;
+use lissom_core::system::System;
 use lissom_motion::{Motion, Vector3};
 
-use super::Subjects;
+use super::differences::Touched;
 use super::location::{BeamSection, Location, ObservedSection};
-use crate::channels::{Resolver, Source};
-use crate::document::{NodeReference, Output, OutputKind, interface_name};
+use super::{Build, Evaluation, Found, OutputQuantity, Resolver, SOLUTION, Subjects};
+use crate::document::{Declaration, Feature, NodeReference, Output, OutputSource, Subject, interface_name};
 use crate::report::{Located, Problem};
 
-/// The quantity of a frame that a kind of output is.
-fn quantity(kind: OutputKind) -> Of {
-    match kind {
-        OutputKind::Displacement => Of::Displacement,
-        OutputKind::Rotation => Of::Rotation,
-        OutputKind::Quaternion => Of::Quaternion,
-        OutputKind::CardanAngles => Of::CardanAngles,
-        OutputKind::Velocity => Of::Velocity,
-        OutputKind::AngularVelocity => Of::AngularVelocity,
-        OutputKind::Acceleration => Of::Acceleration,
-        _ => Of::Position,
+/// Registry entry.
+pub(crate) const POSITION: Declaration = Declaration {
+    word: "position",
+    summary: "Position of a node, or of a point fixed to it.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Axes, Feature::Point],
+    components: &[("x", "m"), ("y", "m"), ("z", "m")],
+    build: Build::Motion(|output, subjects| quantity(Of::Position, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const DISPLACEMENT: Declaration = Declaration {
+    word: "displacement",
+    summary: "Displacement since the start.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Axes, Feature::Point],
+    components: &[("u1", "m"), ("u2", "m"), ("u3", "m")],
+    build: Build::Motion(|output, subjects| quantity(Of::Displacement, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const ROTATION: Declaration = Declaration {
+    word: "rotation",
+    summary: "Rotation vector since the start.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Axes],
+    components: &[("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
+    build: Build::Motion(|output, subjects| quantity(Of::Rotation, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const QUATERNION: Declaration = Declaration {
+    word: "quaternion",
+    summary: "Orientation of a node as a unit quaternion with non-negative q0.",
+    subject: Subject::Node,
+    features: &[],
+    components: &[("q0", ""), ("q1", ""), ("q2", ""), ("q3", "")],
+    build: Build::Motion(|output, subjects| quantity(Of::Quaternion, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const CARDAN_ANGLES: Declaration = Declaration {
+    word: "cardan_angles",
+    summary: "Orientation of a node as Cardan angles: rotations about x, the rotated y and the twice rotated z.",
+    subject: Subject::Node,
+    features: &[],
+    components: &[("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")],
+    build: Build::Motion(|output, subjects| quantity(Of::CardanAngles, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const VELOCITY: Declaration = Declaration {
+    word: "velocity",
+    summary: "Velocity of a node, or of a point fixed to it.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Axes, Feature::Point, Feature::Rates],
+    components: &[("v1", "m/s"), ("v2", "m/s"), ("v3", "m/s")],
+    build: Build::Motion(|output, subjects| quantity(Of::Velocity, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const ANGULAR_VELOCITY: Declaration = Declaration {
+    word: "angular_velocity",
+    summary: "Angular velocity of a node.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Axes, Feature::Rates],
+    components: &[("w1", "rad/s"), ("w2", "rad/s"), ("w3", "rad/s")],
+    build: Build::Motion(|output, subjects| quantity(Of::AngularVelocity, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const ACCELERATION: Declaration = Declaration {
+    word: "acceleration",
+    summary: "Acceleration of a node, or of a point fixed to it.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Axes, Feature::Point, Feature::Rates],
+    components: &[("a1", "m/s²"), ("a2", "m/s²"), ("a3", "m/s²")],
+    build: Build::System(SOLUTION, |output, _, subjects| quantity(Of::Acceleration, output, subjects)),
+};
+/// Registry entry.
+pub(crate) const RELATIVE_MOTION: Declaration = Declaration {
+    word: "relative_motion",
+    summary: "Position and rotation vector of a joint's tip frame, in the axes of its base frame.",
+    subject: Subject::Joint,
+    features: &[],
+    components: &[("x", "m"), ("y", "m"), ("z", "m"), ("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
+    build: Build::Motion(relative_motion),
+};
+/// Of a frame that a node carries.
+struct OfFrame(Arc<dyn Measurement>);
+
+impl OutputQuantity for OfFrame {
+    fn measurements(&self) -> &[Arc<dyn Measurement>] {
+        from_ref(&self.0)
     }
 }
 
-/// Source of a quantity of the frame at `location`.
-pub(super) fn source(
-    output: &Output,
-    location: &Location,
-    subjects: &Subjects<'_>,
-) -> Result<Source, Problem> {
+impl OutputQuantity for ObservedSection {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        out.extend_from_slice(&self.values(at.motion()));
+    }
+
+    fn touched(&self, _: &System) -> Option<Touched> {
+        Some(Touched { nodes: self.nodes().collect(), ..Touched::default() })
+    }
+}
+
+/// A quantity of the frame at the node of an output.
+fn quantity(of: Of, output: &Output, subjects: &Subjects<'_>) -> Found {
+    let location = location_of(output, subjects)?;
     let frame = |node: &Option<Located<NodeReference>>| {
         node.as_ref().map(|node| carried_frame(node, subjects.names)).transpose()
     };
     let (observer, axes) = (frame(&output.relative_to)?, frame(&output.seen_in)?);
     let start = location.motion(subjects.start).frame;
     let mut start = observer.map_or(start, |observer| start.relative_to(&observer.frame(subjects.start)));
-    let of = quantity(output.kind);
-    let source = |of: Of, axes: Option<CarriedFrame>, start: Motion| match location {
+    // By the same formula, so that displacements begin with zero and not with its round-off.
+    let position = match &location {
         Location::Carried(own) => {
-            Source::Measured(Arc::new(FrameQuantity::new(of, *own, observer, axes, start)))
+            FrameQuantity::new(Of::Position, *own, observer, None, start).values(subjects.start).to_vec()
+        }
+        Location::Between(section) => {
+            let formula = Formula { of: Of::Position, start, has_axes: false };
+            ObservedSection { section: section.clone(), formula, observer, axes: None }.values(subjects.start)
+        }
+    };
+    start.position = Vector3::new(position[0], position[1], position[2]);
+    Ok(match location {
+        Location::Carried(own) => {
+            Arc::new(OfFrame(Arc::new(FrameQuantity::new(of, own, observer, axes, start))))
         }
         Location::Between(section) => {
             let formula = Formula { of, start, has_axes: axes.is_some() };
-            Source::BetweenNodes(ObservedSection { section: section.clone(), formula, observer, axes })
+            Arc::new(ObservedSection { section, formula, observer, axes })
         }
-    };
-    // By the same formula, so that displacements begin with zero and not with its round-off.
-    let position = match source(Of::Position, None, start) {
-        Source::Measured(position) => position.values(subjects.start).to_vec(),
-        Source::BetweenNodes(position) => position.values(subjects.start),
-        _ => Vec::new(),
-    };
-    if let [x, y, z, ..] = position[..] {
-        start.position = Vector3::new(x, y, z);
-    }
-    Ok(source(of, axes, start))
+    })
 }
 
 /// Pose of a joint's tip frame in its base frame.
-pub(super) fn relative_motion([base, tip]: [CarriedFrame; 2]) -> Arc<dyn Measurement> {
-    Arc::new(FrameQuantity::new(Of::Pose, tip, Some(base), None, Motion::identity()))
+fn relative_motion(output: &Output, subjects: &Subjects<'_>) -> Found {
+    let name = name_of(output)?;
+    let [base, tip] = (subjects.joint_frames)(&name.value).ok_or_else(|| {
+        let message = format!("`{}` stands between no two nodes", name.value);
+        Problem::error(name.span, message).help("name the joint that it acts on")
+    })?;
+    Ok(Arc::new(OfFrame(Arc::new(FrameQuantity::new(Of::Pose, tip, Some(base), None, Motion::identity())))))
 }
 
-/// Positions of the nodes of a beam on its axis.
-pub(super) fn points_of_line(
-    name: &Located<String>,
-    names: &Resolver<'_>,
-) -> Result<Vec<Arc<dyn Measurement>>, Problem> {
-    let unknown = || Problem::error(name.span, format!("there is no beam called `{}`", name.value));
-    let line = names.lines.get(&name.value).ok_or_else(unknown)?;
-    let point = |(&node, offset): (&NodeId, &Motion)| -> Arc<dyn Measurement> {
-        // A node may be another part's: the section has its position beside it.
-        let own = CarriedFrame { node, offset: Motion::translation(offset.position) };
-        Arc::new(FrameQuantity::new(Of::Position, own, None, None, Motion::identity()))
-    };
-    Ok(line.nodes.iter().zip(&line.offsets).map(point).collect())
+/// What the output is of, by name.
+pub(super) fn name_of(output: &Output) -> Result<&Located<String>, Problem> {
+    match &output.source {
+        OutputSource::Joint(name)
+        | OutputSource::Spring(name)
+        | OutputSource::Actor(name)
+        | OutputSource::Beam(name)
+        | OutputSource::Superelement(name)
+        | OutputSource::Signal(name) => Ok(name),
+        OutputSource::Node { .. } | OutputSource::Model | OutputSource::Expression(_) => {
+            let message = format!("output `{}` names nothing", output.name.value);
+            Err(Problem::error(output.name.span, message))
+        }
+    }
+}
+
+/// The node of an output, and the point that it carries.
+pub(super) fn node_of(output: &Output) -> Result<(&Located<NodeReference>, Option<&Vector3>), Problem> {
+    if let OutputSource::Node { node, point } = &output.source {
+        return Ok((node, point.as_ref()));
+    }
+    let message = format!("output `{}` names no node", output.name.value);
+    Err(Problem::error(output.name.span, message))
 }
 
 fn unknown(node: &Located<NodeReference>, name: &str) -> Problem {
@@ -108,7 +208,7 @@ fn line<'n>(
 }
 
 /// The frame of a node that has axes: that of the section, of a beam.
-pub(crate) fn carried_frame(
+pub(super) fn carried_frame(
     node: &Located<NodeReference>,
     names: &Resolver<'_>,
 ) -> Result<CarriedFrame, Problem> {
@@ -125,12 +225,9 @@ pub(crate) fn carried_frame(
     Ok(CarriedFrame { node: found, offset: line.offsets[index] })
 }
 
-/// Where an output is: at a node, or at a `point` that it carries [m, global axes, at the start].
-pub(super) fn location(
-    node: &Located<NodeReference>,
-    point: Option<&Vector3>,
-    subjects: &Subjects<'_>,
-) -> Result<Location, Problem> {
+/// Where an output is: at a node, or at a point that it carries [m, global axes, at the start].
+pub(super) fn location_of(output: &Output, subjects: &Subjects<'_>) -> Result<Location, Problem> {
+    let (node, point) = node_of(output)?;
     let carried = |node: NodeId| {
         let frame = subjects.drawn.nodes[node].frame;
         let offset = point.map_or_else(Vector3::zeros, |point| frame.inverse_transform_point(point));

@@ -7,7 +7,7 @@ use lissom_core::elements::shape::lagrange;
 use lissom_core::kinematics::{CarriedFrame, Kinematics, NodeId, NodeMotion};
 use lissom_core::signals::MovingFrame;
 use lissom_core::signals::frame_quantity::Formula;
-use lissom_motion::{Motion, Vector3, Vector6, rotation_part, screw, translation_part};
+use lissom_motion::{Motion, Vector3, rotation_part, screw, translation_part};
 
 /// A position that moves with the model.
 #[derive(Clone)]
@@ -71,11 +71,6 @@ impl BeamSection {
         // The rate of the twist's components lacks ω × v.
         let acceleration = screw(&(absolute - spin.cross(&velocity)), &turning);
         NodeMotion { frame, twist: screw(&velocity, &spin), acceleration }
-    }
-
-    /// Section force and moment in the axes of the section [N, N m].
-    pub(crate) fn forces(&self, at: &Kinematics) -> Vector6 {
-        self.probe.section_forces_at(at, self.xi)
     }
 
     /// Nodes that it depends on.

@@ -1,22 +1,150 @@
-//! Sources of outputs that need nothing but the motion: they are recorded, and signals depend on them.
+//! Recorded quantities, a file for each kind or for several that share their formulas: names and units of components, values and
+//! derivatives. They are recorded, and signals depend on them.
 
+pub(crate) mod angle;
+pub(crate) mod contact;
+mod derivatives;
+mod differences;
+pub(crate) mod energy;
 #[cfg(test)]
 mod every_kind;
-mod frames;
+pub(crate) mod expression;
+pub(crate) mod frames;
+pub(crate) mod line;
 mod location;
+pub(crate) mod modal;
+pub(crate) mod momentum;
+pub(crate) mod power;
+pub(crate) mod reaction;
+pub(crate) mod recovered;
+pub(crate) mod relative;
+pub(crate) mod relative_acceleration;
+pub(crate) mod section;
+pub(crate) mod signal;
+pub(crate) mod spring;
+pub(crate) mod work;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::channels::{Resolver, Source};
-use crate::document::{Output, OutputKind, OutputSource};
-use crate::report::{Located, Problem};
-use crate::superelement_channels;
-use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics};
-use lissom_core::signals::coordinate::{Coordinate, Of};
+use lissom_core::analysis::accumulated::Accumulated;
+use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_core::linear::OutputDerivatives;
+use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Measurement};
+use lissom_core::system::element_quantity;
+use lissom_core::system::{ElementId, State, System};
 
-pub(crate) use frames::carried_frame;
-pub(crate) use location::{BeamSection, Location, ObservedSection};
+use crate::channels::Channel;
+use crate::document::Output;
+use crate::lower::Deformed;
+use crate::report::Problem;
+
+use differences::Touched;
+
+/// A system and the state at which a quantity is evaluated.
+#[derive(Clone, Copy)]
+pub(crate) struct Evaluation<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) state: &'a State,
+}
+
+impl<'a> Evaluation<'a> {
+    /// The motion.
+    fn motion(&self) -> &'a Kinematics {
+        &self.state.kinematics
+    }
+}
+
+/// Name and unit of each component.
+pub(crate) type NamesAndUnits = Vec<(String, &'static str)>;
+
+/// A recorded quantity of a model.
+pub(crate) trait OutputQuantity: Send + Sync {
+    /// Names and units of its components, unless they are those of its kind; `quantity` is that of a coordinate.
+    fn components(&self, _quantity: &dyn Fn(CoordinateId) -> Quantity) -> Option<NamesAndUnits> {
+        None
+    }
+
+    /// Its components one after the other, if they depend on the motion of a few nodes and coordinates and have exact gradients
+    /// for Newton's method.
+    fn measurements(&self) -> &[Arc<dyn Measurement>] {
+        &[]
+    }
+
+    /// Appends the components' values [SI]. Default: those of its measurements.
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        for own in self.measurements() {
+            out.extend_from_slice(&own.values(at.motion())[..own.component_count()]);
+        }
+    }
+
+    /// Derivatives of the components, exact unless the quantity is [`touched`](Self::touched); `length` [m] is of the size of the
+    /// model. Default: those of its measurements, or none.
+    fn derivatives(&self, at: &Evaluation<'_>, _length: f64) -> Option<Vec<OutputDerivatives>> {
+        let all = all_components(self.measurements());
+        let of = |own: &Component| derivatives::of_component(own, at.system, at.motion());
+        (!all.is_empty()).then(|| all.iter().map(of).collect())
+    }
+
+    /// The unknowns that it depends on, where its derivatives are differences.
+    fn touched(&self, _system: &System) -> Option<Touched> {
+        None
+    }
+
+    /// Channels whose components an expression names, and which component.
+    fn arguments(&self) -> &[(Channel, usize)] {
+        &[]
+    }
+}
+
+/// The components of several measurements, one after the other.
+pub(crate) fn all_components(measurements: &[Arc<dyn Measurement>]) -> Vec<Component> {
+    let all = |of: &Arc<dyn Measurement>| {
+        let of = Arc::clone(of);
+        (0..of.component_count()).map(move |component| Component { of: Arc::clone(&of), component })
+    };
+    measurements.iter().flat_map(all).collect()
+}
+
+/// A quantity, or why there is none.
+pub(crate) type Found = Result<Arc<dyn OutputQuantity>, Problem>;
+
+/// A number that the simulation accumulates, or why there is none.
+pub(crate) type FoundNumber = Result<Arc<dyn Accumulated>, Problem>;
+
+/// How the quantity of an output is found.
+pub(crate) enum Build {
+    /// From what is known before the system is built, so that signals can depend on it.
+    Motion(fn(&Output, &Subjects<'_>) -> Found),
+    /// From an element; signals depend on this quantity of it, which is known when the elements are added.
+    Element(element_quantity::Of, fn(&Output, &System, &Subjects<'_>) -> Found),
+    /// From the system; why signals can depend on it at samples alone.
+    System(&'static str, fn(&Output, &System, &Subjects<'_>) -> Found),
+    /// The simulation accumulates it.
+    Accumulated(fn(&Output, &System, &Subjects<'_>) -> FoundNumber),
+    /// From other outputs.
+    Expression,
+}
+
+/// Why signals can depend on a kind at samples alone: it follows from the solution of a step.
+const SOLUTION: &str = "it follows from the solution of a step";
+/// Why signals can depend on a kind at samples alone: the tangent of a load would be full.
+const WHOLE_MODEL: &str = "it depends on the motion of the whole model";
+
+/// Names resolved by the lowering.
+pub(crate) struct Resolver<'a> {
+    pub(crate) nodes: &'a BTreeMap<String, NodeId>,
+    pub(crate) lines: &'a BTreeMap<String, BeamLine>,
+    pub(crate) deformations: &'a BTreeMap<String, Deformed>,
+    pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
+    pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
+    /// Springs, loads and joints' friction.
+    pub(crate) powers: &'a BTreeMap<String, ElementId>,
+    /// Signals, inputs and states.
+    pub(crate) signals: &'a BTreeMap<String, Argument>,
+}
 
 /// What outputs refer to: names, and frames as far as they are known before the system is built.
 pub(crate) struct Subjects<'a> {
@@ -27,81 +155,4 @@ pub(crate) struct Subjects<'a> {
     pub(crate) start: &'a Kinematics,
     /// Frames of outputs of a joint between two nodes, base first.
     pub(crate) joint_frames: &'a dyn Fn(&str) -> Option<[CarriedFrame; 2]>,
-}
-
-/// Source of an output that depends on positions, velocities and accelerations of a few nodes and coordinates; none for other
-/// kinds.
-pub(crate) fn source(output: &Output, subjects: &Subjects<'_>) -> Result<Option<Source>, Problem> {
-    Ok(Some(match (&output.source, output.kind) {
-        (OutputSource::Node { node, point }, OutputKind::SectionForce | OutputKind::SectionMoment) => {
-            Source::Section(frames::section(node, point.as_ref(), subjects)?)
-        }
-        (OutputSource::Node { node, point }, OutputKind::Angle) => {
-            Source::Angle(frames::location(node, point.as_ref(), subjects)?)
-        }
-        (OutputSource::Node { node, point }, _) => {
-            frames::source(output, &frames::location(node, point.as_ref(), subjects)?, subjects)?
-        }
-        (OutputSource::Beam(name), _) => Source::Line(frames::points_of_line(name, subjects.names)?),
-        (OutputSource::Superelement(name), kind) => {
-            superelement_channels::source(kind, name, subjects.names)?
-        }
-        (OutputSource::Joint(name), OutputKind::RelativeMotion) => {
-            let frames = (subjects.joint_frames)(&name.value).ok_or_else(|| no_frames(name))?;
-            Source::Measured(frames::relative_motion(frames))
-        }
-        (OutputSource::Joint(name), OutputKind::Relative) => {
-            Source::Coordinates(coordinates(name, subjects.names)?)
-        }
-        _ => return Ok(None),
-    }))
-}
-
-fn no_frames(name: &Located<String>) -> Problem {
-    let message = format!("`{}` stands between no two nodes", name.value);
-    Problem::error(name.span, message).help("name the joint that it acts on")
-}
-
-/// Coordinates of a joint or drive, at least one.
-pub(crate) fn coordinates(
-    name: &Located<String>,
-    names: &Resolver<'_>,
-) -> Result<Vec<CoordinateId>, Problem> {
-    let coordinates = names.coordinates.get(&name.value).cloned().unwrap_or_default();
-    if coordinates.is_empty() {
-        let message = format!("joint `{}` has no relative coordinate to record", name.value);
-        return Err(Problem::error(name.span, message).help(
-            "name a joint that has one, such as a revolute, screw, planar, prismatic or point_on_line joint, \
-             or a drive of one",
-        ));
-    }
-    Ok(coordinates)
-}
-
-/// Value and rate of a coordinate, times a factor.
-pub(crate) fn value_and_rate((coordinate, factor): (CoordinateId, f64)) -> [Coordinate; 2] {
-    [Of::Value, Of::Rate].map(|of| Coordinate::scaled(coordinate, of, factor))
-}
-
-impl Source {
-    /// Its components as measurements with exact derivatives; none where it has no such derivatives.
-    pub(crate) fn measurements(&self) -> Option<Vec<Component>> {
-        let all = |of: &Arc<dyn Measurement>| {
-            let of = Arc::clone(of);
-            (0..of.component_count()).map(move |component| Component { of: Arc::clone(&of), component })
-        };
-        let all_of_coordinates = |pairs: Vec<[Coordinate; 2]>| {
-            let one = |own: Coordinate| Component { of: Arc::new(own), component: 0 };
-            pairs.into_iter().flatten().map(one).collect()
-        };
-        match self {
-            Self::Measured(of) => Some(all(of).collect()),
-            Self::Line(points) => Some(points.iter().flat_map(all).collect()),
-            Self::Coordinates(coordinates) => {
-                Some(all_of_coordinates(coordinates.iter().map(|&own| value_and_rate((own, 1.0))).collect()))
-            }
-            Self::Modal(unknowns) => Some(all_of_coordinates(unknowns.modal().map(value_and_rate).collect())),
-            _ => None,
-        }
-    }
 }

@@ -2,13 +2,18 @@
 
 use std::sync::Arc;
 
+use lissom_motion::Motion;
+
 use super::Builder;
+use crate::ElementId;
+use crate::element_quantity::{ElementQuantity, Of};
 use crate::feedback::Target;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::elements::initial_model::Coordinate;
-use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, CoordinateMotion, Kinematics};
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, CoordinateMotion, GROUND, Kinematics};
 use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::Event;
+use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of::Position};
 use lissom_mechanics::signals::measurement::{Component, Measurement};
 use lissom_mechanics::signals::{Argument, HeldId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
 
@@ -44,6 +49,34 @@ impl Builder {
     pub fn add_component(&mut self, component: Component) -> MeasurementId {
         self.graph.measurements.push(component);
         self.graph.measurements.len() - 1
+    }
+
+    /// Adds a measurement of an element that is not added yet, see [`measure_element`](Self::measure_element).
+    pub fn add_later_measurement(&mut self) -> MeasurementId {
+        // The constant of a node that does not move.
+        let ground = CarriedFrame::of_node(GROUND);
+        self.add_measurement(FrameQuantity::new(Position, ground, None, None, Motion::identity()))
+    }
+
+    /// Makes a measurement that of a component of a quantity of an element. Returns whether there is one with a gradient: not of
+    /// loads scaled by signals, nor of elements without an elongation or with too many unknowns.
+    pub fn measure_element(
+        &mut self,
+        measurement: MeasurementId,
+        element: ElementId,
+        (of, component): (Of, usize),
+    ) -> bool {
+        let Some(index) = element.batch else { return false };
+        let batch = &*self.batches[index];
+        if of == Of::Spring && batch.spring_motion(element.item, &self.initial_kinematics()).is_none() {
+            return false;
+        }
+        let Some(quantity) = ElementQuantity::new(of, batch, element.item).map(Arc::new) else {
+            return false;
+        };
+        self.graph.measurements[measurement] = Component { of: quantity.clone(), component };
+        self.element_quantities.push((index, quantity));
+        true
     }
 
     /// The frames of outputs of a joint between two nodes, base first.

@@ -8,6 +8,7 @@ use super::{Beam, SectionLaw};
 use crate::elements::contribution::Contribution;
 use crate::elements::initial_model::InitialModel;
 use crate::elements::quadrature::gauss_lobatto;
+use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{Freedoms, Kinematics, NodeId};
 
 /// Motion and section forces anywhere in a beam element, for outputs.
@@ -18,6 +19,8 @@ pub trait BeamProbe: Send + Sync {
     fn twist_at(&self, at: &Kinematics, xi: f64) -> Vector6;
     /// Section forces and moments at ξ in the section's frame [N, N m].
     fn section_forces_at(&self, at: &Kinematics, xi: f64) -> Vector6;
+    /// Derivatives of the section forces and moments with respect to the element's nodes.
+    fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6>;
     /// Strains and curvatures at ξ [-, 1/m].
     fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6;
 }
@@ -31,6 +34,9 @@ impl<const N: usize> BeamProbe for Beam<N> {
     }
     fn section_forces_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         Self::section_forces_at(self, at, xi)
+    }
+    fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6> {
+        Self::section_force_derivatives_at(self, at, xi)
     }
     fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         Self::strain_at(self, at, xi)

@@ -21,7 +21,7 @@ pub(in crate::elements) struct Linearization<const N: usize> {
 }
 
 /// ∂ε̇/∂d at constant node twists, from derivatives of the strains and of the rates ḋ.
-fn rate_by_coordinates<const N: usize>(
+pub(super) fn rate_by_coordinates<const N: usize>(
     station: &Station<N>,
     (d, d_slope): (&Vector6, &Vector6),
     strains: &[Matrix6; N],
@@ -187,7 +187,11 @@ fn unit(k: usize) -> Vector6 {
 }
 
 /// ∂ḋ_k/∂d_k at constant node twists: δ(T(d)⁻¹ w) with δw = ad_η Ad(exp(-d)) V_r, η = T δd.
-fn rate_changes<const N: usize>(beam: &Beam<N>, at: &Kinematics, relative: &Relative<N>) -> [Matrix6; N] {
+pub(super) fn rate_changes<const N: usize>(
+    beam: &Beam<N>,
+    at: &Kinematics,
+    relative: &Relative<N>,
+) -> [Matrix6; N] {
     let twists = beam.relative_twists(at, relative);
     let reference = beam.section_twist(at, Beam::<N>::REFERENCE);
     std::array::from_fn(|k| {

@@ -21,6 +21,7 @@ mod blocks;
 mod forces;
 pub mod line;
 mod linearize;
+mod section_gradient;
 mod step_stages;
 mod stiffness;
 

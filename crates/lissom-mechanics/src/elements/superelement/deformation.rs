@@ -1,8 +1,11 @@
 //! Deformation of a superelement, in the unknowns of its given matrices: for outputs.
 
 use lissom_motion::{Motion, Vector3};
+use nalgebra::DMatrix;
 
-use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId};
+use crate::signals::frame_quantity::{FrameQuantity, Of};
+use crate::signals::measurement::Measurement;
 
 /// Location of the unknowns of a superelement's matrices.
 #[derive(Clone, Debug)]
@@ -51,6 +54,28 @@ impl Deformation {
         }
         all.extend(self.modal().map(|(own, factor)| factor * at.coordinates[own].value));
         all
+    }
+
+    /// Derivatives of u with respect to the positions of the interfaces, as body variations, and to the modal coordinates.
+    pub fn gradient(&self, at: &Kinematics) -> DMatrix<f64> {
+        let mut gradient = DMatrix::zeros(self.size(), self.size());
+        let observer = CarriedFrame::of_node(self.nodes[self.floating]);
+        for (i, &node) in self.nodes.iter().enumerate().filter(|&(i, _)| i != self.floating) {
+            let own = CarriedFrame::of_node(node);
+            let pose = FrameQuantity::new(Of::Pose, own, Some(observer), None, Motion::IDENTITY);
+            for component in 0..6 {
+                let found = pose.gradient(component, at);
+                for k in 0..6 {
+                    gradient[(6 * i + component, 6 * i + k)] += found.by_place[k];
+                    gradient[(6 * i + component, 6 * self.floating + k)] += found.by_place[6 + k];
+                }
+            }
+        }
+        let first = 6 * self.nodes.len();
+        for (k, (_, factor)) in self.modal().enumerate() {
+            gradient[(first + k, first + k)] = factor;
+        }
+        gradient
     }
 }
 

@@ -1,40 +1,37 @@
-//! Outputs that depend on the history: work, and angles that are continuous beyond half a revolution.
+//! Angles about an axis that go on beyond half a turn.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
 
 use lissom_core::analysis::accumulated::{AcceptedStep, Accumulated};
-use lissom_core::kinematics::{CarriedFrame, Kinematics};
-use lissom_core::system::ElementId;
+use lissom_core::kinematics::{CarriedFrame, GROUND, Kinematics};
 use lissom_motion::{Rotation, Vector3};
 
-use crate::outputs::Location;
+use super::frames::{carried_frame, location_of};
+use super::location::Location;
+use super::{Build, Subjects};
+use crate::document::{Declaration, Feature, Output, Subject};
+use crate::report::Problem;
 
-/// Work done on a model.
-pub(crate) struct Work {
-    pub(crate) name: String,
-    pub(crate) of: Actor,
-}
-
-/// Element that delivers power to a model.
-#[derive(Clone, Copy)]
-pub(crate) enum Actor {
-    Element(ElementId),
-    /// By its position among the drives.
-    Drive(usize),
-}
-
-impl Accumulated for Work {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64 {
-        let work = match self.of {
-            Actor::Element(element) => step.work_of_element(element),
-            Actor::Drive(drive) => step.work_of_drive(drive),
-        };
-        before + work
-    }
+/// Registry entry.
+pub(crate) const ANGLE: Declaration = Declaration {
+    word: "angle",
+    summary: "Rotation angle of a node about an axis since the start, continuous beyond half a revolution.",
+    subject: Subject::Node,
+    features: &[Feature::AngleAxis, Feature::Observer, Feature::Accumulated],
+    components: &[("angle", "rad")],
+    build: Build::Accumulated(|output, _, subjects| angle(output, subjects)),
+};
+fn angle(output: &Output, subjects: &Subjects<'_>) -> Result<Arc<dyn Accumulated>, Problem> {
+    let location = location_of(output, subjects)?;
+    let start = location.motion(subjects.start).frame;
+    let observer = output.relative_to.as_ref().map(|node| carried_frame(node, subjects.names)).transpose()?;
+    let observer = observer.unwrap_or(CarriedFrame::of_node(GROUND));
+    let own = observer.frame(subjects.start).rotation;
+    let axis = output.axis.unwrap_or_else(Vector3::z);
+    let axis = observer.frame(subjects.drawn).rotation.apply_inverse(&axis).normalize();
+    let start = own.inverse() * start.rotation;
+    Ok(Arc::new(AngleAboutAxis { name: output.name.value.clone(), location, observer, axis, start }))
 }
 
 /// Cosine of half the angle by which the axis may at most be turned for the angle about it to have a meaning.
@@ -49,14 +46,14 @@ const MIN_COSINE: f64 = 1e-3;
 ///
 /// This is the angle of the turn about n that is left when the shortest turn of n itself is taken away. The whole turns are those
 /// that the angular velocity gives.
-pub(crate) struct AngleAboutAxis {
-    pub(crate) name: String,
-    pub(crate) location: Location,
-    pub(crate) observer: CarriedFrame,
+struct AngleAboutAxis {
+    name: String,
+    location: Location,
+    observer: CarriedFrame,
     /// In the observer's axes.
-    pub(crate) axis: Vector3,
+    axis: Vector3,
     /// Rotation of the node in the observer's axes at the start.
-    pub(crate) start: Rotation,
+    start: Rotation,
 }
 
 /// Where a node is turned, in the observer's axes.

@@ -1,0 +1,153 @@
+//! Derivatives of recorded quantities by row of the system.
+
+use std::collections::BTreeMap;
+
+use lissom_core::kinematics::local_derivatives::LocalDerivatives;
+use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId};
+use lissom_core::linear::{LinearModel, OutputDerivatives};
+use lissom_core::signals::Argument;
+use lissom_core::signals::measurement::{Component, Gradient};
+use lissom_core::system::energy_derivatives::Slopes;
+use lissom_core::system::{State, System};
+
+use super::Evaluation;
+use crate::channels::Channel;
+
+impl Channel {
+    /// Derivatives of its components at the state of `model`, in its unknowns; none of accumulated numbers.
+    pub fn derivatives(&self, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
+        let state = State {
+            kinematics: model.kinematics().clone(),
+            multipliers: model.multipliers().to_vec(),
+            violations: Vec::new(),
+            algorithmic: Vec::new(),
+            time_remainder: 0.0,
+            position_remainders: Vec::new(),
+            accumulated: Vec::new(),
+        };
+        let found = self.derivatives_at(model.system(), &state, model.length())?;
+        Some(found.into_iter().map(|output| model.along_departures(output)).collect())
+    }
+
+    /// Derivatives of its components by positions, velocities, accelerations, multipliers and held values at a state; exact
+    /// where there are formulas, otherwise by differences. `length` [m] is of the size of the model.
+    pub(crate) fn derivatives_at(
+        &self,
+        system: &System,
+        state: &State,
+        length: f64,
+    ) -> Option<Vec<OutputDerivatives>> {
+        let at = Evaluation { system, state };
+        let by_differences = || super::differences::of(self, &at, length);
+        self.quantity.derivatives(&at, length).or_else(by_differences)
+    }
+}
+
+/// Row of a multiplier.
+pub(super) fn multiplier_row(system: &System, multiplier: usize) -> usize {
+    system.layout().coordinate_count() + multiplier
+}
+
+/// Adds to an entry.
+pub(super) fn add(to: &mut BTreeMap<usize, f64>, row: usize, value: f64) {
+    if value != 0.0 {
+        *to.entry(row).or_insert(0.0) += value;
+    }
+}
+
+/// Adds `factor` times the derivatives of an argument of signals.
+pub(super) fn add_argument(
+    out: &mut OutputDerivatives,
+    factor: f64,
+    argument: Argument,
+    system: &System,
+    at: &Kinematics,
+) {
+    let graph = system.signals();
+    let measured = |index: usize| of_component(&graph.measurements[index], system, at);
+    match argument {
+        Argument::Held(held) => *out.by_held.entry(held).or_insert(0.0) += factor,
+        Argument::Measured(index) => add_scaled(out, &measured(index), factor),
+        Argument::Signal(signal) => graph.evaluate(at, |values| {
+            graph.differentiate_by_all(signal, at, values, |argument, derivative| match argument {
+                Argument::Held(held) => *out.by_held.entry(held).or_insert(0.0) += factor * derivative,
+                Argument::Measured(index) => add_scaled(out, &measured(index), factor * derivative),
+                Argument::Signal(_) => {}
+            });
+        }),
+    }
+}
+
+/// Adds `factor` times other derivatives.
+pub(super) fn add_scaled(out: &mut OutputDerivatives, other: &OutputDerivatives, factor: f64) {
+    for (own, other) in [
+        (&mut out.by_place, &other.by_place),
+        (&mut out.by_rate, &other.by_rate),
+        (&mut out.by_acceleration, &other.by_acceleration),
+        (&mut out.by_multiplier, &other.by_multiplier),
+        (&mut out.by_held, &other.by_held),
+    ] {
+        for (&row, value) in other {
+            *own.entry(row).or_insert(0.0) += factor * value;
+        }
+    }
+}
+
+/// Derivatives of a component of a measurement, by row.
+pub(super) fn of_component(of: &Component, system: &System, at: &Kinematics) -> OutputDerivatives {
+    of_gradient(&of.gradient(at), (of.of.nodes(), of.of.coordinates()), system)
+}
+
+/// A gradient with respect to some nodes and coordinates, by row.
+pub(super) fn of_gradient(
+    gradient: &Gradient,
+    (nodes, coordinates): (&[NodeId], &[CoordinateId]),
+    system: &System,
+) -> OutputDerivatives {
+    let layout = system.layout();
+    let nodes = nodes.iter().flat_map(|&node| layout.rows_of_node(node).iter().copied());
+    let coordinates = coordinates.iter().map(|&own| layout.row_of_coordinate(own) as u32);
+    let mut output = OutputDerivatives::default();
+    for (slot, row) in nodes.chain(coordinates).enumerate().filter(|&(_, row)| row != LOCKED) {
+        add(&mut output.by_place, row as usize, gradient.by_place[slot]);
+        add(&mut output.by_rate, row as usize, gradient.by_rate[slot]);
+        add(&mut output.by_acceleration, row as usize, gradient.by_acceleration[slot]);
+    }
+    output
+}
+
+/// Derivatives of several numbers of a joint, by row.
+pub(super) fn of_local<const N: usize>(
+    of: &LocalDerivatives<N>,
+    first_multiplier: usize,
+    system: &System,
+) -> Vec<OutputDerivatives> {
+    let layout = system.layout();
+    let nodes = of.nodes.iter().flat_map(|&node| layout.rows_of_node(node).iter().copied());
+    let coordinates = of.coordinates.iter().map(|&own| layout.row_of_coordinate(own) as u32);
+    let mut outputs = vec![OutputDerivatives::default(); N];
+    for (slot, row) in nodes.chain(coordinates).enumerate().filter(|&(_, row)| row != LOCKED) {
+        for (k, output) in outputs.iter_mut().enumerate() {
+            add(&mut output.by_place, row as usize, of.by_place[slot][k]);
+            add(&mut output.by_rate, row as usize, of.by_rate[slot][k]);
+        }
+    }
+    for (equation, column) in of.by_multiplier.iter().enumerate() {
+        let row = multiplier_row(system, first_multiplier + equation);
+        outputs
+            .iter_mut()
+            .zip(column)
+            .for_each(|(output, &value)| add(&mut output.by_multiplier, row, value));
+    }
+    outputs
+}
+
+/// Derivatives of a number of the whole model.
+pub(super) fn of_slopes(of: &Slopes) -> OutputDerivatives {
+    let mut output = OutputDerivatives::default();
+    for (row, (&by_place, &by_rate)) in of.by_place.iter().zip(&of.by_rate).enumerate() {
+        add(&mut output.by_place, row, by_place);
+        add(&mut output.by_rate, row, by_rate);
+    }
+    output
+}

@@ -1,0 +1,104 @@
+//! Power that springs, loads, drives and friction put into the rest of the model.
+
+use std::slice::from_ref;
+use std::sync::Arc;
+
+use lissom_core::linear::OutputDerivatives;
+use lissom_core::signals::Argument;
+use lissom_core::signals::measurement::Measurement;
+use lissom_core::system::element_quantity::Of;
+use lissom_core::system::{ElementId, ScaledPower, System};
+
+use super::derivatives::{add, add_argument, add_scaled, multiplier_row, of_gradient};
+use super::frames::name_of;
+use super::{Build, Evaluation, Found, OutputQuantity, Resolver, Subjects};
+use crate::document::{Declaration, Feature, Output, Subject};
+use crate::report::{Located, Problem};
+
+/// Registry entry.
+pub(crate) const POWER: Declaration = Declaration {
+    word: "power",
+    summary: "Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.",
+    subject: Subject::Actor,
+    features: &[Feature::Rates],
+    components: &[("power", "W")],
+    build: Build::Element(Of::Power, quantity),
+};
+/// What puts power into a model.
+#[derive(Clone, Copy)]
+pub(super) enum Actor {
+    Element(ElementId),
+    /// By its position among the drives.
+    Drive(usize),
+}
+
+/// The spring, load, drive or friction of a joint of this name.
+pub(super) fn actor(name: &Located<String>, system: &System, names: &Resolver<'_>) -> Result<Actor, Problem> {
+    let drive = system.drives().iter().position(|drive| drive.name == name.value);
+    let own = names.powers.get(&name.value).map(|&element| Actor::Element(element));
+    own.or(drive.map(Actor::Drive)).ok_or_else(|| {
+        Problem::error(name.span, format!("`{}` has no power to record", name.value)).help(
+            "name a spring, a load, a drive of a joint's coordinate, or a joint with friction; other joints neither give nor take",
+        )
+    })
+}
+
+fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found {
+    Ok(match actor(name_of(output)?, system, subjects.names)? {
+        Actor::Drive(index) => Arc::new(OfDrive(index)),
+        Actor::Element(element) => match system.element_quantity(element, Of::Power) {
+            Some(measured) => Arc::new(Measured(measured)),
+            None => Arc::new(OfElement(element)),
+        },
+    })
+}
+
+/// Power of an element with its gradient.
+struct Measured(Arc<dyn Measurement>);
+
+impl OutputQuantity for Measured {
+    fn measurements(&self) -> &[Arc<dyn Measurement>] {
+        from_ref(&self.0)
+    }
+}
+
+/// Power of an element that a signal scales, or with many unknowns.
+struct OfElement(ElementId);
+
+impl OutputQuantity for OfElement {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        out.push(at.system.power(self.0, at.motion()));
+    }
+
+    /// Of a load that a signal scales, by the product rule.
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let ScaledPower { signal, size, unit, gradient, nodes, coordinates } =
+            at.system.scaled_power(self.0, at.motion())?;
+        let mut own = OutputDerivatives::default();
+        add_argument(&mut own, unit, Argument::Signal(signal), at.system, at.motion());
+        add_scaled(&mut own, &of_gradient(&gradient, (nodes, coordinates), at.system), size);
+        Some(vec![own])
+    }
+}
+
+/// Power of a drive: minus its multiplier times the rate.
+struct OfDrive(usize);
+
+impl OutputQuantity for OfDrive {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let drive = &at.system.drives()[self.0];
+        let rate = at.motion().coordinates[drive.prescribed.coordinate].rate;
+        out.push(-at.state.multipliers[drive.multiplier] * rate);
+    }
+
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let drive = &at.system.drives()[self.0];
+        let coordinate = drive.prescribed.coordinate;
+        let row = at.system.layout().row_of_coordinate(coordinate);
+        let mut own = OutputDerivatives::default();
+        let rate = at.motion().coordinates[coordinate].rate;
+        add(&mut own.by_multiplier, multiplier_row(at.system, drive.multiplier), -rate);
+        add(&mut own.by_rate, row, -at.state.multipliers[drive.multiplier]);
+        Some(vec![own])
+    }
+}
