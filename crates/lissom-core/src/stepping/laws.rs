@@ -305,11 +305,10 @@ impl Laws {
         let begin = if has_switched { BESIDE } else { 0.0 };
         let find = |course: &Course<'_>, magnitude| {
             let longest = match course.found([begin, 1.0], magnitude, part) {
-                Found::Nothing => 1.0,
                 Found::Hidden => begin + course.longest([begin, 0.5], magnitude, part),
                 // Switches before it were passed and returned to. Close to the end the next attempt will find it.
                 Found::Jump(share) if share < NEAR_END && !course.law.is_smooth() => share / NEAR_END,
-                Found::Jump(_) => 1.0,
+                Found::Nothing | Found::Jump(_) => 1.0,
             };
             (longest < 1.0).then_some(longest)
         };
