@@ -336,7 +336,7 @@ fn a_bushing_couples_directions() {
                [0, 0, 0, 0, 1, 0], [3, 0, 0, 0, 0, 1]]\n";
     assert!(refused(&bushing("", bad, analysis)).contains("must not have negative eigenvalues"));
     let parallel = "stiffness = [1, 1, 1, 1, 1, 1]\naxis = [0, 1, 0]\n";
-    assert!(refused(&bushing("", parallel, analysis)).contains("give both `axis` and `second_axis`"));
+    assert!(refused(&bushing("", parallel, analysis)).contains("specify both `axis` and `second_axis`"));
 }
 
 /// The axis of a sphere with a rotor goes round the angular momentum at the rate |L|/I.

@@ -15,7 +15,7 @@ use model::Case;
 use reference::reference;
 
 /// The default tolerance of adaptive steps.
-const DEFAULT: f64 = 1e-4;
+const DEFAULT: f64 = 1e-5;
 /// Errors of up to this multiple of the tolerance are accurate.
 const ACCURATE: f64 = 10.0;
 

@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
+use super::consistent_rates::ConsistentRates;
 use super::settings::Problem;
+use super::simulation::Simulation;
 use crate::elements::quadrature::gauss_legendre;
 use crate::integrator::Attempt;
 use crate::joints::Constraint as _;
@@ -16,6 +18,11 @@ use crate::system::{ElementId, State, System};
 pub trait Accumulated: Send + Sync {
     /// Its name in the model.
     fn name(&self) -> &str;
+
+    /// Whether it depends on multipliers. Default: it does not.
+    fn depends_on_multipliers(&self) -> bool {
+        false
+    }
 
     /// Its value at the end of a step, from the one at its start; not finite where that cannot be determined.
     fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64;
@@ -31,6 +38,8 @@ pub struct AcceptedStep<'s> {
     pub within: Option<&'s [State; 2]>,
     /// Its end.
     pub end: &'s State,
+    /// Whether velocities, accelerations and multipliers at the Gauss points follow from the positions there.
+    pub has_consistent_rates: bool,
 }
 
 impl AcceptedStep<'_> {
@@ -49,10 +58,17 @@ impl AcceptedStep<'_> {
         0.5 * self.duration() * within.iter().map(power).sum::<f64>()
     }
 
-    /// Work of a drive of a coordinate [J], as if its force changed linearly in time.
+    /// Work of a drive of a coordinate [J]: by Gauss's rule as above if multipliers within the step are known, otherwise as if its force
+    /// changed linearly in time.
     pub fn work_of_drive(&self, drive: usize) -> f64 {
+        let drive = &self.system.drives()[drive];
+        if let Some(within) = self.within.filter(|_| self.has_consistent_rates) {
+            let rate = |state: &State| state.kinematics.coordinates[drive.prescribed.coordinate].rate;
+            let power = |state: &State| -state.multipliers[drive.multiplier] * rate(state);
+            return 0.5 * self.duration() * within.iter().map(power).sum::<f64>();
+        }
         let [start, end] = [self.start, self.end].map(|state| (&state.kinematics, &state.multipliers[..]));
-        self.system.drives()[drive].work(start, end)
+        drive.work(start, end)
     }
 
     /// How long it is [s].
@@ -67,15 +83,20 @@ pub(crate) struct Accumulation {
     pub(crate) numbers: Vec<Arc<dyn Accumulated>>,
     /// Room for the Gauss points of a step, where there are any.
     within: Option<Box<[State; 2]>>,
+    /// Makes velocities, accelerations and multipliers there consistent with the positions, if numbers depend on them.
+    rates: Option<ConsistentRates>,
     /// Room for the values after a step.
     after: Vec<f64>,
 }
 
 impl Accumulation {
-    /// Of these numbers, from zero, in a simulation that stands at `state`.
-    pub(crate) fn new(numbers: Vec<Arc<dyn Accumulated>>, state: &State) -> Self {
+    /// Of these numbers, from zero, from the present state of a simulation on.
+    pub(crate) fn new(numbers: Vec<Arc<dyn Accumulated>>, simulation: &Simulation) -> Self {
+        let state = simulation.state();
         let within = (!numbers.is_empty()).then(|| Box::new([state.clone(), state.clone()]));
-        Self { within, after: Vec::with_capacity(numbers.len()), numbers }
+        let depends = numbers.iter().any(|number| number.depends_on_multipliers());
+        let rates = depends.then(|| ConsistentRates::of(simulation)).flatten();
+        Self { within, rates, after: Vec::with_capacity(numbers.len()), numbers }
     }
 
     /// Takes a step into account that is being accepted.
@@ -86,18 +107,25 @@ impl Accumulation {
         state: &State,
         warnings: &mut Vec<Warning>,
     ) {
-        let Self { numbers, within, after } = self;
+        let Self { numbers, within, rates, after } = self;
         let Some(within) = within else { return };
         let is_motion = settings.scheme.dynamic;
         let (start, end) = (attempt.start(state), &attempt.end);
         let time = end.kinematics.time;
+        let mut has_consistent_rates = is_motion && rates.is_some();
         if is_motion {
             let duration = time - start.kinematics.time;
             for (state, (xi, _)) in within.iter_mut().zip(gauss_legendre(2)) {
                 interpolate(start, end, start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
+                let consistent = rates.as_mut().and_then(|rates| rates.state(system, state, duration));
+                match consistent {
+                    Some(consistent) => *state = consistent,
+                    None => has_consistent_rates = false,
+                }
             }
         }
-        let step = AcceptedStep { system, start, within: is_motion.then_some(&**within), end };
+        let within = is_motion.then_some(&**within);
+        let step = AcceptedStep { system, start, within, end, has_consistent_rates };
         after.clear();
         for (number, &before) in numbers.iter().zip(&start.accumulated) {
             let value = number.after(&step, before);

@@ -121,7 +121,7 @@ impl Simulation {
         for state in [&mut self.previous, &mut self.state, end, converted] {
             state.accumulated = vec![0.0; numbers.len()];
         }
-        self.accumulation = Accumulation::new(numbers, &self.state);
+        self.accumulation = Accumulation::new(numbers, self);
     }
 
     /// Sums over all steps.

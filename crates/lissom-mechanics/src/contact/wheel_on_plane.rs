@@ -4,9 +4,12 @@
 //! wheel's centre, (v, w) twist of the wheel relative to the plane, both in the tip's axes.
 //!
 //! ```text
-//! p = r (u a - N)/S - ρ N,      s_k = T_k·(v + w × p) = b_k·(v, w),      b_k = (T_k, p × T_k)
-//! ∂N/∂η_θ = Ñ,      ∂p/∂N = r [(a aᵀ - I)/S + (u a - N) u aᵀ/S³] - ρ I
+//! p = r (u a - N)/S - ρ N - g N,      s_k = T_k·(v + w × p) = b_k·(v, w),      b_k = (T_k, p × T_k)
+//! ∂N/∂η_θ = Ñ,      ∂p/∂N = r [(a aᵀ - I)/S + (u a - N) u aᵀ/S³] - (ρ + g) I,      ∂p/∂g = -N
 //! ```
+//!
+//! g is the gap between wheel and plane, zero for a rigid contact. With it the point is in the plane above or below the lowest point
+//! of the undeformed rim.
 
 use lissom_motion::{Matrix3, Matrix6, Real, Vector3, Vector6, screw, skew};
 
@@ -71,32 +74,39 @@ impl Contact {
         rotation * ((cosine * self.axis - normal) / upright)
     }
 
-    /// b_k: derivatives of the sliding velocities with respect to the relative twist, in the tip's joint frame.
-    pub fn rows(&self, rotation: &Matrix3) -> [Vector6; DIRECTIONS] {
+    /// b_k: derivatives of the sliding velocities with respect to the relative twist, in the tip's joint frame, at a gap [m].
+    pub fn rows(&self, rotation: &Matrix3, gap: f64) -> [Vector6; DIRECTIONS] {
         let touch = self.touch(rotation);
-        touch.along.map(|along| screw(&along, &touch.point.cross(&along)))
+        let point = touch.point - gap * touch.normal;
+        touch.along.map(|along| screw(&along, &point.cross(&along)))
     }
 
-    /// ∂(Σ f_k b_k)/∂η, and the rows ∂(b_k·(v, w))/∂η at a constant relative twist.
+    /// ∂(Σ f_k b_k)/∂η, and the rows ∂(b_k·(v, w))/∂η at a constant relative twist; with the gap [m] and its derivative with respect
+    /// to η.
     pub fn derivatives(
         &self,
         rotation: &Matrix3,
+        (gap, gap_row): (f64, &Vector6),
         forces: &[f64; DIRECTIONS],
         twist: &Vector6,
     ) -> (Matrix6, [Vector6; DIRECTIONS]) {
         let touch = self.touch(rotation);
-        let by_turn = self.point_by_normal(&touch) * skew(&touch.normal);
+        let (gap_by_place, gap_by_turn) = split(gap_row);
+        let by_place = -touch.normal * gap_by_place.transpose();
+        let by_normal = self.point_by_normal(&touch) - gap * Matrix3::identity();
+        let by_turn = by_normal * skew(&touch.normal) - touch.normal * gap_by_turn.transpose();
         let force = forces[0] * touch.along[0] + forces[1] * touch.along[1];
-        let arm = skew(&touch.point);
+        let arm = skew(&(touch.point - gap * touch.normal));
         let mut wrench = Matrix6::zeros();
         wrench.fixed_view_mut::<3, 3>(0, 3).copy_from(&skew(&force));
+        wrench.fixed_view_mut::<3, 3>(3, 0).copy_from(&(-skew(&force) * by_place));
         let moment = arm * skew(&force) - skew(&force) * by_turn;
         wrench.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
         let (linear, angular) = split(twist);
         let rows = touch.along.map(|along| {
             let turned = skew(&along);
             let row = turned.tr_mul(&linear) + (arm * turned - turned * by_turn).tr_mul(&angular);
-            screw(&Vector3::zeros(), &row)
+            screw(&(-turned * by_place).tr_mul(&angular), &row)
         });
         (wrench, rows)
     }
@@ -182,7 +192,7 @@ mod tests {
             }
             let (linear, angular) = (Vector3::new(0.5, -0.7, 0.2), Vector3::new(1.1, 0.6, -0.8));
             let there = turn * (linear + angular.cross(&place));
-            for (k, row) in contact.rows(&turn).iter().enumerate() {
+            for (k, row) in contact.rows(&turn, 0.0).iter().enumerate() {
                 let sliding = row.dot(&screw(&linear, &angular));
                 assert!((sliding - there[k]).abs() < 1e-3, "{side} {rim}, {k}: {sliding} and {}", there[k]);
             }

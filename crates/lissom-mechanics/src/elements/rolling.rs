@@ -52,7 +52,7 @@ impl Rolling {
 
     fn rolled(&self, at: &Kinematics) -> Rolled {
         let motion = self.frames.motion(at);
-        let rows = self.contact.rows(&motion.rotation);
+        let rows = self.contact.rows(&motion.rotation, 0.0);
         let forces = match self.impulses[..] {
             [first, second] => [first, second].map(|impulse| at.coordinates[impulse].rate),
             _ => rows.map(|row| row.dot(&motion.twist) / self.contact.creep),
@@ -86,8 +86,12 @@ impl Element for Rolling {
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let of = self.rolled(at);
         let wrench = of.wrench();
-        let (mut by_place, turns) =
-            self.contact.derivatives(&of.motion.rotation, &of.forces, &of.motion.twist);
+        let (mut by_place, turns) = self.contact.derivatives(
+            &of.motion.rotation,
+            (0.0, &Vector6::zeros()),
+            &of.forces,
+            &of.motion.twist,
+        );
         // δ(b_k·η̇) with δη̇ = -ad(A V_base) η.
         let bracket = lie_bracket_matrix(&of.motion.carried);
         let slides = [0, 1].map(|k| turns[k] - bracket.tr_mul(&of.rows[k]));

@@ -8,7 +8,7 @@
 //! g = ±x₃ - r S - ρ,     N = k δ max(0, 1 + a δ̇) for δ > 0,     wrench on the tip N b_n - N μ(σ) Σ s_k/σ b_k
 //! ```
 //!
-//! The normal force is that of Hunt and Crossley 1975. Without `traction` the law is μ(σ) = μ₀ tanh(σ/v_s).
+//! Friction acts in the plane, not at the lowest point of the undeformed rim below it. The normal force is that of Hunt and Crossley 1975. Without `traction` the law is μ(σ) = μ₀ tanh(σ/v_s).
 
 use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix};
 
@@ -220,7 +220,7 @@ impl RollingContact {
     fn touch(&self, at: &Kinematics) -> Touch {
         let motion = self.frames.motion(at);
         let (gap, normal_row) = self.contact.gap(&motion.rotation, &motion.position);
-        let rows = self.contact.rows(&motion.rotation);
+        let rows = self.contact.rows(&motion.rotation, gap);
         let gap_rate = normal_row.dot(&motion.twist);
         let sliding = rows.map(|row| row.dot(&motion.twist));
         let factor = 1.0 - self.dissipation * gap_rate;
@@ -260,7 +260,8 @@ impl Element for RollingContact {
         let Touch { motion, normal_row, rows, sliding, normal, .. } = &touch;
         let ([force, by_gap, by_gap_rate], (ratio, bend)) = (*normal, touch.traction);
         let frictions = sliding.map(|own| force * ratio * own);
-        let (mut by_place, turns) = self.contact.derivatives(&motion.rotation, &frictions, &motion.twist);
+        let (mut by_place, turns) =
+            self.contact.derivatives(&motion.rotation, (touch.gap, normal_row), &frictions, &motion.twist);
         let hessian = self.contact.gap_hessian(&motion.rotation);
         by_place -= force * hessian;
         // Changes of rates at fixed twists of the nodes: δη̇ = -ad(A V_base) η.

@@ -32,6 +32,10 @@ impl Accumulated for Work {
         &self.name
     }
 
+    fn depends_on_multipliers(&self) -> bool {
+        matches!(self.of, Actor::Drive(_))
+    }
+
     fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64 {
         let work = match self.of {
             Actor::Element(element) => step.work_of_element(element),

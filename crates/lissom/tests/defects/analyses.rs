@@ -344,7 +344,7 @@ fn an_arc_has_a_default_up_that_it_does_not_run_along() {
     assert!(Session::new(&document).is_ok());
     let flipped = SLACK_CABLE.replace("up=[0,1,0]", "up=[0,0,1]");
     let error = Model::from_text("model.toml", &flipped).document(&[]).unwrap_err().render(false);
-    assert!(error.contains("`up`") && error.contains("flip"), "{error}");
+    assert!(error.contains("`up`") && error.contains("would reverse"), "{error}");
 }
 
 #[test]

@@ -244,7 +244,7 @@ fn wrong_descriptions_are_reported() {
     let link = "<link name='a'/>";
     for (text, words) in [
         ("<robot", "no XML"),
-        ("<sdf/>", "no URDF"),
+        ("<sdf/>", "not URDF"),
         ("<robot><link name='a'/><link name='a'/></robot>", "two links"),
         ("<robot><link name='a'/><link name='b'/></robot>", "have no parent"),
         (

@@ -324,7 +324,7 @@ fn what_cannot_be_said_is_reported() {
         (body("<joint/><geom type='mesh' mesh='a'/>"), "mass of a mesh"),
         (body(&format!("<joint type='hing'/>{mass}")), "`hing`"),
         (body(&format!("<joint axis='0 0 0'/>{mass}")), "no direction"),
-        (body(&format!("<joint dampng='1'/>{mass}")), "`dampng` is unknown"),
+        (body(&format!("<joint dampng='1'/>{mass}")), "`dampng` is not supported"),
         (body(&format!("<joint type='ball' damping='1'/>{mass}")), "--without friction"),
         (body(&format!("<joint type='ball' range='0 1'/>{mass}")), "--without limits"),
         (body(&format!("<joint range='3 1'/>{mass}")), "is above"),

@@ -171,7 +171,7 @@ fn what_the_format_cannot_say_is_named() {
         (
             "[joints.shoulder]",
             "[bodies.stone]\nmass = 1\ninertia = [1, 1, 1]\n[joints.shoulder]",
-            "body `stone` hangs on nothing",
+            "body `stone` has no joint",
         ),
     ] {
         let found = refused(from, to);

@@ -374,7 +374,7 @@ fn what_is_no_elastic_assembly_is_refused() {
                 clamp("bar.start")
             )),
             vec!["bar.start"],
-            "`push` leads from outside",
+            "`push` connects a part that is not reduced",
         ),
         (
             beam(&format!(
@@ -426,7 +426,7 @@ fn files_are_read_as_they_were_written() {
         ("matrices = \"part.npz\"", "", "lacks `mass`"),
         ("matrices =", "floating = \"tip\"\nmatrices =", "which is none of its interfaces"),
         ("matrices =", "modal_damping = 0.1\nstiffness_damping = 1\nmatrices =", "has both `modal_damping`"),
-        ("part.bar_start", "part.tip", "which is no interface of the superelement `part`"),
+        ("part.bar_start", "part.tip", "which is not an interface of the superelement `part`"),
         ("part.bar_start", "part", "names the superelement `part`, not one of its interfaces"),
     ] {
         let text = format!("{archived}{rest}").replace(from, to);
