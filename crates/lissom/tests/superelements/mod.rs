@@ -382,7 +382,7 @@ fn what_is_no_elastic_assembly_is_refused() {
                  [joints.hinge]\nkind = \"revolute\"\nbase = \"bar.end\"\ntip = \"loose\"\naxis = [0, 1, 0]\n{MODES}"
             )),
             vec!["bar.start"],
-            "with fixed interfaces",
+            "with its interfaces held",
         ),
     ] {
         let error = message(&text, &interfaces);
