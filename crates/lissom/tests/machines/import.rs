@@ -259,7 +259,7 @@ fn wrong_descriptions_are_reported() {
     let ends = "<parent link='a'/><child link='b'/>";
     for (joint, words) in [
         (format!("type='revolute'>{ends}"), "neither it nor the links fixed to it have mass"),
-        (format!("type='ball'>{ends}"), "its type is `ball`"),
+        (format!("type='ball'>{ends}"), "its type `ball` is unknown"),
         (format!("type='revolute'>{ends}<axis xyz='0 0 0'/>"), "no direction"),
         ("type='fixed'><parent link='a'/><child link='c'/>".to_owned(), "no link `c`"),
         (format!("type='revolute'>{ends}<limit lower='1' upper='-1'/>"), "above the upper"),
