@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use lissom::Model;
 use model::Case;
-use reference::reference;
+use reference::{Reference, reference};
 
 /// The default tolerance of adaptive steps.
 const DEFAULT: f64 = 1e-5;
@@ -51,8 +51,10 @@ enum Outcome {
     Accurate { error: f64, steps: usize },
     /// Reported by a warning or an error.
     Reported { error: Option<f64>, words: String },
-    /// Inaccurate and not reported.
-    Wrong { error: f64 },
+    /// Inaccurate by no more than the motion amplifies changes of its start.
+    Sensitive { error: f64, growth: f64 },
+    /// Inaccurate and not reported; with the growth of changes of its start.
+    Wrong { error: f64, growth: f64 },
     /// No reference was found.
     Unknown,
 }
@@ -89,7 +91,8 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
         }
     });
     let found = found.into_inner().unwrap_or_default();
-    let (mut errors, mut false_alarms, mut reported, mut wrong, mut unknown) = (Vec::new(), 0, 0, 0, 0);
+    let (mut errors, mut false_alarms, mut reported, mut sensitive) = (Vec::new(), 0, 0, 0);
+    let (mut wrong, mut unknown) = (0, 0);
     let mut most_steps = 0;
     for (index, outcome) in &found {
         let case = Case::new(arguments.seed, *index);
@@ -107,9 +110,15 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
                     error.map_or("no result".to_owned(), |e| format!("{e:.1e}"))
                 );
             }
-            Outcome::Wrong { error } => {
+            Outcome::Sensitive { error, growth } => {
+                sensitive += 1;
+                println!("{what}: sensitive, {error:.1e}; a change of the start grows by {growth:.1}");
+            }
+            Outcome::Wrong { error, growth } => {
                 wrong += 1;
-                println!("{what}: errs by {error:.1e} without a warning");
+                println!(
+                    "{what}: errs by {error:.1e} without a warning; a change of the start grows by {growth:.1}"
+                );
                 std::fs::create_dir_all(&arguments.keep)?;
                 let path = arguments.keep.join(format!("{}-{index}.toml", arguments.seed));
                 std::fs::write(path, case.text(&analysis))?;
@@ -121,7 +130,7 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
     let median = errors.get(errors.len() / 2).copied().unwrap_or_default();
     let largest = errors.last().copied().unwrap_or_default();
     println!(
-        "{} laws of seed {} in {:.0} s: {} accurate (median {median:.1e}, largest {largest:.1e}, up to {most_steps} steps), {reported} \
+        "{} laws of seed {} in {:.0} s: {} accurate (median {median:.1e}, largest {largest:.1e}, up to {most_steps} steps), {sensitive} sensitive, {reported} \
          reported, of which {false_alarms} are accurate, {unknown} without a reference, {wrong} wrong",
         found.len(),
         arguments.seed,
@@ -133,7 +142,7 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
 
 /// Runs a case, and compares its end with the reference.
 fn trial(case: &Case, analysis: &str, tolerance: f64) -> Outcome {
-    let Some(reference) = reference(case) else { return Outcome::Unknown };
+    let Some(exact) = reference(case, 1.0) else { return Outcome::Unknown };
     let text = case.text(analysis);
     let mut session = match Model::from_text("model.toml", &text).session(&[]) {
         Ok(session) => session,
@@ -144,15 +153,22 @@ fn trial(case: &Case, analysis: &str, tolerance: f64) -> Outcome {
         return Outcome::Reported { error: None, words: format!("{:?}", report.stopped) };
     }
     let value = |name: &str| session.value(name).unwrap_or(f64::NAN);
-    let miss = |k: usize, name: &str| (value(name) - reference.end[k]).abs() / reference.largest[k];
+    let miss = |k: usize, name: &str| (value(name) - exact.end[k]).abs() / exact.largest[k];
     let error = miss(0, "s.displacement").max(miss(1, "s.velocity"));
     let error = if error.is_nan() { f64::INFINITY } else { error };
     if let Some(warning) = session.warnings().next() {
         return Outcome::Reported { error: Some(error), words: warning.code().to_owned() };
     }
     if error <= ACCURATE * tolerance {
-        Outcome::Accurate { error, steps: session.simulation().totals().steps }
+        return Outcome::Accurate { error, steps: session.simulation().totals().steps };
+    }
+    // By how much the motion amplifies a change of its initial velocity by the tolerance.
+    let changed = reference(case, 1.0 + tolerance);
+    let change = |of: &Reference, k: usize| (of.end[k] - exact.end[k]).abs() / exact.largest[k] / tolerance;
+    let growth = changed.map_or(f64::INFINITY, |of| change(&of, 0).max(change(&of, 1)));
+    if error <= ACCURATE * tolerance * growth {
+        Outcome::Sensitive { error, growth }
     } else {
-        Outcome::Wrong { error }
+        Outcome::Wrong { error, growth }
     }
 }

@@ -30,9 +30,9 @@ pub(super) struct Reference {
     pub(super) largest: [f64; 2],
 }
 
-/// The reference; none if it would take too many steps.
-pub(super) fn reference(case: &Case) -> Option<Reference> {
-    let (mut time, mut state) = (0.0, [0.0, case.velocity, 0.0]);
+/// The reference with an initial velocity that is changed by a factor; none if it would take too many steps.
+pub(super) fn reference(case: &Case, factor: f64) -> Option<Reference> {
+    let (mut time, mut state) = (0.0, [0.0, factor * case.velocity, 0.0]);
     let mut largest = [1e-3, case.velocity, 1e-3];
     let mut size = 1e-4;
     for _ in 0..MAX_STEPS {
@@ -71,9 +71,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn references_do_not_depend_on_their_tolerance() {
-        // The work of a force that depends on the position alone is exact: here by the change of a closed form.
-        let found = (0..20).filter_map(|index| reference(&Case::new(3, index))).count();
+    fn most_cases_have_a_reference() {
+        let found = (0..20).filter_map(|index| reference(&Case::new(3, index), 1.0)).count();
         assert!(found >= 18, "{found}");
     }
 }
