@@ -16,9 +16,6 @@ use reference::{Reference, reference};
 
 /// The default tolerance of adaptive steps.
 const DEFAULT: f64 = 1e-5;
-/// Errors of up to this multiple of the tolerance are accurate.
-const ACCURATE: f64 = 10.0;
-
 /// What is tried.
 #[derive(clap::Args)]
 pub(crate) struct LawsArguments {
@@ -34,6 +31,9 @@ pub(crate) struct LawsArguments {
     /// Relative tolerance of the steps; default that of the program
     #[arg(long)]
     tolerance: Option<f64>,
+    /// Errors of up to this multiple of the tolerance are accurate
+    #[arg(long, default_value_t = 10.0)]
+    within: f64,
     /// Laws that run at the same time
     #[arg(long, default_value_t = 2)]
     threads: usize,
@@ -72,6 +72,7 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
     }
     let began = Instant::now();
     let tolerance = arguments.tolerance.unwrap_or(DEFAULT);
+    let allowed = arguments.within * tolerance;
     let next = AtomicU64::new(arguments.first);
     let found: Mutex<BTreeMap<u64, Outcome>> = Mutex::default();
     std::thread::scope(|scope| {
@@ -82,7 +83,7 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
                     if index >= arguments.first + arguments.count {
                         return;
                     }
-                    let outcome = trial(&Case::new(arguments.seed, index), &analysis, tolerance);
+                    let outcome = trial(&Case::new(arguments.seed, index), &analysis, [tolerance, allowed]);
                     if let Ok(mut found) = found.lock() {
                         found.insert(index, outcome);
                     }
@@ -104,7 +105,7 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
             }
             Outcome::Reported { error, words } => {
                 reported += 1;
-                false_alarms += usize::from(error.is_some_and(|error| error <= ACCURATE * tolerance));
+                false_alarms += usize::from(error.is_some_and(|error| error <= allowed));
                 println!(
                     "{what}: reported, {}: {words}",
                     error.map_or("no result".to_owned(), |e| format!("{e:.1e}"))
@@ -141,7 +142,7 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
 }
 
 /// Runs a case, and compares its end with the reference.
-fn trial(case: &Case, analysis: &str, tolerance: f64) -> Outcome {
+fn trial(case: &Case, analysis: &str, [tolerance, allowed]: [f64; 2]) -> Outcome {
     let Some(exact) = reference(case, 1.0) else { return Outcome::Unknown };
     let text = case.text(analysis);
     let mut session = match Model::from_text("model.toml", &text).session(&[]) {
@@ -159,14 +160,14 @@ fn trial(case: &Case, analysis: &str, tolerance: f64) -> Outcome {
     if let Some(warning) = session.warnings().next() {
         return Outcome::Reported { error: Some(error), words: warning.code().to_owned() };
     }
-    if error <= ACCURATE * tolerance {
+    if error <= allowed {
         return Outcome::Accurate { error, steps: session.simulation().totals().steps };
     }
     // By how much the motion amplifies a change of its initial velocity by the tolerance.
     let changed = reference(case, 1.0 + tolerance);
     let change = |of: &Reference, k: usize| (of.end[k] - exact.end[k]).abs() / exact.largest[k] / tolerance;
     let growth = changed.map_or(f64::INFINITY, |of| change(&of, 0).max(change(&of, 1)));
-    if error <= ACCURATE * tolerance * growth {
+    if error <= allowed * growth {
         Outcome::Sensitive { error, growth }
     } else {
         Outcome::Wrong { error, growth }
