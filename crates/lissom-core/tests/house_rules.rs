@@ -287,8 +287,8 @@ const FLOORS: [(&str, &[&str]); 12] = [
     ("contact/", &["dual", "kinematics", "registry", "round_off"]),
     ("signals/", &["dual", "instants", "kinematics", "law", "round_off"]),
     ("joints/", &["contact", "joints", "kinematics", "law", "registry", "relation", "round_off"]),
-    ("elements/", &["contact", "dual", "elements", "kinematics", "law", "registry", "round_off"]),
-    ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "law", "round_off"]),
+    ("elements/", &["contact", "dual", "elements", "kinematics", "law", "registry", "round_off", "signals"]),
+    ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
 ];
 
 /// Names beyond the floors: the elements of an entry are of a kind that only their batch knows, and a joint that rolls reports the

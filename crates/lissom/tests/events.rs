@@ -49,6 +49,24 @@ fn a_stiff_contact_gives_the_velocity_back_with_every_scheme() {
     }
 }
 
+/// The apex is 1 mm above the level: both roots are in the first quarter of a step, or in the last one.
+#[test]
+fn roots_between_two_checked_instants_are_found_once_each() {
+    // x = t/2 - t²/2.
+    for (step, level) in [(0.45, 0.124), (0.55, 0.124), (0.6, 0.1249)] {
+        let tables = format!("{}[events.passage]\nzero_of = \"rail.displacement - {level}\"\n", force("-1"));
+        let half = (0.25_f64 - 2.0 * level).sqrt();
+        for scheme in SCHEMES {
+            let session = finished(&rail(&tables, &format!("step = {step}\nscheme = \"{scheme}\"")));
+            let found: Vec<f64> = session.events().map(|(_, time)| time).collect();
+            assert_eq!(found.len(), 2, "{scheme}, {step}: {found:?}");
+            for (time, wanted) in found.iter().zip([0.5 - half, 0.5 + half]) {
+                assert!((time - wanted).abs() < 1e-6, "{scheme}, {step}: {time} instead of {wanted}");
+            }
+        }
+    }
+}
+
 #[test]
 fn events_are_found_where_closed_forms_have_them() {
     // x = t/2 - t².
