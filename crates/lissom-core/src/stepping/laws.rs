@@ -43,6 +43,8 @@ const EXCESS: f64 = 0.2;
 const NEAR_END: f64 = 0.9;
 /// Arguments that depart by more than this fraction of their range from a cubic are not smooth.
 const ARGUMENT: f64 = 0.05;
+/// Number of steps over which functions of time are evaluated at the start.
+const AHEAD: u32 = 64;
 /// Step fractions at which arguments are evaluated.
 const SAMPLES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
 
@@ -276,10 +278,21 @@ pub(crate) struct Laws {
 }
 
 impl Laws {
-    pub(super) fn new(system: &System, start: &State) -> Self {
+    /// At the start, with steps of up to `longest` [s]. Functions of time that are not bounded are evaluated over the first steps:
+    /// the first values of a function that starts smoothly may be round-off.
+    pub(super) fn new(system: &System, start: &State, longest: f64) -> Self {
+        let now = start.kinematics.time;
         let functions = system.functions.iter().map(|(_, function)| {
-            let bounds = function.bounds(start.kinematics.time, f64::INFINITY);
-            bounds.filter(|_| !function.is_constant()).map_or(0.0, largest)
+            if function.is_constant() {
+                return 0.0;
+            }
+            let everywhere = function.bounds(now, f64::INFINITY).map_or(0.0, largest);
+            let ahead = (0..=AHEAD).map(|k| function.value(now + f64::from(k) * longest));
+            if everywhere > 0.0 {
+                everywhere
+            } else {
+                ahead.map(|value| largest([value; 2])).fold(0.0, f64::max)
+            }
         });
         let magnitudes = Magnitudes { functions: functions.collect(), laws: Vec::new() };
         let (between, arguments, middle, cubics) = (start.clone(), Vec::new(), Vec::new(), Vec::new());

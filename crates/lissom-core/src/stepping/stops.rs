@@ -34,7 +34,8 @@ impl Stops {
     pub(crate) fn new(system: &System, settings: &Settings, start: &State) -> Self {
         let is_bound = settings.control.is_some() || settings.scheme.dynamic;
         let breakpoints = if is_bound { breakpoints::of(system, settings.step_size) } else { Vec::new() };
-        Self { breakpoints, found: Vec::new(), hidden: None, laws: Laws::new(system, start) }
+        let longest = settings.control.map_or(settings.step_size, |control| control.max_step);
+        Self { breakpoints, found: Vec::new(), hidden: None, laws: Laws::new(system, start, longest) }
     }
 
     /// Samples functions of time over a step from the time `now` [s]: jumps that are found end steps. It is `size` [s] long or
