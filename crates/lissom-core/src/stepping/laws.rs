@@ -113,8 +113,9 @@ impl<'l> Course<'l> {
         self.law.bounds([self.time(from), self.time(to)], &arguments[..self.arguments.len()])
     }
 
-    /// The largest magnitude at the ends, or anywhere if the law is bounded: for all times and arguments, or where one of them takes
-    /// all values and the others those of the interval.
+    /// The largest magnitude at the ends, or anywhere if the law is bounded: for all times and arguments, or where the time or one
+    /// argument takes all values and the others those of the interval. Times of the next steps are included: the values of a law
+    /// that starts smoothly may be round-off.
     fn magnitude(&self) -> f64 {
         let count = self.arguments.len();
         let ends = largest([self.value(0.0), self.value(1.0)]);
@@ -129,7 +130,11 @@ impl<'l> Course<'l> {
             *argument = range(cubic, [0.0, 1.0]);
         }
         let time = [self.time(0.0), self.time(1.0)];
-        let mut magnitude = ends.max(of(EVERYTHING, &arguments[..count]));
+        let ahead = [time[0], self.time(f64::from(AHEAD))];
+        let mut magnitude = ends;
+        for time in [EVERYTHING, ahead] {
+            magnitude = magnitude.max(of(time, &arguments[..count]));
+        }
         for k in 0..count {
             let own = std::mem::replace(&mut arguments[k], EVERYTHING);
             magnitude = magnitude.max(of(time, &arguments[..count]));
@@ -343,25 +348,29 @@ impl Laws {
         self.examine(system, step, find).map(|(index, _)| index)
     }
 
-    /// Determines the cubics of all arguments of laws of the motion over a solved step. Whether there are any.
+    /// Determines the cubics of all arguments of laws of the motion over a solved step. Whether there are any laws.
     fn sample(&mut self, system: &System, (from, to): (&State, &State)) -> bool {
         self.arguments.clear();
+        self.cubics.clear();
+        let mut laws = 0;
         for share in SAMPLES {
             let arguments = &mut self.arguments;
-            let mut gather = |_: &dyn ScalarLaw, values: &[f64]| arguments.extend_from_slice(values);
+            let mut gather = |_: &dyn ScalarLaw, values: &[f64]| {
+                laws += 1;
+                arguments.extend_from_slice(values);
+            };
             if share == 0.0 || share == 1.0 {
                 system.laws(if share == 0.0 { &from.kinematics } else { &to.kinematics }, &mut gather);
             } else {
                 dense::at_share(from, to, share, &mut self.between);
                 system.laws(&self.between.kinematics, &mut gather);
             }
-            if share == 0.0 && arguments.is_empty() {
-                // Laws without arguments are functions of time.
-                return false;
+            if arguments.is_empty() {
+                // There may be laws of time alone, such as signals.
+                return laws > 0;
             }
         }
         let count = self.arguments.len() / SAMPLES.len();
-        self.cubics.clear();
         for k in 0..count {
             let values: [f64; SAMPLES.len()] =
                 std::array::from_fn(|sample| self.arguments[sample * count + k]);
