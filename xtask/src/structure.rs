@@ -289,7 +289,7 @@ mod tests {
         write("inner/mod.rs", "mod b;\npub use b::Thing;\n");
         write(
             "inner/b.rs",
-            "pub struct Thing;\nimpl Thing { fn own(&self) -> crate::a::Other { todo!() } }\n",
+            "pub struct Thing;\nimpl Thing { fn own(&self) -> crate::a::Other { crate::a::Other(Thing) } }\n",
         );
         let found = cycles(&folder);
         write("inner/b.rs", "pub struct Thing;\n#[cfg(test)]\nmod tests { use crate::a::Other; }\n");
