@@ -49,28 +49,22 @@ pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     let near = SAME * step;
     let mut jumps: Vec<f64> = Vec::new();
     let mut known: Vec<f64> = Vec::new();
+    let mut late: Vec<f64> = Vec::new();
     for (_, function) in &system.functions {
         let breakpoints = function.breakpoints();
         jumps.extend(breakpoints.iter().filter(|breakpoint| jumps_at(function, **breakpoint, near)));
+        late.extend(breakpoints.iter().filter(|breakpoint| jumps_behind(function, **breakpoint)));
         known.extend(breakpoints);
     }
-    jumps.sort_by(f64::total_cmp);
-    known.sort_by(f64::total_cmp);
+    for times in [&mut jumps, &mut known, &mut late] {
+        times.sort_by(f64::total_cmp);
+    }
     let has = |times: &[f64], time: f64| times.binary_search_by(|probe| probe.total_cmp(&time)).is_ok();
-    let is_behind = |time: f64| {
-        let functions = system
-            .functions
-            .iter()
-            .map(|(_, function)| [function.value(time), function.value(time.next_up())]);
-        functions
-            .into_iter()
-            .all(|[at, next]| (next - at).abs() <= round_off::FUNCTION * at.abs().max(next.abs()))
-    };
     let mut breakpoints: Vec<Breakpoint> = Vec::new();
     for time in system.breakpoints() {
         // For a function without a name this is unknown.
         let (jumps, is_known) = (has(&jumps, time), has(&known, time));
-        let behind = if is_known && is_behind(time) { time } else { time.next_up() };
+        let behind = if is_known && !has(&late, time) { time } else { time.next_up() };
         let jumps = jumps || !is_known;
         match breakpoints.last_mut() {
             Some(last) if time - last.time <= near => {
@@ -89,6 +83,12 @@ fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
     let slope = function.first_derivative(before).abs().max(function.first_derivative(after).abs());
     let size = function.value(after).abs().max(function.value(before).abs());
     change > STEEP * 2.0 * aside * slope + round_off::FUNCTION * size
+}
+
+/// Whether a function has its former value at `breakpoint`, and jumps right behind it.
+fn jumps_behind(function: &Function, breakpoint: f64) -> bool {
+    let [at, next] = [breakpoint, breakpoint.next_up()].map(|time| function.value(time));
+    (next - at).abs() > round_off::FUNCTION * at.abs().max(next.abs())
 }
 
 /// The breakpoint at which a step from the time `now` [s] has to end before `limit` [s]. A jump at `limit` itself counts,

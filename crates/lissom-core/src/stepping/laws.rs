@@ -28,8 +28,6 @@ pub(super) const DEPARTURE: f64 = 0.01;
 const NARROW: f64 = 0.1;
 /// Maximum number of intervals within one step.
 pub(super) const MAX_INTERVALS: usize = 256;
-/// Maximum number of pending intervals, which limits the bisections of an interval.
-const MAX_PENDING: usize = 64;
 /// Bisections of an interval after which the remaining feature is a jump.
 const MAX_HALVINGS: usize = 30;
 /// Values at the ends of an interval are evaluated by this fraction inside: a jump at an end belongs to the neighbour.
@@ -42,9 +40,9 @@ const EXCESS: f64 = 0.2;
 /// A jump before this step fraction in a step that was to end at its switch has been passed over.
 const NEAR_END: f64 = 0.9;
 /// Arguments that depart by more than this fraction of their range from a cubic are not smooth.
-const ARGUMENT: f64 = 0.05;
-/// Number of steps over which functions of time are evaluated at the start.
-const AHEAD: u32 = 64;
+const ARGUMENT_DEPARTURE: f64 = 0.05;
+/// Number of steps ahead whose times count for the magnitude of a law that is not bounded.
+const STEPS_AHEAD: u32 = 64;
 /// Step fractions at which arguments are evaluated.
 const SAMPLES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
 
@@ -130,10 +128,10 @@ impl<'l> Course<'l> {
             *argument = range(cubic, [0.0, 1.0]);
         }
         let time = [self.time(0.0), self.time(1.0)];
-        let ahead = [time[0], self.time(f64::from(AHEAD))];
+        let ahead = [time[0], self.time(f64::from(STEPS_AHEAD))];
         let mut magnitude = ends;
-        for time in [EVERYTHING, ahead] {
-            magnitude = magnitude.max(of(time, &arguments[..count]));
+        for times in [EVERYTHING, ahead] {
+            magnitude = magnitude.max(of(times, &arguments[..count]));
         }
         for k in 0..count {
             let own = std::mem::replace(&mut arguments[k], EVERYTHING);
@@ -143,72 +141,51 @@ impl<'l> Course<'l> {
         magnitude
     }
 
-    /// Width of the bounds within an interval; zero if none are known.
-    fn width(&self, [from, to]: Interval) -> f64 {
+    /// Width of the bounds within an interval, if any are known.
+    fn width(&self, [from, to]: Interval) -> Option<f64> {
         let inside = INSIDE * (to - from);
-        self.bounds([from + inside, to - inside]).map_or(0.0, |[low, high]| high - low)
+        self.bounds([from + inside, to - inside]).map(|[low, high]| high - low)
     }
 
     /// Whether values within an interval are beyond those at its ends by more than [`EXCESS`] of the `magnitude`, as far as bounds
     /// and samples show.
     fn exceeds_its_ends(&self, whole: Interval, magnitude: f64) -> bool {
         let inside = INSIDE * (whole[1] - whole[0]);
-        let [low, high] = hull(&[self.value(whole[0] + inside), self.value(whole[1] - inside)]);
-        let allowed = [low - EXCESS * magnitude, high + EXCESS * magnitude];
-        let is_allowed = |value: f64| !value.is_finite() || (allowed[0]..=allowed[1]).contains(&value);
-        let mut open = [whole; MAX_PENDING];
-        let (mut last, mut looks) = (1, 0);
-        while last > 0 && looks < MAX_INTERVALS {
-            last -= 1;
-            looks += 1;
-            let [from, to] = open[last];
-            let middle = 0.5 * (from + to);
-            if !is_allowed(self.value(middle)) {
-                return true;
-            }
-            let bounds = self.bounds([from + inside, to - inside]);
-            let is_clear = bounds.is_none_or(|[low, high]| low >= allowed[0] && high <= allowed[1]);
-            if !is_clear && last + 2 <= MAX_PENDING {
-                (open[last], open[last + 1]) = ([middle, to], [from, middle]);
-                last += 2;
-            }
-        }
-        false
+        let [low, high] = hull(&[whole[0] + inside, whole[1] - inside].map(|share| self.value(share)));
+        let is_beyond = |value: f64| value < low - EXCESS * magnitude || value > high + EXCESS * magnitude;
+        let is_found = |[from, to]: Interval| {
+            let value = self.value(0.5 * (from + to));
+            value.is_finite() && is_beyond(value)
+        };
+        let may_be = |within: Interval| {
+            let [from, to] = within.map(|share| share.clamp(whole[0] + inside, whole[1] - inside));
+            self.bounds([from, to]).is_some_and(|bounds| bounds.into_iter().any(is_beyond))
+        };
+        search(whole, is_found, may_be)
     }
 
     /// Features within an interval that its values and slopes there do not determine to `part` of its `magnitude`.
     pub(super) fn found(&self, whole: Interval, magnitude: f64, part: f64) -> Found {
-        if magnitude == 0.0 {
+        let is_flat = || self.width(whole).is_some_and(|width| width <= part * magnitude);
+        if magnitude == 0.0 || is_flat() {
             return Found::Nothing;
         }
-        let mut open = [whole; MAX_PENDING];
-        let (mut last, mut looks) = (1, 0);
-        while last > 0 {
-            last -= 1;
-            let within = open[last];
-            let width = self.width(within);
-            // Without bounds the samples decide.
-            if width <= part * magnitude && (looks > 0 || self.bounds(within).is_some()) {
-                continue;
-            }
-            looks += 1;
-            if self.departure(whole, within) > part * magnitude {
-                return self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump);
-            }
-            if looks < MAX_INTERVALS && last + 2 <= MAX_PENDING && width > NARROW * magnitude {
-                let middle = 0.5 * (within[0] + within[1]);
-                (open[last], open[last + 1]) = ([middle, within[1]], [within[0], middle]);
-                last += 2;
-            }
+        let expected = self.interpolated(whole);
+        let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
+        let may_be = |within: Interval| self.width(within).is_some_and(|width| width > NARROW * magnitude);
+        if search(whole, is_found, may_be) {
+            self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump)
+        } else {
+            Found::Nothing
         }
-        Found::Nothing
     }
 
     /// The first number after a jump: where part of an interval is determined by the ends of no interval, however short.
     fn jump(&self, [mut from, mut to]: Interval, magnitude: f64) -> Option<f64> {
         for _ in 0..MAX_HALVINGS {
             let middle = 0.5 * (from + to);
-            let is_resolved = |half: Interval| self.departure(half, half) <= DEPARTURE * magnitude;
+            let is_resolved =
+                |half: Interval| self.departure(&self.interpolated(half), half) <= DEPARTURE * magnitude;
             if !is_resolved([from, middle]) {
                 to = middle;
             } else if !is_resolved([middle, to]) {
@@ -228,26 +205,27 @@ impl<'l> Course<'l> {
         Some(to)
     }
 
-    /// Deviation, at three points of `part`, from the cubic through values and slopes at the ends of `whole`.
-    fn departure(&self, [from, to]: Interval, part: Interval) -> f64 {
+    /// The interval, and the cubic over it through values and slopes at its ends.
+    fn interpolated(&self, [from, to]: Interval) -> (Interval, Cubic) {
         let inside = INSIDE * (to - from);
-        let (from, to) = (from + inside, to - inside);
-        let length = to - from;
+        let [from, to] = [from + inside, to - inside];
         // The slope of the parabola through three values, times the length.
         let end = |at: f64, towards: f64| {
             let [value, near, next] =
-                [0.0, BESIDE, 2.0 * BESIDE].map(|share| self.value(at + towards * share * length));
+                [0.0, BESIDE, 2.0 * BESIDE].map(|share| self.value(at + towards * share * (to - from)));
             (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * BESIDE))
         };
-        let (one, other) = (end(from, 1.0), end(to, -1.0));
+        let ((start, first), (end, last)) = (end(from, 1.0), end(to, -1.0));
+        let change = end - start;
+        ([from, to], [start, first, 3.0 * change - 2.0 * first - last, first + last - 2.0 * change])
+    }
+
+    /// Largest deviation from a cubic at three points of an interval.
+    fn departure(&self, ([from, to], cubic): &(Interval, Cubic), [start, end]: Interval) -> f64 {
         let departure = |share: f64| {
-            let at = part[0] + share * (part[1] - part[0]);
-            let x = ((at - from) / length).clamp(0.0, 1.0);
-            let y = 1.0 - x;
-            let cubic = y * y * (1.0 + 2.0 * x) * one.0
-                + x * x * (1.0 + 2.0 * y) * other.0
-                + x * y * (y * one.1 - x * other.1);
-            (self.value(at) - cubic).abs()
+            let parameter = start + share * (end - start);
+            let expected = at(cubic, ((parameter - from) / (to - from)).clamp(0.0, 1.0));
+            (self.value(parameter) - expected).abs()
         };
         // A value that is not finite is reported elsewhere.
         [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
@@ -263,6 +241,27 @@ impl<'l> Course<'l> {
         }
         size
     }
+}
+
+/// Whether `is_found` in one of the parts of an interval, which is bisected where there `may_be` more.
+fn search(whole: Interval, is_found: impl Fn(Interval) -> bool, may_be: impl Fn(Interval) -> bool) -> bool {
+    // As many as pending halves of an interval that is bisected so often.
+    let mut open = [whole; MAX_HALVINGS + 2];
+    let (mut last, mut looks) = (1, 0);
+    while last > 0 {
+        last -= 1;
+        looks += 1;
+        let [from, to] = open[last];
+        if is_found([from, to]) {
+            return true;
+        }
+        if looks < MAX_INTERVALS && last + 2 <= open.len() && may_be([from, to]) {
+            let middle = 0.5 * (from + to);
+            (open[last], open[last + 1]) = ([middle, to], [from, middle]);
+            last += 2;
+        }
+    }
+    false
 }
 
 /// Largest magnitudes of laws so far, or possible ones if they are bounded.
@@ -292,7 +291,7 @@ impl Laws {
                 return 0.0;
             }
             let everywhere = function.bounds(now, f64::INFINITY).map_or(0.0, largest);
-            let ahead = (0..=AHEAD).map(|k| function.value(now + f64::from(k) * longest));
+            let ahead = (0..=STEPS_AHEAD).map(|k| function.value(now + f64::from(k) * longest));
             if everywhere > 0.0 {
                 everywhere
             } else {
@@ -424,7 +423,7 @@ impl Laws {
 /// Whether a cubic has about this value in its middle.
 fn passes_through(cubic: &Cubic, value: f64) -> bool {
     let [low, high] = range(cubic, [0.0, 1.0]);
-    let allowed = ARGUMENT * (high - low) + round_off::FUNCTION * high.abs().max(low.abs());
+    let allowed = ARGUMENT_DEPARTURE * (high - low) + round_off::FUNCTION * high.abs().max(low.abs());
     (at(cubic, 0.5) - value).abs() <= allowed
 }
 

@@ -42,8 +42,10 @@ impl Stops {
     /// shorter; no step is longer than `longest` [s].
     pub(super) fn look_ahead(&mut self, problem: Problem<'_>, now: f64, [size, longest]: [f64; 2]) {
         let system = problem.system;
-        self.breakpoints.retain(|breakpoint| !self.found.contains(&breakpoint.time));
-        self.found.clear();
+        if !self.found.is_empty() {
+            self.breakpoints.retain(|breakpoint| !self.found.contains(&breakpoint.time));
+            self.found.clear();
+        }
         self.hidden = None;
         if system.functions.is_empty() || !problem.settings.scheme.dynamic {
             return;
@@ -53,7 +55,7 @@ impl Stops {
         for (index, (_, function)) in system.functions.iter().enumerate() {
             let magnitude = self.laws.magnitude_of_function(index, function, step);
             let mut scan = Scan::default();
-            scan.function(function, step, magnitude);
+            scan.function(function, &self.breakpoints, step, magnitude);
             let sooner = |time: &f64| self.hidden.is_none_or(|(known, _)| *time < known);
             self.hidden = scan.hidden.filter(sooner).map(|time| (time, index)).or(self.hidden);
             // A drive that jumps is reported, see `judge::drives`, and not treated here.
@@ -128,13 +130,20 @@ struct Scan {
 }
 
 impl Scan {
-    /// Samples a step, between the known breakpoints.
-    fn function(&mut self, function: &Function, [from, to]: [f64; 2], magnitude: f64) {
+    /// Samples a step, between the known breakpoints of all functions.
+    fn function(
+        &mut self,
+        function: &Function,
+        breakpoints: &[Breakpoint],
+        [from, to]: [f64; 2],
+        magnitude: f64,
+    ) {
         if function.is_constant() {
             return;
         }
-        let breakpoints = function.breakpoints();
-        let inside = breakpoints.iter().copied().filter(|breakpoint| *breakpoint > from && *breakpoint < to);
+        let first = breakpoints.partition_point(|breakpoint| breakpoint.time <= from);
+        let inside =
+            breakpoints[first..].iter().map(|breakpoint| breakpoint.time).take_while(|time| *time < to);
         let of_time = OfTime(&**function);
         let course = Course::of_time(&of_time);
         let mut begin = from;
