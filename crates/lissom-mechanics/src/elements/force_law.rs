@@ -208,10 +208,8 @@ impl ForceLaw {
 
     /// Potential energy [J]; zero at the free length.
     pub(crate) fn energy(&self, elongation: f64) -> f64 {
-        let past = elongation - elongation.clamp(-self.play, self.play);
-        let is_free =
-            (self.side == Side::Positive && past < 0.0) || (self.side == Side::Negative && past > 0.0);
-        if self.is_active || is_free || past == 0.0 {
+        let past = self.past(elongation);
+        if self.is_active || past == 0.0 {
             return 0.0;
         }
         let elastic = |past: f64| {
@@ -268,11 +266,8 @@ impl ScalarLaw for ForceLaw {
 
     fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
         let (past, rate) = (arguments[0].map(|elongation| self.past(elongation)), arguments[1]);
-        let is_off = |elongation: f64| self.past(elongation) == 0.0 && self.has_ends().contains(&true);
-        if arguments[0].iter().all(|elongation| is_off(*elongation))
-            && past[0] == past[1]
-            && self.side != Side::Both
-        {
+        let has_ends = self.has_ends().contains(&true);
+        if has_ends && past == [0.0; 2] {
             return Some([0.0; 2]);
         }
         let of = |law: &Option<Force>, one: Interval, other: Interval| match law {
@@ -282,8 +277,9 @@ impl ScalarLaw for ForceLaw {
         let functions = sum(of(&self.elastic, past, rate)?, of(&self.damper, rate, past)?);
         let linear = sum(scaled(self.stiffness, past), scaled(self.damping, rate));
         let [low, high] = sum(linear, functions).map(|force| force.clamp(self.limits[0], self.limits[1]));
-        let may_be_off = arguments[0].iter().any(|elongation| is_off(*elongation));
-        Some(if may_be_off { [low.min(0.0), high.max(0.0)] } else { [low, high] })
+        // It is zero within the free play and on the other side.
+        let is_partly_free = has_ends && past[0] <= 0.0 && past[1] >= 0.0;
+        Some(if is_partly_free { hull(&[low, 0.0, high]) } else { hull(&[low, high]) })
     }
 }
 
