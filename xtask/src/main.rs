@@ -5,11 +5,13 @@ mod bench;
 mod blade;
 mod book;
 mod case;
+mod cases;
 mod compare;
 mod count;
 mod curves;
 mod defaults;
 mod digits;
+mod forces;
 mod formula;
 mod fuzz;
 mod invariants;
@@ -78,6 +80,8 @@ enum Chore {
     Random(random::RandomArguments),
     /// Try random laws with narrow features, jumps and kinks against references that resolve them
     Laws(laws::LawsArguments),
+    /// Compare reactions and accelerations of random mechanisms with those of a finer solution
+    Forces(forces::ForcesArguments),
     /// Read model files and expressions that are damaged by chance: each is read or rejected with its position
     Fuzz(fuzz::FuzzArguments),
     /// Mutation tests: change the code in one position at a time and report the changes that no test notices
@@ -217,6 +221,7 @@ fn main() -> ExitCode {
         Chore::Defaults(arguments) => defaults::defaults(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
+        Chore::Forces(arguments) => forces::forces(&arguments),
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),

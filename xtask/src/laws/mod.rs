@@ -4,15 +4,14 @@
 mod model;
 mod reference;
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use lissom::Model;
 use model::Case;
 use reference::{Reference, reference};
+
+use crate::cases::results;
 
 /// The default tolerance of adaptive steps.
 const DEFAULT: f64 = 1e-5;
@@ -73,25 +72,10 @@ pub(crate) fn laws(arguments: &LawsArguments) -> std::io::Result<bool> {
     let began = Instant::now();
     let tolerance = arguments.tolerance.unwrap_or(DEFAULT);
     let allowed = arguments.within * tolerance;
-    let next = AtomicU64::new(arguments.first);
-    let found: Mutex<BTreeMap<u64, Outcome>> = Mutex::default();
-    std::thread::scope(|scope| {
-        for _ in 0..arguments.threads.max(1) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= arguments.first + arguments.count {
-                        return;
-                    }
-                    let outcome = trial(&Case::new(arguments.seed, index), &analysis, [tolerance, allowed]);
-                    if let Ok(mut found) = found.lock() {
-                        found.insert(index, outcome);
-                    }
-                }
-            });
-        }
+    let range = arguments.first..arguments.first.saturating_add(arguments.count);
+    let found = results(range, arguments.threads, None, |index| {
+        trial(&Case::new(arguments.seed, index), &analysis, [tolerance, allowed])
     });
-    let found = found.into_inner().unwrap_or_default();
     let (mut errors, mut false_alarms, mut reported, mut sensitive) = (Vec::new(), 0, 0, 0);
     let (mut wrong, mut unknown) = (0, 0);
     let mut most_steps = 0;

@@ -8,12 +8,12 @@ mod trial;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use mechanism::mechanism;
 use trial::{Finding, trial};
+
+use crate::cases::results;
 
 /// Options of the trials.
 #[derive(clap::Args)]
@@ -63,32 +63,14 @@ pub(crate) fn random(arguments: &RandomArguments) -> std::io::Result<bool> {
     }
     let began = Instant::now();
     let limit = arguments.minutes.map(|minutes| Duration::from_secs_f64(minutes.max(0.0) * 60.0));
-    let next = AtomicU64::new(arguments.first);
-    let found: Mutex<Vec<(u64, Vec<Finding>)>> = Mutex::new(Vec::new());
+    let deadline = limit.and_then(|limit| began.checked_add(limit));
     // A panic is a finding, and reported as one.
     std::panic::set_hook(Box::new(|_| {}));
-    std::thread::scope(|scope| {
-        for _ in 0..arguments.threads.max(1) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    let is_over = limit.is_some_and(|limit| began.elapsed() >= limit);
-                    if index >= arguments.first + arguments.count || is_over {
-                        return;
-                    }
-                    let findings = trial(&mechanism(arguments.seed, index));
-                    if let Ok(mut found) = found.lock() {
-                        found.push((index, findings));
-                    }
-                }
-            });
-        }
-    });
+    let range = arguments.first..arguments.first.saturating_add(arguments.count);
+    let found = results(range, arguments.threads, deadline, |index| trial(&mechanism(arguments.seed, index)));
     let _ = std::panic::take_hook();
-    let mut found = found.into_inner().unwrap_or_default();
-    found.sort_by_key(|(index, _)| *index);
     print_findings(arguments, &found)?;
-    let defects = found.iter().filter(|(_, findings)| findings.iter().any(Finding::is_defect)).count();
+    let defects = found.values().filter(|findings| findings.iter().any(Finding::is_defect)).count();
     println!(
         "{} mechanisms of seed {} in {:.0} s: {defects} with a wrong answer or a panic",
         found.len(),
@@ -99,7 +81,7 @@ pub(crate) fn random(arguments: &RandomArguments) -> std::io::Result<bool> {
 }
 
 /// Prints the findings, stores the models, and counts.
-fn print_findings(arguments: &RandomArguments, found: &[(u64, Vec<Finding>)]) -> std::io::Result<()> {
+fn print_findings(arguments: &RandomArguments, found: &BTreeMap<u64, Vec<Finding>>) -> std::io::Result<()> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut reasons: BTreeMap<String, (usize, u64)> = BTreeMap::new();
     for (index, findings) in found {
@@ -126,7 +108,7 @@ fn print_findings(arguments: &RandomArguments, found: &[(u64, Vec<Finding>)]) ->
             }
         }
     }
-    let texts: String = found.iter().map(|(index, _)| mechanism(arguments.seed, *index).text()).collect();
+    let texts: String = found.keys().map(|index| mechanism(arguments.seed, *index).text()).collect();
     let missing = kinds_without(&texts);
     if !missing.is_empty() {
         println!("no mechanism has {}", missing.join(", "));
