@@ -113,7 +113,7 @@ struct Reached<R> {
 impl Nodes {
     pub(crate) fn new(layout: &Layout, stages: usize) -> Self {
         let is_fixed = |&node: &NodeId| layout.node_rows[node].iter().all(|&row| row == LOCKED);
-        let (fixed, moving): (Vec<_>, Vec<_>) = (0..layout.node_rows.len()).partition(is_fixed);
+        let (fixed, moving): (Vec<_>, Vec<_>) = layout.nodes().partition(is_fixed);
         let blocks: Vec<_> = moving.chunks(WIDTH).map(|nodes| NodeBlock::new(nodes, layout)).collect();
         let start = BlockStart {
             frame: [[0.0; WIDTH]; 7],

@@ -3,7 +3,7 @@
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::{Gravity, Inertia};
 use lissom_core::elements::{Element, Tangents};
-use lissom_core::kinematics::{Kinematics, NodeMotion};
+use lissom_core::kinematics::{Kinematics, NodeId, NodeMotion};
 use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
 
 /// Every level of vector instructions this processor has, and none.
@@ -140,7 +140,7 @@ fn beams<const N: usize>() {
                     .map(|which| move |k: usize| which == Which::All || which == Which::Some && k % 3 == 1);
                 let elements: Vec<_> = (0..count)
                     .map(|k| {
-                        let nodes = std::array::from_fn(|i| k * (N - 1) + i);
+                        let nodes = std::array::from_fn(|i| NodeId::new(k * (N - 1) + i));
                         let offsets = std::array::from_fn(|i| {
                             (carried(k) && i != 1).then(|| Motion::exponential(&(numbers.vector() * 0.2)))
                         });
@@ -184,7 +184,7 @@ fn inertias() {
         let at = kinematics(&mut numbers, count, 1.0);
         let gravity = Gravity::constant(Vector3::new(0.5, -9.81, 2.0));
         let elements: Vec<_> =
-            (0..count).map(|node| Inertia::new(node, numbers.matrix(), gravity.clone())).collect();
+            NodeId::first(count).map(|node| Inertia::new(node, numbers.matrix(), gravity.clone())).collect();
         compare(&elements, &at);
     }
 }

@@ -142,8 +142,7 @@ impl Builder {
     /// Adds a node with its initial frame.
     pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
         let motion = NodeMotion::at_rest(frame);
-        self.model.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
-        self.model.nodes.len() - 1
+        self.model.add_node(Node { name: name.to_owned(), motion, freedoms, mass: None })
     }
 
     /// Sets a node's initial twist, in its body frame [m/s, rad/s]; locked degrees of freedom have zero rates.
@@ -298,13 +297,12 @@ impl Builder {
             .iter()
             .enumerate()
             .map(|(k, coordinate)| {
-                self.model.coordinates.push(Coordinate {
+                self.model.add_coordinate(Coordinate {
                     name: format!("{name}.{}", coordinate.name),
                     value: values[k],
                     rate: 0.0,
                     quantity: coordinate.quantity,
-                });
-                self.model.coordinates.len() - 1
+                })
             })
             .collect();
         if let Some(start) = &mut self.start_values {
@@ -362,11 +360,7 @@ impl Builder {
         if layout.coordinate_count == 0 {
             return Err(BuildError::Empty);
         }
-        let inertias: Vec<Inertia> = self
-            .model
-            .nodes
-            .iter()
-            .enumerate()
+        let inertias: Vec<Inertia> = NodeId::enumerate(&self.model.nodes)
             .filter_map(|(node, spec)| {
                 spec.mass.map(|mass| Inertia::new(node, mass, self.model.gravity.clone()))
             })
@@ -527,7 +521,7 @@ fn rows_of(joint: &AttachedJoint, layout: &Layout) -> Vec<u32> {
         rows[first..first + 6].copy_from_slice(&layout.node_rows[frame.node]);
     }
     for (row, &coordinate) in rows[OWN..].iter_mut().zip(&joint.coordinates) {
-        *row = layout.coordinate_rows[coordinate];
+        *row = layout.row_of_coordinate(coordinate) as u32;
     }
     let first = layout.coordinate_count + joint.first_multiplier;
     rows.extend((first..first + joint.equations()).map(|row| row as u32));

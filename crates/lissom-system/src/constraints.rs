@@ -80,7 +80,7 @@ pub fn rows_of_port(port: Port, layout: &Layout) -> impl Iterator<Item = u32> {
     let rows = match port {
         Port::Node(node) => *layout.rows_of_node(node),
         Port::NoNode => [LOCKED; 6],
-        Port::Coordinate(coordinate) => [layout.coordinate_rows[coordinate]; 6],
+        Port::Coordinate(coordinate) => [layout.row_of_coordinate(coordinate) as u32; 6],
     };
     rows.into_iter().take(port.width())
 }
@@ -93,9 +93,9 @@ pub(crate) fn group_of(
 ) -> Group {
     let first = layout.coordinate_count + constraint.first_multiplier();
     let host = |port| match port {
-        Port::Node(node) => of_node[node],
+        Port::Node(node) => of_node[node.index()],
         Port::NoNode => None,
-        Port::Coordinate(coordinate) => Some(first_coordinate + coordinate),
+        Port::Coordinate(coordinate) => Some(first_coordinate + coordinate.index()),
     };
     let mut hosts: Vec<usize> = ports_of(constraint).into_iter().filter_map(host).collect();
     hosts.sort_unstable();

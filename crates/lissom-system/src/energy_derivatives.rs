@@ -9,7 +9,7 @@
 use super::System;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::evaluation::batch::Mass;
-use lissom_mechanics::kinematics::{GROUND, Kinematics, split};
+use lissom_mechanics::kinematics::{GROUND, Kinematics, NodeId, split};
 use lissom_motion::{Matrix6, Vector3, Vector6, screw};
 
 /// Derivatives of a number with respect to positions, as body variations and coordinates, and to velocities, by row.
@@ -74,7 +74,7 @@ impl System {
                 let momentum = coordinates.iter().enumerate();
                 let momentum: f64 =
                     momentum.map(|(k, &k_own)| matrix[(i, k)] * at.coordinates[k_own].rate).sum();
-                add(&mut kinetic.by_rate, self.layout.coordinate_rows[own], momentum);
+                add(&mut kinetic.by_rate, self.layout.coordinate_rows[own.index()], momentum);
             }
         }
         [kinetic, strain, potential]
@@ -160,10 +160,10 @@ impl System {
 }
 
 /// The same configuration without velocities; `acceleration` is that of a node.
-fn stopped(at: &Kinematics, acceleration: impl Fn(&Kinematics, usize) -> Vector6) -> Kinematics {
+fn stopped(at: &Kinematics, acceleration: impl Fn(&Kinematics, NodeId) -> Vector6) -> Kinematics {
     let mut stopped = at.clone();
-    for (index, node) in stopped.nodes.iter_mut().enumerate() {
-        node.acceleration = if index == GROUND { Vector6::zeros() } else { acceleration(at, index) };
+    for (id, node) in NodeId::enumerate(&mut stopped.nodes) {
+        node.acceleration = if id == GROUND { Vector6::zeros() } else { acceleration(at, id) };
         node.twist = Vector6::zeros();
     }
     for own in &mut stopped.coordinates {

@@ -8,7 +8,6 @@
 //! ```
 
 use std::any::Any;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use lissom_solver::Pattern;
@@ -79,8 +78,7 @@ impl Driven {
             rows.push(layout.row_of_coordinate(coordinate) as u32);
         }
         let own = rows.len();
-        let measured: BTreeSet<usize> = graph.measurements_of(signal);
-        for measurement in measured.into_iter().map(|index| &graph.measurements[index]) {
+        for measurement in graph.measurements_of(signal).into_iter().map(|id| &graph.measurements[id]) {
             for &node in measurement.of.nodes() {
                 if !nodes.iter().any(|&(known, _)| known == node) {
                     nodes.push((node, rows.len()));
@@ -131,7 +129,7 @@ impl Driven {
             Target::Load(element) => {
                 out.clear(self.own);
                 element.linearize(at, out);
-                out.multiply(values[self.signal]);
+                out.multiply(values[self.signal.index()]);
                 out.widen(self.rows.len());
                 element.forces(at, &mut factors[..self.own]);
             }
@@ -227,10 +225,10 @@ impl Feedback {
                 match &driven.target {
                     Target::Load(element) => {
                         element.forces(at, &mut local[..driven.own]);
-                        local = local.map(|force| values[driven.signal] * force);
+                        local = local.map(|force| values[driven.signal.index()] * force);
                     }
                     Target::State([coordinate]) => {
-                        local[0] = at.coordinates[*coordinate].rate - values[driven.signal];
+                        local[0] = at.coordinates[*coordinate].rate - values[driven.signal.index()];
                     }
                 }
                 scatter(&driven.rows[..driven.own], &local, out);
@@ -392,7 +390,9 @@ impl AnyBatch for DrivenBatch {
     }
 
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
-        let size = |driven: &Driven, at: &Kinematics| self.graph.evaluate(at, |values| values[driven.signal]);
+        let size = |driven: &Driven, at: &Kinematics| {
+            self.graph.evaluate(at, |values| values[driven.signal.index()])
+        };
         match self.driven.get(item) {
             Some(driven @ Driven { target: Target::Load(element), .. }) => {
                 work(&**element, (from, to), [size(driven, from), size(driven, to)])
@@ -405,7 +405,7 @@ impl AnyBatch for DrivenBatch {
         let Some(driven) = self.driven.get(item) else { return 0.0 };
         match &driven.target {
             Target::Load(element) => {
-                self.graph.evaluate(at, |values| values[driven.signal]) * power(&**element, at)
+                self.graph.evaluate(at, |values| values[driven.signal.index()]) * power(&**element, at)
             }
             Target::State(_) => 0.0,
         }

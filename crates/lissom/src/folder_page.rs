@@ -44,7 +44,7 @@ impl ResultFolder {
         let motion = Motion::from_bytes(&bytes).map_err(|error| foreign(&path.join(MOTION), error))?;
         // A scene of another model would be misleading.
         let count = motion.reference().len();
-        if scene.most_node() >= count || motion.header().point_count() > 0 && scene.beams.is_empty() {
+        if scene.most_node().index() >= count || motion.header().point_count() > 0 && scene.beams.is_empty() {
             return Err(foreign(&path.join(SCENE), MotionError::Damaged));
         }
         Ok(RecordedRun { title, scene, motion, record })

@@ -150,7 +150,7 @@ fn load(
     let [own, other] = [reached.model.system().layout(), system.layout()];
     let same = own.size() == other.size()
         && own.node_count() == other.node_count()
-        && (0..own.node_count()).all(|node| own.rows_of_node(node) == other.rows_of_node(node));
+        && own.nodes().all(|node| own.rows_of_node(node) == other.rows_of_node(node));
     if !same {
         return Err(unknown());
     }

@@ -133,7 +133,7 @@ impl Prepared {
     ) -> Result<(), PartError> {
         let name = self.ids()?.name(part.into().id())?;
         let Some(node) =
-            self.lowered.names.nodes.get(name).and_then(|&node| state.kinematics.nodes.get_mut(node))
+            self.lowered.names.nodes.get(name).and_then(|&node| state.kinematics.nodes.get_mut(node.index()))
         else {
             return Err(PartError::Beam(name.to_owned()));
         };
@@ -152,8 +152,12 @@ impl Prepared {
     /// If the input belongs to another model.
     pub fn set_input(&self, state: &mut State, input: InputId, value: f64) -> Result<(), PartError> {
         let name = self.ids()?.name(input)?;
-        let held =
-            self.lowered.system.signals().input(name).and_then(|held| state.kinematics.held.get_mut(held));
+        let held = self
+            .lowered
+            .system
+            .signals()
+            .input(name)
+            .and_then(|held| state.kinematics.held.get_mut(held.index()));
         *held.ok_or_else(|| PartError::NoInput(name.to_owned()))? = value;
         Ok(())
     }

@@ -48,7 +48,7 @@ impl ResultFolder {
         let state = Motion::from_bytes(&bytes).map_err(|error| foreign(&file, error))?;
         let scene = read_scene(&path.join(SCENE))?;
         let count = state.reference().len();
-        if state.times().len() != 1 || scene.most_node() >= count {
+        if state.times().len() != 1 || scene.most_node().index() >= count {
             return Err(foreign(&file, MotionError::Damaged));
         }
         let modes = read(&modes, &shapes, count);

@@ -231,9 +231,9 @@ fn take_places(
     at: &mut Kinematics,
     (layout, whole): (&Layout, &Kinematics),
 ) -> Result<(), ReduceError> {
-    for node in 1..own.node_count() {
+    for node in own.nodes().skip(1) {
         let name = own.node_name(node);
-        let found = (1..layout.node_count()).find(|&other| layout.node_name(other) == name);
+        let found = layout.nodes().skip(1).find(|&other| layout.node_name(other) == name);
         match found {
             Some(other) => at.nodes[node] = whole.nodes[other],
             None => {
@@ -241,9 +241,9 @@ fn take_places(
             }
         }
     }
-    for coordinate in 0..at.coordinates.len() {
+    for coordinate in own.coordinates() {
         let name = own.coordinate_name(coordinate);
-        let found = (0..whole.coordinates.len()).find(|&other| layout.coordinate_name(other) == name);
+        let found = layout.coordinates().find(|&other| layout.coordinate_name(other) == name);
         match found {
             Some(other) => at.coordinates[coordinate] = whole.coordinates[other],
             None => {

@@ -4,7 +4,7 @@ use super::simulation::Simulation;
 use super::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE, StepError};
 use crate::analysis::Problem;
 use crate::judge::{MAX_TURN, degenerate_joint};
-use crate::kinematics::Subject;
+use crate::kinematics::{NodeId, Subject};
 
 impl Simulation {
     /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
@@ -69,8 +69,8 @@ impl Simulation {
         if !self.settings.scheme.dynamic {
             return None;
         }
-        let turning = |node: usize| self.state.kinematics.nodes[node].twist.fixed_rows::<3>(3).norm();
-        let nodes = 0..self.state.kinematics.nodes.len();
+        let turning = |node: NodeId| self.state.kinematics.nodes[node].twist.fixed_rows::<3>(3).norm();
+        let nodes = self.system.layout().nodes();
         let fastest = nodes.max_by(|&a, &b| turning(a).total_cmp(&turning(b)))?;
         let angle = turning(fastest) * self.integrator.scaled.step_size();
         let name = || self.system.layout().name_of_node(fastest).to_owned();

@@ -8,7 +8,7 @@ use super::settings::Settings;
 use super::simulation::Simulation;
 use crate::diagnostics::diagnostics;
 use crate::elements::latch::holds;
-use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
+use crate::kinematics::{HeldId, Kinematics, LOCKED, Quantity, Subject};
 use crate::signals::SignalError;
 use crate::system::{State, System};
 
@@ -72,7 +72,7 @@ pub(super) fn settle(
         initial.accelerations(system, state)?;
         let readings: Vec<_> = system.take_readings(state).collect();
         for (held, value) in readings {
-            state.kinematics.held[held] = value;
+            state.kinematics.held[held.index()] = value;
         }
     }
     system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
@@ -100,11 +100,11 @@ impl Simulation {
         if !value.is_finite() {
             return Err(InputError::NotFinite { name: name.to_owned(), value });
         }
-        if self.state.kinematics.held[held] == value {
+        if self.state.kinematics.held[held.index()] == value {
             return Ok(());
         }
         let mut at = self.state.kinematics.clone();
-        at.held[held] = value;
+        at.held[held.index()] = value;
         graph.check(&at).map_err(InputError::Signal)?;
         if self.totals.steps > 0 {
             return Ok(self.change_held_values(at)?);
@@ -126,13 +126,17 @@ impl Simulation {
 
     /// Whether a latch that was free holds with the held values of `at`.
     fn engages(&self, at: &Kinematics) -> bool {
-        let is_new = |&input: &usize| holds(at.held[input]) && !holds(self.state.kinematics.held[input]);
+        let is_new = |input: &HeldId| {
+            holds(at.held[input.index()]) && !holds(self.state.kinematics.held[input.index()])
+        };
         self.system.latches.iter().any(is_new)
     }
 
     /// Whether a latch engages or lets go with the held values of `at`.
     fn switches_latch(&self, at: &Kinematics) -> bool {
-        let is_other = |&input: &usize| holds(at.held[input]) != holds(self.state.kinematics.held[input]);
+        let is_other = |input: &HeldId| {
+            holds(at.held[input.index()]) != holds(self.state.kinematics.held[input.index()])
+        };
         self.system.latches.iter().any(is_other)
     }
 

@@ -5,7 +5,7 @@
 use nalgebra::DMatrix;
 
 use crate::joints::constraint::{Constraint, Port, ports_of};
-use crate::kinematics::{Kinematics, LOCKED, Layout, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId, Quantity};
 use crate::system::{System, rows_of_port};
 
 /// Constraints that close loops with each other.
@@ -89,7 +89,7 @@ fn columns_of(constraint: &dyn Constraint, layout: &Layout) -> Vec<usize> {
 /// degrees of freedom than they are may be redundant without any loop.
 fn take_ends(system: &System, is_kept: &mut [bool]) {
     let layout = system.layout();
-    let sides: Vec<Vec<Vec<usize>>> = system
+    let sides: Vec<Vec<Vec<NodeId>>> = system
         .constraints()
         .map(|constraint| {
             let mut sides = constraint.sides();
@@ -103,25 +103,25 @@ fn take_ends(system: &System, is_kept: &mut [bool]) {
     // A joint between two points of one node holds it twice and is no end.
     let mut holders: Vec<Vec<usize>> = vec![Vec::new(); layout.node_count()];
     for (index, sides) in sides.iter().enumerate().filter(|(index, _)| is_kept[*index]) {
-        sides.iter().flatten().for_each(|&node| holders[node].push(index));
+        sides.iter().flatten().for_each(|node| holders[node.index()].push(index));
     }
     let mut count: Vec<usize> = holders.iter().map(Vec::len).collect();
-    let freedoms = |node: usize| layout.rows_of_node(node).iter().filter(|&&row| row != LOCKED).count();
-    let mut open: Vec<usize> = (0..layout.node_count()).collect();
+    let freedoms = |node: NodeId| layout.rows_of_node(node).iter().filter(|&&row| row != LOCKED).count();
+    let mut open: Vec<NodeId> = layout.nodes().collect();
     while let Some(node) = open.pop() {
-        if count[node] != 1 {
+        if count[node.index()] != 1 {
             continue;
         }
-        let Some(&index) = holders[node].iter().find(|&&index| is_kept[index]) else { continue };
-        let is_free = |side: &Vec<usize>| {
-            side.iter().all(|&own| count[own] == 1)
+        let Some(&index) = holders[node.index()].iter().find(|&&index| is_kept[index]) else { continue };
+        let is_free = |side: &Vec<NodeId>| {
+            side.iter().all(|own| count[own.index()] == 1)
                 && side.iter().map(|&own| freedoms(own)).sum::<usize>()
                     >= system.constraint(index).equations()
         };
         if sides[index].iter().any(is_free) {
             is_kept[index] = false;
             for &own in sides[index].iter().flatten() {
-                count[own] -= 1;
+                count[own.index()] -= 1;
                 open.push(own);
             }
         }

@@ -3,7 +3,7 @@
 use lissom_solver::SolverKind;
 
 use super::initial_conditions::{ConsistentInitialConditions, InitialError};
-use crate::kinematics::Quantity;
+use crate::kinematics::{CoordinateId, Quantity};
 use crate::scaling::Representative;
 use crate::schemes::Tableau;
 use crate::system::{State, System};
@@ -38,8 +38,8 @@ impl Projection {
             for node in &mut state.kinematics.nodes {
                 node.twist *= factor;
             }
-            for (index, coordinate) in state.kinematics.coordinates.iter_mut().enumerate() {
-                if system.layout().coordinate_quantity(index) != Quantity::State {
+            for (id, coordinate) in CoordinateId::enumerate(&mut state.kinematics.coordinates) {
+                if system.layout().coordinate_quantity(id) != Quantity::State {
                     coordinate.rate *= factor;
                 }
             }

@@ -14,6 +14,7 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::instants::SAME;
 use crate::integrator::Attempt;
 use crate::integrator::error_estimate::{ErrorOrder, MIN_ERROR, MIN_REFERENCE, driven, excursion};
+use crate::kinematics::CoordinateId;
 use crate::tuning::{Tuning, TuningParameter};
 
 /// Largest growth of a step.
@@ -81,7 +82,7 @@ impl Adaptive {
         };
         let positions = largest / (reference * allowed).max(MIN_ERROR);
         // First-order states, each relative to its magnitude, unfiltered.
-        let of = |(row, coordinate, magnitude): (usize, usize, f64)| {
+        let of = |(row, coordinate, magnitude): (usize, CoordinateId, f64)| {
             let value = review.start.kinematics.coordinates[coordinate].value;
             (work.error[row] / magnitude.max(value.abs())).abs()
         };

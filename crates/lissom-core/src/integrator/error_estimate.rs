@@ -68,7 +68,7 @@ pub(crate) fn driven(system: &System, (from, to): (f64, f64), length: f64) -> f6
     let of = |drive: &Drive| {
         let function = &drive.prescribed.value;
         let way = (function.value(to) - function.value(from)).abs();
-        let row = system.layout().coordinate_rows[drive.prescribed.coordinate] as usize;
+        let row = system.layout().row_of_coordinate(drive.prescribed.coordinate);
         if system.layout().quantities()[row] == Quantity::Length { way / length } else { way }
     };
     system.drives().iter().map(of).fold(0.0_f64, f64::max).min(1.0)

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 
 use crate::analysis::Problem;
 use crate::analysis::StepError;
-use crate::kinematics::{Kinematics, Quantity, Subject};
+use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
@@ -96,12 +96,12 @@ impl Judge<'_> {
     /// Name of the node whose velocity changes most; a rotation counts as the arc at the representative length.
     fn most_restless(&self, start: &State, end: &State) -> String {
         let length = self.representative.length;
-        let change = |node: usize| {
+        let change = |node: NodeId| {
             let change = end.kinematics.nodes[node].twist - start.kinematics.nodes[node].twist;
             change.fixed_rows::<3>(0).norm().max(length * change.fixed_rows::<3>(3).norm())
         };
-        let nodes = 0..start.kinematics.nodes.len();
-        let most = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))).unwrap_or(0);
+        let nodes = self.system.layout().nodes();
+        let most = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))).unwrap_or(GROUND);
         self.system.layout().name_of_node(most).to_owned()
     }
 
@@ -180,12 +180,12 @@ impl Judge<'_> {
     /// half of the largest.
     fn turns(&self, start: &State, end: &State) -> Result<bool, StepError> {
         let elapsed = end.kinematics.time - start.kinematics.time;
-        let (mut fastest, mut node) = (0.0, 0);
+        let (mut fastest, mut node) = (0.0_f64, GROUND);
         let (mut largest, mut change) = ([0.0_f64; 2], [0.0_f64; 2]);
-        for (index, (from, to)) in start.kinematics.nodes.iter().zip(&end.kinematics.nodes).enumerate() {
+        for (id, (from, to)) in NodeId::enumerate(start.kinematics.nodes.iter().zip(&end.kinematics.nodes)) {
             let turning = to.twist.fixed_rows::<3>(3).norm_squared();
             if turning > fastest {
-                (fastest, node) = (turning, index);
+                (fastest, node) = (turning, id);
             }
             let difference = to.twist - from.twist;
             largest = [largest[0].max(to.twist.fixed_rows::<3>(0).norm_squared()), largest[1].max(turning)];

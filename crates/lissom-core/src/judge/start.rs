@@ -4,7 +4,7 @@ use lissom_motion::Vector3;
 
 use super::Warning;
 use crate::analysis::InitialError;
-use crate::kinematics::{Kinematics, NodeMotion, Quantity, Subject, split};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, NodeMotion, Quantity, Subject, split};
 use crate::scaling::Representative;
 use crate::system::System;
 
@@ -52,11 +52,11 @@ pub(crate) fn velocities(
     let of_coordinates =
         if are_given { rates_of_coordinates(system, (length, largest), specified, used)? } else { None };
     let mut warnings: Vec<Warning> = of_coordinates.into_iter().collect();
-    let changed = |node: usize| {
+    let changed = |node: NodeId| {
         let is_given = are_given && given[node].twist.norm_squared() > 0.0;
         if is_given { speed(&(used.nodes[node].twist - given[node].twist), length) } else { 0.0 }
     };
-    let worst = (0..given.len()).max_by(|&a, &b| changed(a).total_cmp(&changed(b))).unwrap_or(0);
+    let worst = system.layout().nodes().max_by(|&a, &b| changed(a).total_cmp(&changed(b))).unwrap_or(GROUND);
     if changed(worst) > NOTEWORTHY * largest {
         let part = Subject::new("node", system.layout().name_of_node(worst));
         let energy = |nodes: &[NodeMotion]| -> f64 {
@@ -98,12 +98,12 @@ fn rates_of_coordinates(
     specified: &Kinematics,
     used: &Kinematics,
 ) -> Result<Option<Warning>, InitialError> {
-    let change = |k: &usize| {
+    let change = |k: &CoordinateId| {
         let (given, used) = (specified.coordinates[*k].rate, used.coordinates[*k].rate);
         let arm = if system.layout().coordinate_quantity(*k) == Quantity::Angle { length } else { 1.0 };
         if arm * given.abs() <= WRITTEN * largest { 0.0 } else { (used - given).abs() / given.abs() }
     };
-    let worst = (0..specified.coordinates.len()).max_by(|a, b| change(a).total_cmp(&change(b)));
+    let worst = system.layout().coordinates().max_by(|a, b| change(a).total_cmp(&change(b)));
     let Some(worst) = worst.filter(|worst| change(worst) > NOTEWORTHY) else { return Ok(None) };
     let unit = match system.layout().coordinate_quantity(worst) {
         Quantity::Length => "m/s",
@@ -164,8 +164,10 @@ pub(crate) fn rates(
 impl Representative {
     /// Speed of the fastest node; a rotation counts as the arc at the representative length [m/s].
     pub(crate) fn largest_speed(&self, system: &System, at: &Kinematics) -> f64 {
-        let is_motion = |&(k, _): &(usize, _)| system.layout().coordinate_quantity(k) != Quantity::State;
-        let coordinates = at.coordinates.iter().enumerate().filter(is_motion).map(|(_, own)| own.rate.abs());
+        let is_motion =
+            |&(k, _): &(CoordinateId, _)| system.layout().coordinate_quantity(k) != Quantity::State;
+        let coordinates =
+            CoordinateId::enumerate(&at.coordinates).filter(is_motion).map(|(_, own)| own.rate.abs());
         at.nodes.iter().map(|node| speed(&node.twist, self.length)).chain(coordinates).fold(0.0, f64::max)
     }
 }

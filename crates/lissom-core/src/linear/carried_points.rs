@@ -13,7 +13,7 @@ use lissom_motion::Vector3;
 use nalgebra::{DMatrix, DVector};
 
 use crate::elements::superelement::{PAIRS, TurningMatrices};
-use crate::kinematics::{Kinematics, LOCKED};
+use crate::kinematics::{Kinematics, LOCKED, NodeId};
 use crate::system::System;
 
 /// An assembly at rest, and the values of its mass matrix.
@@ -29,7 +29,7 @@ impl CarriedPoints<'_> {
     fn carried(&self, axis: &Vector3, shape: Option<&[f64]>) -> Vec<f64> {
         let layout = self.system.layout();
         let mut velocity = vec![0.0; layout.size()];
-        for (node, motion) in self.at.nodes.iter().enumerate().skip(1) {
+        for (node, motion) in NodeId::enumerate(&self.at.nodes).skip(1) {
             let (rows, rotation) = (layout.rows_of_node(node), &motion.frame.rotation);
             let own = |k: usize| {
                 let value = |shape: &&[f64]| if rows[k] == LOCKED { 0.0 } else { shape[rows[k] as usize] };

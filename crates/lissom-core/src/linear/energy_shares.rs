@@ -8,7 +8,7 @@ use num_complex::Complex64;
 use super::mode::Mode;
 use super::model::LinearModel;
 use super::shapes::part_of;
-use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity};
 
 use crate::system::{Mass, Owner};
 
@@ -171,7 +171,7 @@ impl LinearModel<'_> {
     fn displaced(&self, rows: &[f64], share: f64) -> Kinematics {
         let layout = self.system.layout();
         let mut at = self.at.clone();
-        for (node, motion) in at.nodes.iter_mut().enumerate() {
+        for (node, motion) in NodeId::enumerate(&mut at.nodes) {
             let own = layout.rows_of_node(node);
             let psi = Vector6::from_fn(|k, _| match own[k] {
                 LOCKED => 0.0,
@@ -179,7 +179,7 @@ impl LinearModel<'_> {
             });
             motion.frame = motion.frame * Motion::exponential(&psi);
         }
-        for (coordinate, motion) in at.coordinates.iter_mut().enumerate() {
+        for (coordinate, motion) in CoordinateId::enumerate(&mut at.coordinates) {
             motion.value += share * rows[layout.row_of_coordinate(coordinate)];
         }
         at

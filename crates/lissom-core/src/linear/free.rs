@@ -168,11 +168,11 @@ impl LinearModel<'_> {
         let count = self.coordinate_count();
         let largest = (0..count).map(size).fold(0.0, f64::max);
         let moves = |row: &usize| size(*row) > TAKES_PART * largest;
-        let of_joints = (0..self.at.coordinates.len()).map(|coordinate| layout.row_of_coordinate(coordinate));
+        let of_joints = layout.coordinates().map(|coordinate| layout.row_of_coordinate(coordinate));
         let mut rows: Vec<usize> = of_joints.filter(moves).collect();
         if rows.is_empty() {
             let mut named = BTreeSet::new();
-            for node in 0..self.at.nodes.len() {
+            for node in layout.nodes() {
                 let own =
                     layout.rows_of_node(node).iter().filter(|&&row| row != LOCKED).map(|&row| row as usize);
                 let most = own.filter(moves).max_by(|a, b| size(*a).total_cmp(&size(*b)));

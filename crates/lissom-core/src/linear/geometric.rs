@@ -24,7 +24,7 @@ use super::model::{LinearModel, nothing, point};
 use super::reduction::{Assembly, ReductionError};
 use super::shifted::RealShift;
 use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, TurningMatrices};
-use crate::kinematics::{Kinematics, LOCKED};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId};
 use crate::system::System;
 
 /// Displacements of differences, as a fraction of the model's length.
@@ -52,7 +52,7 @@ struct Forces<'a> {
 
 impl Forces<'_> {
     /// Six numbers of a shape at a node, in its axes.
-    fn of_node(&self, shape: &[f64], node: usize) -> Vector6 {
+    fn of_node(&self, shape: &[f64], node: NodeId) -> Vector6 {
         let rows = self.system.layout().rows_of_node(node);
         Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { shape[rows[k] as usize] })
     }
@@ -60,7 +60,7 @@ impl Forces<'_> {
     /// The assembly displaced by `shape` and moved rigidly.
     fn displaced(&self, shape: &[f64], carried: Carried) -> Kinematics {
         let mut at = self.at.clone();
-        for node in 1..at.nodes.len() {
+        for node in self.system.layout().nodes().skip(1) {
             let own = self.of_node(shape, node);
             let (linear, angular) =
                 (own.fixed_rows::<3>(0).into_owned(), own.fixed_rows::<3>(3).into_owned());
@@ -78,7 +78,7 @@ impl Forces<'_> {
             };
             (motion.twist, motion.acceleration) = (twist, acceleration);
         }
-        for (coordinate, motion) in at.coordinates.iter_mut().enumerate() {
+        for (coordinate, motion) in CoordinateId::enumerate(&mut at.coordinates) {
             motion.value += shape[self.system.layout().row_of_coordinate(coordinate)];
             (motion.rate, motion.acceleration) = (0.0, 0.0);
         }
@@ -98,7 +98,7 @@ impl Forces<'_> {
         let at = self.displaced(shape, carried);
         self.residual(&at);
         let mut found = DVector::zeros(self.shapes.len());
-        for node in 1..self.at.nodes.len() {
+        for node in self.system.layout().nodes().skip(1) {
             let rows = self.system.layout().rows_of_node(node);
             if rows.contains(&LOCKED) && rows.iter().all(|row| *row == LOCKED) {
                 continue;
@@ -114,7 +114,7 @@ impl Forces<'_> {
                 found[k] += self.of_node(own, node).dot(&dual);
             }
         }
-        for coordinate in 0..self.at.coordinates.len() {
+        for coordinate in self.system.layout().coordinates() {
             let row = self.system.layout().row_of_coordinate(coordinate);
             for (k, own) in self.shapes.iter().enumerate() {
                 found[k] += own[row] * self.room[row];
@@ -125,12 +125,13 @@ impl Forces<'_> {
 
     /// The largest displacement of a shape, rotations times `length`.
     fn size(&self, shape: &[f64], length: f64) -> f64 {
-        let of_nodes = (1..self.at.nodes.len()).map(|node| {
+        let layout = self.system.layout();
+        let of_nodes = layout.nodes().skip(1).map(|node| {
             let own = self.of_node(shape, node);
             own.fixed_rows::<3>(0).norm().max(length * own.fixed_rows::<3>(3).norm())
         });
-        let of_coordinates = (0..self.at.coordinates.len())
-            .map(|coordinate| shape[self.system.layout().row_of_coordinate(coordinate)].abs());
+        let of_coordinates =
+            layout.coordinates().map(|coordinate| shape[layout.row_of_coordinate(coordinate)].abs());
         of_nodes.chain(of_coordinates).fold(0.0, f64::max)
     }
 

@@ -14,7 +14,7 @@ use lissom_solver::Pattern;
 use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, SMALL, small_square};
-use crate::kinematics::{Kinematics, LOCKED, Quantity};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity};
 use crate::round_off;
 
 /// Number of directions.
@@ -190,7 +190,7 @@ fn moved(
 ) -> Kinematics {
     let layout = model.system.layout();
     let mut at = from.clone();
-    for (node, motion) in at.nodes.iter_mut().enumerate() {
+    for (node, motion) in NodeId::enumerate(&mut at.nodes) {
         let rows = layout.rows_of_node(node);
         let change =
             Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { step * direction[rows[k] as usize] });
@@ -200,7 +200,7 @@ fn moved(
             motion.frame = motion.frame * Motion::exponential(&change);
         }
     }
-    for (coordinate, motion) in at.coordinates.iter_mut().enumerate() {
+    for (coordinate, motion) in CoordinateId::enumerate(&mut at.coordinates) {
         let change = step * direction[layout.row_of_coordinate(coordinate)];
         if is_of_rate {
             motion.rate += rate * change;

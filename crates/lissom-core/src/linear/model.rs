@@ -16,7 +16,7 @@ use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
 use crate::interrupt::{self, Interrupted};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
-use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity, Subject};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, MotionChange, NodeId, Quantity, Subject};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
@@ -358,9 +358,9 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
 
 /// Whether all velocities are zero; rates of impulses are forces.
 fn is_at_rest(system: &System, at: &Kinematics) -> bool {
-    let is_force = |coordinate: usize| system.layout().impulses.contains(&coordinate);
+    let is_force = |coordinate: CoordinateId| system.layout().impulses.contains(&coordinate);
     at.nodes.iter().all(|node| node.twist == Vector6::zeros())
-        && (at.coordinates.iter().enumerate()).all(|(own, motion)| motion.rate == 0.0 || is_force(own))
+        && CoordinateId::enumerate(&at.coordinates).all(|(own, motion)| motion.rate == 0.0 || is_force(own))
 }
 
 pub(super) fn nothing(at: &Kinematics) -> (Vec<MotionChange>, Vec<f64>) {
@@ -513,12 +513,12 @@ fn displacement_by_inertia(
         return None;
     }
     let mut accelerations = vec![0.0; layout.size()];
-    for (node, motion) in at.nodes.iter().enumerate() {
+    for (node, motion) in NodeId::enumerate(&at.nodes) {
         for (k, &row) in layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
             accelerations[row as usize] = motion.acceleration[k];
         }
     }
-    for (coordinate, motion) in at.coordinates.iter().enumerate() {
+    for (coordinate, motion) in CoordinateId::enumerate(&at.coordinates) {
         accelerations[layout.row_of_coordinate(coordinate)] = motion.acceleration;
     }
     let mut forces = vec![0.0; layout.size()];
@@ -540,7 +540,7 @@ fn displacement_by_inertia(
 /// Adds M ad_V̇ to the stiffness.
 fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearization) {
     let pattern = system.pattern();
-    for (node, motion) in at.nodes.iter().enumerate() {
+    for (node, motion) in NodeId::enumerate(&at.nodes) {
         let rows = system.layout().rows_of_node(node);
         // Nodes without rotations do not contribute.
         if rows.contains(&LOCKED) || motion.acceleration == Vector6::zeros() {

@@ -207,17 +207,17 @@ impl Axis {
             let candidates = (own - 1..=own + 1).filter_map(|cell| near.get(&cell)).flatten();
             let image = candidates.copied().find(|&other| {
                 let change = at.nodes[other].frame.relative_to(&moved).logarithm();
-                !taken[other]
+                !taken[other.index()]
                     && (0..6).all(|k| change[k].abs() <= SAME * if k < 3 { self.length } else { 1.0 })
             })?;
-            taken[image] = true;
-            images[node] = Some(image);
+            taken[image.index()] = true;
+            images[node.index()] = Some(image);
         }
         Some(images)
     }
 
     fn beside<'k>(&'k self, at: &'k Kinematics) -> impl Iterator<Item = NodeId> + 'k {
-        let turning = (0..at.nodes.len()).filter(|&node| self.turns[node]);
+        let turning = NodeId::first(at.nodes.len()).filter(|node| self.turns[node.index()]);
         turning.filter(|&node| !self.is_on(&at.nodes[node].frame.position))
     }
 }
@@ -242,7 +242,7 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     }
     let layout = model.system().layout();
     for first in axis.beside(at) {
-        let orbit = orbit(first, blades, &|node| images[node]);
+        let orbit = orbit(first, blades, &|node| images[node.index()]);
         let Some(orbit) = orbit.filter(|orbit| orbit.iter().all(|&node| node >= first)) else { continue };
         let rows: Vec<[u32; 6]> = orbit.iter().map(|&node| *layout.rows_of_node(node)).collect();
         for k in 0..6 {
@@ -254,7 +254,8 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     // Coordinates of joints between nodes that are mapped to each other.
     let joints = model.system().joints();
     let image_of = |node: NodeId| {
-        images[node].or((!axis.turns[node] || axis.is_on(&at.nodes[node].frame.position)).then_some(node))
+        images[node.index()]
+            .or((!axis.turns[node.index()] || axis.is_on(&at.nodes[node].frame.position)).then_some(node))
     };
     let image = |joint: usize| {
         let [base, tip] = [0, 1].map(|side| image_of(joints[joint].frames[side].node));
@@ -285,7 +286,7 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
 
 /// The nodes to which `first` is mapped in `blades` parts of a turn, if the sequence is closed; none for a fixed
 /// node.
-fn orbit(first: usize, blades: usize, image: &dyn Fn(usize) -> Option<usize>) -> Option<Vec<usize>> {
+fn orbit<T: Copy + Ord>(first: T, blades: usize, image: &dyn Fn(T) -> Option<T>) -> Option<Vec<T>> {
     let mut orbit = vec![first];
     for _ in 1..blades {
         orbit.push(image(*orbit.last()?)?);
@@ -300,8 +301,8 @@ fn orbit(first: usize, blades: usize, image: &dyn Fn(usize) -> Option<usize>) ->
 /// Vectors of nodes on the axis rotate.
 fn on_the_axis(model: &LinearModel<'_>, axis: &Axis, columns: &mut [Vec<(usize, f64)>]) {
     let layout = model.system().layout();
-    for (node, motion) in model.kinematics().nodes.iter().enumerate() {
-        if !axis.turns[node] || !axis.is_on(&motion.frame.position) {
+    for (node, motion) in NodeId::enumerate(&model.kinematics().nodes) {
+        if !axis.turns[node.index()] || !axis.is_on(&motion.frame.position) {
             continue;
         }
         let rows = layout.rows_of_node(node);

@@ -13,7 +13,7 @@ use lissom_motion::{Vector6, lie_bracket_matrix};
 use num_complex::Complex64;
 
 use super::model::LinearModel;
-use crate::kinematics::LOCKED;
+use crate::kinematics::{LOCKED, NodeId};
 use crate::signals::HeldId;
 
 /// Derivatives of a quantity by row; missing rows are zero.
@@ -58,7 +58,7 @@ impl LinearModel<'_> {
             return output;
         }
         let layout = self.system.layout();
-        for (node, motion) in self.at.nodes.iter().enumerate() {
+        for (node, motion) in NodeId::enumerate(&self.at.nodes) {
             let rows = layout.rows_of_node(node);
             let own = |of: &BTreeMap<usize, f64>| {
                 Vector6::from_fn(|k, _| of.get(&(rows[k] as usize)).copied().unwrap_or(0.0))

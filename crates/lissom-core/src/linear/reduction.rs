@@ -207,13 +207,14 @@ impl Assembly<'_> {
     /// Rows of unknowns in the free assembly and in the one with locked interfaces.
     pub(super) fn inner_rows(&self, locked: &System) -> Vec<(usize, usize)> {
         let (free, inner) = (self.free.layout(), locked.layout());
-        let of_nodes = (0..free.node_count()).flat_map(|node| {
+        let of_nodes = free.nodes().flat_map(|node| {
             let rows = free.rows_of_node(node).iter().zip(inner.rows_of_node(node));
             rows.filter(|(_, row)| **row != LOCKED)
                 .map(|(one, other)| (*one as usize, *other as usize))
                 .collect::<Vec<_>>()
         });
-        let of_coordinates = (0..free.coordinate_rows.len())
+        let of_coordinates = free
+            .coordinates()
             .map(|coordinate| (free.row_of_coordinate(coordinate), inner.row_of_coordinate(coordinate)));
         of_nodes.chain(of_coordinates).collect()
     }
@@ -411,7 +412,7 @@ impl Whole {
             let axis = Vector3::ith(k % 3, 1.0);
             let (mut motion, mut forces, mut terms) =
                 (vec![0.0; self.size], vec![0.0; self.size], vec![0.0; self.size]);
-            for (node, place) in at.nodes.iter().enumerate().skip(1) {
+            for (node, place) in NodeId::enumerate(&at.nodes).skip(1) {
                 let (linear, angular) = if k < 3 {
                     (axis, Vector3::zeros())
                 } else {

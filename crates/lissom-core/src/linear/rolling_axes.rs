@@ -15,7 +15,7 @@ use lissom_motion::{Motion, Vector3, Vector6};
 
 use super::generator::Generator;
 use super::model::LinearModel;
-use crate::kinematics::{Kinematics, LOCKED};
+use crate::kinematics::{Kinematics, LOCKED, NodeId};
 use crate::system::System;
 
 /// Sine of the angle between axis and normal below which a wheel is flat: its spin is then undefined.
@@ -35,7 +35,7 @@ pub(super) fn spins(system: &System, at: &Kinematics) -> Vec<Vector3> {
         let square = 1.0 - cosine * cosine;
         let along = rate.dot(&axis);
         let spin = if square > FLAT * FLAT { (along - cosine * rate.dot(&normal)) / square } else { along };
-        spins[joint.frames[1].node] = spin * axis;
+        spins[joint.frames[1].node.index()] = spin * axis;
     }
     spins
 }
@@ -61,7 +61,7 @@ impl<'a> LinearModel<'a> {
         let layout = self.system().layout();
         let rate = self.spin().norm();
         let mut columns = vec![Vec::new(); self.coordinate_count()];
-        for (node, spin) in spins(self.system(), self.kinematics()).into_iter().enumerate() {
+        for (node, spin) in NodeId::enumerate(spins(self.system(), self.kinematics())) {
             let turning = (spin / rate).cross_matrix();
             let rows = layout.rows_of_node(node);
             for first in [0, 3] {

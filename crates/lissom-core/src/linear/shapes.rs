@@ -46,7 +46,9 @@ impl LinearModel<'_> {
 
     fn complex_shape(&self, values: &[Complex64]) -> Vec<NodeShape> {
         let layout = self.system.layout();
-        (1..layout.node_count())
+        layout
+            .nodes()
+            .skip(1)
             .map(|node| {
                 let frame = self.at.nodes[node].frame;
                 let rows = layout.rows_of_node(node);

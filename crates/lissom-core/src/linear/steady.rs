@@ -22,7 +22,7 @@ use super::velocity_constraints::refuse;
 use crate::analysis::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
 use crate::joints::evaluation_point::Chart;
-use crate::kinematics::{LOCKED, NodeMotion, Quantity};
+use crate::kinematics::{CoordinateId, LOCKED, NodeId, NodeMotion, Quantity};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
@@ -174,13 +174,13 @@ fn correct(system: &System, state: &mut State, change: &[Complex64], fields: &[V
             return size;
         }
     }
-    for (node, (motion, field)) in state.kinematics.nodes.iter_mut().zip(fields).enumerate() {
+    for (node, (motion, field)) in NodeId::enumerate(state.kinematics.nodes.iter_mut().zip(fields)) {
         let rows = layout.rows_of_node(node);
         let psi = Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { change[rows[k] as usize].re });
         motion.frame = motion.frame * Motion::exponential(&psi);
         motion.twist = motion.frame.adjoint_inverse_times(field);
     }
-    for (coordinate, motion) in state.kinematics.coordinates.iter_mut().enumerate() {
+    for (coordinate, motion) in CoordinateId::enumerate(&mut state.kinematics.coordinates) {
         motion.value += change[layout.row_of_coordinate(coordinate)].re;
     }
     size

@@ -42,7 +42,7 @@ fn jump(
         let function = &drive.prescribed.value;
         let way = (function.value(to.time) - function.value(from.time)).abs();
         let rate = function.first_derivative(from.time).abs().max(function.first_derivative(to.time).abs());
-        let row = system.layout().coordinate_rows[drive.prescribed.coordinate] as usize;
+        let row = system.layout().row_of_coordinate(drive.prescribed.coordinate);
         let unit = if quantities[row] == Quantity::Length { representative.length } else { 1.0 };
         (way > MIN_DISPLACEMENT * unit && way > MAX_RATIO * elapsed * rate).then(|| (drive.name.clone(), way))
     });

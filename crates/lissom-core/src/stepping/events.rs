@@ -95,7 +95,7 @@ impl Simulation {
         for &event in &happened {
             // All of them are evaluated before any is set.
             for &(held, signal) in &graph.events()[event].sets {
-                at.held[held] = graph.value(signal, &self.state.kinematics);
+                at.held[held.index()] = graph.value(signal, &self.state.kinematics);
             }
         }
         if at.held == self.state.kinematics.held {

@@ -40,7 +40,7 @@ impl Simulation {
         let mut at = self.state.kinematics.clone();
         if self.system.has_readings() && graph.is_sample_due(at.time, elapsed) {
             for (held, value) in self.system.take_readings(&self.state) {
-                at.held[held] = value;
+                at.held[held.index()] = value;
             }
         }
         graph.sample(&mut at, elapsed).map_err(StepError::Signal)?;

@@ -10,6 +10,7 @@ use lissom_motion::Vector3;
 
 use crate::derivatives::configuration::{Random, sample_parameters};
 use crate::derivatives::{joint_with, two_bodies, two_coordinates};
+use lissom_core::kinematics::NodeId;
 
 /// Smooth except at given instants.
 #[derive(Debug)]
@@ -106,7 +107,7 @@ fn drives_report_the_kinks_of_their_functions() {
     assert!(count >= 8, "{count} functions of time");
 }
 
-fn placement(nodes: [usize; 2], random: &mut Random) -> Placement {
+fn placement(nodes: [NodeId; 2], random: &mut Random) -> Placement {
     Placement {
         nodes,
         at: random.vector(),

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::joints::evaluation_point::{Augmentation, Increments, Point};
-use lissom_core::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
+use lissom_core::kinematics::{CoordinateId, HeldId, Kinematics, LOCKED, Layout, MotionChange, NodeId};
 use lissom_core::registry::{
     Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
 };
@@ -141,7 +141,7 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
             ParameterType::FunctionOf(_) => Value::Function(Arc::new(Wave)),
-            ParameterType::Input => Value::Input(0),
+            ParameterType::Input => Value::Input(HeldId::new(0)),
             ParameterType::Equation => Value::Relation(Arc::new(Bent)),
             ParameterType::Choices(words) => {
                 let chosen = words.iter().filter(|_| random.number() > 0.0);
@@ -176,7 +176,7 @@ impl Configuration {
         let mut at = start.clone();
         at.time = 0.3;
         at.elapsed = 0.1;
-        for node in 0..start.nodes.len() {
+        for node in layout.nodes() {
             let free = free(layout, node);
             let mut psi = size * random.screw();
             let mut twist = random.screw();
@@ -234,18 +234,19 @@ impl Configuration {
                 step[k] = change;
                 let start = self.start.nodes[node].frame;
                 if chart {
-                    moved.node_increments[node] += step;
-                    moved.at.nodes[node].frame = start * Motion::exponential(&moved.node_increments[node]);
+                    moved.node_increments[node.index()] += step;
+                    moved.at.nodes[node].frame =
+                        start * Motion::exponential(&moved.node_increments[node.index()]);
                 } else {
                     let frame = self.at.nodes[node].frame * Motion::exponential(&step);
                     moved.at.nodes[node].frame = frame;
-                    moved.node_increments[node] = frame.relative_to(&start).logarithm();
+                    moved.node_increments[node.index()] = frame.relative_to(&start).logarithm();
                 }
-                moved.changes[node] = MotionChange::exponential(&moved.node_increments[node]);
+                moved.changes[node] = MotionChange::exponential(&moved.node_increments[node.index()]);
             }
             Unknown::Coordinate(coordinate) => {
                 moved.at.coordinates[coordinate].value += change;
-                moved.coordinate_increments[coordinate] += change;
+                moved.coordinate_increments[coordinate.index()] += change;
             }
             Unknown::Multiplier(k) => {
                 moved.multipliers[k] += change;
@@ -287,8 +288,8 @@ impl Configuration {
 }
 
 pub(crate) enum Unknown {
-    Node(usize, usize),
-    Coordinate(usize),
+    Node(NodeId, usize),
+    Coordinate(CoordinateId),
     Multiplier(usize),
 }
 
@@ -296,17 +297,17 @@ pub(crate) fn unknown(layout: &Layout, row: usize) -> Unknown {
     if row >= layout.coordinate_count() {
         return Unknown::Multiplier(row - layout.coordinate_count());
     }
-    for node in 0..layout.node_count() {
+    for node in layout.nodes() {
         if let Some(k) = layout.rows_of_node(node).iter().position(|&r| r != LOCKED && r as usize == row) {
             return Unknown::Node(node, k);
         }
     }
     let coordinate =
-        (0..=row).find(|&c| layout.row_of_coordinate(c) == row).expect("every row has an unknown");
+        layout.coordinates().find(|&c| layout.row_of_coordinate(c) == row).expect("every row has an unknown");
     Unknown::Coordinate(coordinate)
 }
 
-pub(crate) fn free(layout: &Layout, node: usize) -> [bool; 6] {
+pub(crate) fn free(layout: &Layout, node: NodeId) -> [bool; 6] {
     layout.rows_of_node(node).map(|row| row != LOCKED)
 }
 

@@ -3,7 +3,7 @@
 use lissom_core::analysis::mobility;
 use lissom_core::joints::constraint::{Constraint, Port};
 use lissom_core::joints::{Build, JointKind, KINDS};
-use lissom_core::kinematics::{Kinematics, LOCKED};
+use lissom_core::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED};
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Motion, Vector6};
@@ -174,7 +174,7 @@ fn every_kind_is_numbered_and_named() {
         for joint in system.joints() {
             for frame in joint.frames {
                 let is_free = layout.rows_of_node(frame.node).iter().any(|row| *row != LOCKED);
-                assert!(is_free || frame.node == 0, "{}", kind.name);
+                assert!(is_free || frame.node == GROUND, "{}", kind.name);
             }
         }
     }
@@ -216,8 +216,12 @@ fn repeat(kind: &JointKind, scene: &mut Scene) {
         Build::Motion => {
             builder.add_motion("again", placement, parameters).expect("valid");
         }
-        Build::Coordinate(..) => builder.add_drive("again", kind, 0, parameters).expect("valid"),
-        Build::Coupling(..) => builder.add_coupling("again", kind, &[0, 1], parameters).expect("valid"),
+        Build::Coordinate(..) => {
+            builder.add_drive("again", kind, CoordinateId::new(0), parameters).expect("valid");
+        }
+        Build::Coupling(..) => {
+            builder.add_coupling("again", kind, &[0, 1].map(CoordinateId::new), parameters).expect("valid");
+        }
         Build::AlongBeams => line.as_ref().expect("there").add_slider(builder, "again", placement.nodes[1]),
         Build::Free(_) => {}
     }

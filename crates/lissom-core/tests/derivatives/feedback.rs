@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
-use lissom_core::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity, Subject};
+use lissom_core::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity, SignalId, Subject};
 use lissom_core::registry::{Constant, ParameterType, Value};
 use lissom_core::signals::coordinate::{self, Coordinate};
 use lissom_core::signals::frame_quantity::{FrameQuantity, Of};
@@ -59,7 +59,7 @@ fn joint(builder: &mut Builder, nodes: [NodeId; 2], wanted: Quantity, random: &m
 const MEASURED: [Of; 4] = [Of::Position, Of::Velocity, Of::Rotation, Of::AngularVelocity];
 
 /// Signals of everything that can be measured, one upon the other; the last one.
-fn graph(builder: &mut Builder, nodes: [NodeId; 2], own: CoordinateId, random: &mut Random) -> usize {
+fn graph(builder: &mut Builder, nodes: [NodeId; 2], own: CoordinateId, random: &mut Random) -> SignalId {
     let held = builder.add_held("input", 0.3);
     let sample = builder.add_held("sample", -0.2);
     let state = builder.add_state("state", 0.4, 1.0);

@@ -4,7 +4,7 @@ use lissom_core::joints::derivatives::LOCAL;
 use lissom_core::joints::evaluation_point::Point;
 use lissom_core::joints::starts::JointStarts;
 use lissom_core::joints::{self, Build};
-use lissom_core::kinematics::{Freedoms, LOCKED};
+use lissom_core::kinematics::{CoordinateId, Freedoms, LOCKED};
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Motion, Vector3};
 
@@ -83,7 +83,7 @@ fn many_joints_at_a_time_are_as_one_by_one() {
             let (system, state) = many(kind, &mut random);
             let mut here = Configuration::random(&system, &state, size, &mut random);
             // Constraints between velocities are no equations of the joint.
-            let impulses: Vec<usize> =
+            let impulses: Vec<CoordinateId> =
                 system.joints().iter().flat_map(|joint| joint.impulses.iter().copied()).collect();
             for &impulse in &impulses {
                 here.at.coordinates[impulse].rate = 0.0;

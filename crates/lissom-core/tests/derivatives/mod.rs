@@ -19,7 +19,7 @@ use lissom_core::joints::derivatives::IncrementTangent;
 use lissom_core::joints::evaluation_point::Chart;
 use lissom_core::joints::slider::{CarriedPoint, Orientation};
 use lissom_core::joints::{self, Build, JointKind};
-use lissom_core::kinematics::{Freedoms, Quantity};
+use lissom_core::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{
     Blend, Builder, Linearization, Placement, Scratch, State, Sum, System, TangentAssembler,
@@ -101,7 +101,7 @@ fn check_sum(name: &str, apart: &Linearization, hand: impl Fn(&mut TangentAssemb
     }
 }
 
-fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
+fn two_bodies(random: &mut Random) -> (Builder, [NodeId; 2]) {
     let mut builder = Builder::new();
     let nodes = ["base", "tip"].map(|name| builder.add_node(name, random.motion(), Freedoms::Full));
     (builder, nodes)
@@ -115,13 +115,13 @@ struct Line {
 }
 
 impl Line {
-    fn add_slider(&self, builder: &mut Builder, name: &str, tip: usize) {
+    fn add_slider(&self, builder: &mut Builder, name: &str, tip: NodeId) {
         builder.add_slider(name, self.nodes.clone(), (tip, self.at), &self.orientation).expect("valid");
     }
 }
 
 /// A slider along a line of four nodes that carry their points beside themselves.
-fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &mut Random) -> Line {
+fn along_a_line(builder: &mut Builder, tip: NodeId, turns_with: usize, random: &mut Random) -> Line {
     let places: [Vector3; 4] =
         std::array::from_fn(|k| Vector3::new(2.0 * k as f64, 0.0, 0.0) + 0.1 * random.vector());
     let nodes = places.map(|place| {
@@ -145,7 +145,7 @@ fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &m
 }
 
 /// Two coordinates that no joint between nodes has.
-fn two_coordinates(builder: &mut Builder) -> Vec<usize> {
+fn two_coordinates(builder: &mut Builder) -> Vec<CoordinateId> {
     let kind = &joints::generalized_coordinates::KIND;
     let parameters = Parameters::new().with("start", Value::Numbers(vec![0.3, -0.2]));
     builder.add_free_coordinates("free", kind, &parameters).expect("valid")

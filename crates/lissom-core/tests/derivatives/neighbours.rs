@@ -4,7 +4,7 @@
 use lissom_core::elements::Element;
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::{Gravity, Inertia};
-use lissom_core::kinematics::{Freedoms, Kinematics};
+use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
 use lissom_core::system::Builder;
 use lissom_motion::{Matrix6, Motion, Vector3};
 
@@ -56,14 +56,14 @@ fn beams<const N: usize>(random: &mut Random) {
     let root = Matrix6::from_fn(|_, _| random.number());
     let stiffness = root * root.transpose() + Matrix6::identity();
     let beam =
-        |nodes: [usize; N], offset: Option<Motion>, sections: &[Motion; N], factor: f64, damping: f64| {
+        |nodes: [NodeId; N], offset: Option<Motion>, sections: &[Motion; N], factor: f64, damping: f64| {
             Beam::<N>::new(nodes, [offset; N], sections, |xi| SectionLaw {
                 stiffness: stiffness * (factor + 0.3 * xi),
                 damping,
             })
         };
     // The ground is node 0.
-    let nodes: [usize; N] = std::array::from_fn(|k| k + 1);
+    let nodes: [NodeId; N] = std::array::from_fn(|k| NodeId::new(k + 1));
     let factors = [0.8, 0.9, 1.1, 1.2];
     let offset = Motion::translation(Vector3::new(0.0, 0.1, 0.2));
     for damping in [0.0, 0.2] {
@@ -104,11 +104,13 @@ fn forces_of_masses_are_proportional_to_the_mass_alone() {
     let mass = |factor: f64| {
         Inertia::of_rigid_body(factor, &Vector3::new(0.1, factor, 0.2), &lissom_motion::Matrix3::identity())
     };
-    let heavier = [0.8, 0.9, 1.1, 1.2].map(|factor| Inertia::new(1, mass(factor), gravity.clone()));
+    let heavier =
+        [0.8, 0.9, 1.1, 1.2].map(|factor| Inertia::new(NodeId::new(1), mass(factor), gravity.clone()));
     check("mass", &heavier, true, &at);
-    let other = [0.8, 0.9, 1.1, 1.2]
-        .map(|factor| Inertia::new(1, mass(1.0), Gravity::constant(Vector3::new(0.0, 0.0, -factor))));
+    let other = [0.8, 0.9, 1.1, 1.2].map(|factor| {
+        Inertia::new(NodeId::new(1), mass(1.0), Gravity::constant(Vector3::new(0.0, 0.0, -factor)))
+    });
     check("gravity", &other, false, &at);
-    let others = [1, 1, 2, 1].map(|node| Inertia::new(node, mass(1.0), gravity.clone()));
+    let others = [1, 1, 2, 1].map(|node| Inertia::new(NodeId::new(node), mass(1.0), gravity.clone()));
     check("node", &others, false, &at);
 }

@@ -31,8 +31,8 @@ pub struct CoordinateMass {
 /// Contribution of an entry to a model. Its nodes and coordinates are numbered after those of the model for which it
 /// was built.
 pub struct Contribution {
-    first_node: NodeId,
-    first_coordinate: CoordinateId,
+    first_node: usize,
+    first_coordinate: usize,
     /// New nodes.
     pub nodes: Vec<Node>,
     /// New coordinates.
@@ -86,7 +86,7 @@ impl Contribution {
     pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
         let motion = NodeMotion::at_rest(frame);
         self.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
-        self.first_node + self.nodes.len() - 1
+        NodeId::new(self.first_node + self.nodes.len() - 1)
     }
 
     /// Adds to a node's mass matrix: 6x6, in the node's frame, about the node.
@@ -97,7 +97,7 @@ impl Contribution {
     /// Adds a coordinate with its initial value [m or rad], at rest.
     pub fn add_coordinate(&mut self, name: String, value: f64, quantity: Quantity) -> CoordinateId {
         self.coordinates.push(Coordinate { name, value, rate: 0.0, quantity });
-        self.first_coordinate + self.coordinates.len() - 1
+        CoordinateId::new(self.first_coordinate + self.coordinates.len() - 1)
     }
 
     /// Adds a first-order state with its initial value and its usual magnitude.

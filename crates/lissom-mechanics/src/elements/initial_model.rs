@@ -3,7 +3,7 @@
 use lissom_motion::{Matrix6, Motion};
 
 use super::inertia::Gravity;
-use crate::kinematics::{CoordinateId, Freedoms, NodeId, NodeMotion, Quantity};
+use crate::kinematics::{CoordinateId, Freedoms, NodeId, NodeMotion, Quantity, indexed_by};
 use crate::registry::ParameterError;
 
 /// Initial state of a node.
@@ -32,6 +32,11 @@ pub struct Coordinate {
     pub quantity: Quantity,
 }
 
+indexed_by! {
+    NodeId: Node;
+    CoordinateId: Coordinate;
+}
+
 /// The part of a model under construction to which later entries refer.
 #[derive(Clone, Debug)]
 pub struct InitialModel {
@@ -44,6 +49,18 @@ pub struct InitialModel {
 }
 
 impl InitialModel {
+    /// Adds a node.
+    pub fn add_node(&mut self, node: Node) -> NodeId {
+        self.nodes.push(node);
+        NodeId::new(self.nodes.len() - 1)
+    }
+
+    /// Adds a coordinate.
+    pub fn add_coordinate(&mut self, coordinate: Coordinate) -> CoordinateId {
+        self.coordinates.push(coordinate);
+        CoordinateId::new(self.coordinates.len() - 1)
+    }
+
     /// Pose of a node.
     pub fn frame(&self, node: NodeId) -> Motion {
         self.nodes[node].motion.frame

@@ -76,7 +76,7 @@ pub fn holds(input: f64) -> bool {
 
 impl Latch {
     fn holds(&self, at: &Kinematics) -> bool {
-        at.held.get(self.engaged).is_some_and(|&input| holds(input))
+        at.held.get(self.engaged.index()).is_some_and(|&input| holds(input))
     }
 }
 

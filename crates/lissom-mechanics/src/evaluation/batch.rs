@@ -157,7 +157,7 @@ pub trait AnyElement: Send + Sync {
 
 /// The force of an element, by where it acts.
 fn subject(item: &impl Element, layout: &Layout) -> Subject {
-    let coordinates = item.coordinates().iter().map(|&own| layout.coordinate_names[own].as_str());
+    let coordinates = item.coordinates().iter().map(|&own| layout.coordinate_name(own));
     let names: Vec<&str> =
         coordinates.chain(item.nodes().iter().map(|&node| layout.name_of_node(node))).collect();
     let words = format!("the force on `{}`", names.join("` and `"));

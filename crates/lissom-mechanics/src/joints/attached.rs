@@ -109,7 +109,7 @@ impl AttachedJoint {
     fn own(&self, at: &Kinematics, changes: &[f64]) -> JointCoordinates {
         let mut own = JointCoordinates::default();
         for (k, &coordinate) in self.coordinates.iter().enumerate() {
-            own.change[k] = changes[coordinate];
+            own.change[k] = changes[coordinate.index()];
             own.value[k] = at.coordinates[coordinate].value + own.change[k];
         }
         own

@@ -21,7 +21,7 @@ use super::starts::{JointStarts, StartBlock};
 use super::{Coordinate, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::joints::evaluation_point::{Chart, Point};
 use crate::kinematics::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
-use crate::kinematics::{Kinematics, Quantity};
+use crate::kinematics::{Kinematics, NodeId, Quantity};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.
 pub type Results = [Block; LOCAL + MAX_EQUATIONS];
@@ -149,7 +149,7 @@ struct Batch<J> {
 struct Pack {
     count: usize,
     /// Base and tip node.
-    nodes: [[usize; WIDTH]; 2],
+    nodes: [[NodeId; WIDTH]; 2],
     /// Base and tip joint frame in the nodes' frames.
     offsets: [Frames; 2],
     /// Whether the axes of one of them differ from its node's.
@@ -303,7 +303,9 @@ fn packs(indices: &[u32], joints: &[AttachedJoint], constants: &[[f64; MAX_CONST
                     std::array::from_fn(|lane| constants[lane.min(constants.len() - 1)][k])
                 }),
                 coordinates: std::array::from_fn(|k| {
-                    all.map(|joint| joint.coordinates.get(k).map_or(0, |&coordinate| coordinate as u32))
+                    all.map(|joint| {
+                        joint.coordinates.get(k).map_or(0, |coordinate| coordinate.index() as u32)
+                    })
                 }),
                 equations: all.map(|joint| (joint.first_multiplier as u32, joint.equations() as u32)),
             }

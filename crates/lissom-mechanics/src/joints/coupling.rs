@@ -157,7 +157,7 @@ impl Constraint for Coupling {
     fn violation_change(&self, increments: &Increments<'_>, (time, elapsed): (f64, f64), out: &mut [f64]) {
         let count = self.count();
         let values = self.values(increments.start);
-        let changes = self.each(|coordinate| increments.coordinates[coordinate]);
+        let changes = self.each(|coordinate| increments.coordinates[coordinate.index()]);
         out[0] =
             self.scale * self.relation.change((time - elapsed, &values[..count]), elapsed, &changes[..count]);
     }
@@ -327,7 +327,7 @@ mod tests {
     fn derivatives_of_jets() {
         let coupling = Coupling {
             name: "bent".to_owned(),
-            coordinates: vec![1, 0],
+            coordinates: vec![CoordinateId::new(1), CoordinateId::new(0)],
             quantities: vec![Quantity::Length; 2],
             quantity: Quantity::Length,
             multiplier: 0,

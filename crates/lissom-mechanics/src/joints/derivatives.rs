@@ -14,6 +14,9 @@ use lissom_motion::{Block, Lanes, Matrix3, Matrix6, Real, Vector3, Vector6, WIDT
 use pulp::{Simd, WithSimd};
 
 use super::{ConstraintHessian, Gradient, MAX_COORDINATES, MAX_EQUATIONS};
+use crate::kinematics::{NodeId, indexed_by};
+
+indexed_by!(NodeId: IncrementTangent;);
 
 /// The tip's first local unknown. The base's six begin at 0; the two positions after them are empty, so that each
 /// side fills vectors of eight.

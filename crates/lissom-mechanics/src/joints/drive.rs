@@ -50,7 +50,7 @@ impl Constraint for Drive {
     }
 
     fn violation_change(&self, increments: &Increments<'_>, (time, elapsed): (f64, f64), out: &mut [f64]) {
-        let change = increments.coordinates[self.prescribed.coordinate];
+        let change = increments.coordinates[self.prescribed.coordinate.index()];
         out[0] = self.prescribed.violation_change(change, time, elapsed);
     }
 

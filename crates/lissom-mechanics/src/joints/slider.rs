@@ -217,7 +217,7 @@ impl Slider {
     /// Change of the violations since the start of the step, without cancellation [m, rad].
     fn violation_changes(&self, increments: &Increments<'_>) -> Vector6 {
         let start = increments.start.coordinates[self.coordinate].value;
-        let change = increments.coordinates[self.coordinate];
+        let change = increments.coordinates[self.coordinate.index()];
         let (s, slide) = (start + change, (start, change));
         let after = Place { support: self.line.at(s) };
         let increment = after.support.sum(0, |node| self.nodes[node].shift(increments));

@@ -2,7 +2,7 @@
 
 use lissom_motion::Motion;
 
-use super::motion::{Kinematics, NodeId};
+use super::{Kinematics, NodeId};
 
 /// A joint frame: a frame fixed to a node.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,9 +2,12 @@
 
 use std::ops::Range;
 
-use super::motion::{CoordinateId, NodeId};
+use super::ids::indexed_by;
 use super::subject::Subject;
+use super::{CoordinateId, NodeId};
 use crate::kinematics::Quantity;
+
+indexed_by!(NodeId: [u32; 6];);
 
 /// Marks a locked degree of freedom: it has no row.
 pub const LOCKED: u32 = u32::MAX;
@@ -85,12 +88,24 @@ impl Layout {
         self.node_rows.len()
     }
 
+    /// All nodes, the ground first.
+    pub fn nodes(&self) -> impl DoubleEndedIterator<Item = NodeId> + ExactSizeIterator + Clone + use<> {
+        NodeId::first(self.node_rows.len())
+    }
+
+    /// All algebraic coordinates.
+    pub fn coordinates(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = CoordinateId> + ExactSizeIterator + Clone + use<> {
+        CoordinateId::first(self.coordinate_rows.len())
+    }
+
     /// Name of a node: of a body or point mass, or the position on a beam, such as `beam.start` or `beam@0.5`.
     ///
     /// # Panics
     /// If there is no such node.
     pub fn node_name(&self, node: NodeId) -> &str {
-        &self.node_names[node]
+        &self.node_names[node.index()]
     }
 
     /// Rows of a node's six degrees of freedom, [`LOCKED`] for locked ones.
@@ -100,12 +115,12 @@ impl Layout {
 
     /// Row of an algebraic coordinate.
     pub fn row_of_coordinate(&self, coordinate: CoordinateId) -> usize {
-        self.coordinate_rows[coordinate] as usize
+        self.coordinate_rows[coordinate.index()] as usize
     }
 
     /// Name of an algebraic coordinate, such as `joint.angle`.
     pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
-        &self.coordinate_names[coordinate]
+        &self.coordinate_names[coordinate.index()]
     }
 
     /// Quantity of an algebraic coordinate.
@@ -146,7 +161,7 @@ impl Layout {
 
     /// Name of a node, as in the model.
     pub fn name_of_node(&self, node: NodeId) -> &str {
-        &self.node_names[node]
+        &self.node_names[node.index()]
     }
 
     /// Name of the unknown in `row`, as in the model.
@@ -171,14 +186,14 @@ impl Layout {
                 return Subject::new("node", &self.node_names[node]).component(FREEDOMS[k]);
             }
         }
-        for (coordinate, &r) in self.coordinate_rows.iter().enumerate() {
+        for (coordinate, &r) in CoordinateId::enumerate(&self.coordinate_rows) {
             if r as usize == row {
                 let what = match self.quantities[row] {
                     Quantity::State if self.impulses.contains(&coordinate) => "force of",
                     Quantity::State => "state",
                     Quantity::Length | Quantity::Angle => "coordinate",
                 };
-                return Subject::new(what, &self.coordinate_names[coordinate]);
+                return Subject::new(what, self.coordinate_name(coordinate));
             }
         }
         Subject::nameless(format!("unknown {row}"))

@@ -2,6 +2,7 @@
 //! step. Independent of elements, joints and the system.
 
 mod carried_frame;
+mod ids;
 pub mod lanes;
 mod layout;
 pub mod local_derivatives;
@@ -13,11 +14,11 @@ pub mod switch;
 pub mod work;
 
 pub use carried_frame::CarriedFrame;
+pub(crate) use ids::indexed_by;
+pub use ids::{CoordinateId, HeldId, MeasurementId, NodeId, SignalId};
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use motion::split;
-pub use motion::{
-    CoordinateId, CoordinateMotion, GROUND, HeldId, Kinematics, MotionChange, NodeId, NodeMotion,
-};
+pub use motion::{CoordinateMotion, GROUND, Kinematics, MotionChange, NodeMotion};
 pub use quantity::Quantity;
 pub use step_stages::StepStages;
 pub use subject::Subject;

@@ -2,15 +2,16 @@
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, axial, skew};
 
-/// Index of a node.
-pub type NodeId = usize;
-/// Index of an algebraic coordinate, such as a revolute joint's relative rotation.
-pub type CoordinateId = usize;
+use super::ids::indexed_by;
+use super::{CoordinateId, NodeId};
 
-/// Index of a held value: an input, or the last sample of a signal.
-pub type HeldId = usize;
 /// The ground: node 0 of every system, without degrees of freedom.
-pub const GROUND: NodeId = 0;
+pub const GROUND: NodeId = NodeId::new(0);
+
+indexed_by! {
+    NodeId: NodeMotion, Motion, MotionChange;
+    CoordinateId: CoordinateMotion;
+}
 
 /// A node: pose, twist and acceleration of its body frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -74,7 +74,7 @@ impl Graph {
     pub fn event_values(&self, at: &Kinematics, visit: impl FnMut(f64)) {
         if !self.events.is_empty() {
             self.evaluate_as_they_are(at, |values| {
-                self.events.iter().map(|event| values[event.root]).for_each(visit);
+                self.events.iter().map(|event| values[event.root.index()]).for_each(visit);
             });
         }
     }
@@ -94,11 +94,12 @@ impl Graph {
             return;
         }
         self.evaluate(at, |values| {
-            for (index, signal) in self.signals.iter().enumerate().filter(|(_, one)| one.sampling.is_none()) {
+            let signals = SignalId::enumerate(&self.signals);
+            for (id, signal) in signals.filter(|(_, one)| one.sampling.is_none()) {
                 let mut arguments = [0.0; super::MAX_ARGUMENTS];
                 self.gather(signal, at, values, &mut arguments);
                 let arguments = &arguments[..signal.arguments.len()];
-                signal.function.switches(at.time, arguments, self.sides(index, at), out);
+                signal.function.switches(at.time, arguments, self.sides(id, at), out);
             }
         });
     }

@@ -290,7 +290,10 @@ mod tests {
     #[test]
     fn gradients_are_those_of_differences() {
         let at = motions();
-        let frame = |node: usize| CarriedFrame { node, offset: Motion::exponential(&waves(node as f64)) };
+        let frame = |node: usize| CarriedFrame {
+            node: NodeId::new(node),
+            offset: Motion::exponential(&waves(node as f64)),
+        };
         let start = Motion::exponential(&waves(5.0));
         for of in ALL {
             for (observer, axes) in
@@ -300,7 +303,7 @@ mod tests {
                 for component in 0..own.component_count() {
                     let gradient = own.gradient(component, &at);
                     let total = |node: usize, k: usize, parts: &[f64]| -> f64 {
-                        let slots = own.nodes().iter().enumerate().filter(|&(_, &own)| own == node);
+                        let slots = own.nodes().iter().enumerate().filter(|&(_, own)| own.index() == node);
                         slots.map(|(slot, _)| parts[6 * slot + k]).sum()
                     };
                     for (node, k) in (1..4).flat_map(|node| (0..6).map(move |k| (node, k))) {

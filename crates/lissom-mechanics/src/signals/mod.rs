@@ -21,17 +21,13 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::instants;
-use crate::kinematics::{Kinematics, Subject, Switch};
+use crate::kinematics::{Kinematics, Subject, Switch, indexed_by};
 use crate::law::{Interval, ScalarLaw, VisitLaw};
 use measurement::Component;
 
 pub use moving_frame::MovingFrame;
 
-pub use crate::kinematics::HeldId;
-/// Index of a signal.
-pub type SignalId = usize;
-/// Index of a measurement.
-pub type MeasurementId = usize;
+pub use crate::kinematics::{HeldId, MeasurementId, SignalId};
 
 /// Maximum number of arguments of a signal.
 pub const MAX_ARGUMENTS: usize = 64;
@@ -115,6 +111,12 @@ pub struct Signal {
     pub sampling: Option<Sampling>,
 }
 
+indexed_by! {
+    HeldId: (String, f64);
+    SignalId: Signal;
+    MeasurementId: Component;
+}
+
 impl Signal {
     /// The signal with its expression.
     fn in_words(&self) -> Subject {
@@ -163,18 +165,19 @@ impl Graph {
             !self.readings.contains(&held)
                 && !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
         };
-        (0..self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
+        HeldId::first(self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
     }
 
     /// The input called `name`.
     pub fn input(&self, name: &str) -> Option<HeldId> {
         let name = self.input_names().find(|known| *known == name)?;
-        self.held.iter().position(|(known, _)| known == name)
+        self.held.iter().position(|(known, _)| known == name).map(HeldId::new)
     }
 
     /// The signal called `name`.
     pub fn signal(&self, name: &str) -> Option<SignalId> {
-        self.signals.iter().position(|signal| signal.subject.kind == "signal" && signal.subject.name == name)
+        let is_named = |signal: &Signal| signal.subject.kind == "signal" && signal.subject.name == name;
+        self.signals.iter().position(is_named).map(SignalId::new)
     }
 
     /// Whether any signal is sampled.
@@ -199,10 +202,10 @@ impl Graph {
         with: impl FnOnce(&[f64]) -> T,
     ) -> T {
         with_scratch(self.signals.len(), |values| {
-            for index in 0..self.signals.len() {
-                values[index] = match self.signals[index].sampling {
-                    Some(Sampling { held, .. }) => at.held[held],
-                    None => self.compute(index, at, values, sides(index)),
+            for id in SignalId::first(self.signals.len()) {
+                values[id.index()] = match self.signals[id].sampling {
+                    Some(Sampling { held, .. }) => at.held[held.index()],
+                    None => self.compute(id, at, values, sides(id)),
                 };
             }
             with(values)
@@ -211,7 +214,7 @@ impl Graph {
 
     /// Value of one signal.
     pub fn value(&self, signal: SignalId, at: &Kinematics) -> f64 {
-        self.evaluate(at, |values| values[signal])
+        self.evaluate(at, |values| values[signal.index()])
     }
 
     /// Signals between samples that are no polynomials.
@@ -244,8 +247,8 @@ impl Graph {
     }
 
     /// The expression of a signal, evaluated even if it is sampled.
-    fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
-        let signal = &self.signals[index];
+    fn compute(&self, id: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
+        let signal = &self.signals[id];
         let mut arguments = [0.0; MAX_ARGUMENTS];
         self.gather(signal, at, values, &mut arguments);
         signal.function.value(at.time, &arguments[..signal.arguments.len()], sides)
@@ -271,7 +274,7 @@ impl Graph {
 
     /// Sides of a signal's switches.
     fn sides<'k>(&self, signal: SignalId, at: &'k Kinematics) -> &'k [f64] {
-        match self.first_sides.get(signal..signal + 2) {
+        match self.first_sides.get(signal.index()..signal.index() + 2) {
             Some(&[first, end]) => at.held.get(first..end).unwrap_or_default(),
             _ => &[],
         }
@@ -280,8 +283,8 @@ impl Graph {
     fn gather(&self, signal: &Signal, at: &Kinematics, values: &[f64], out: &mut [f64]) {
         for (value, argument) in out.iter_mut().zip(&signal.arguments) {
             *value = match *argument {
-                Argument::Held(held) => at.held[held],
-                Argument::Signal(earlier) => values[earlier],
+                Argument::Held(held) => at.held[held.index()],
+                Argument::Signal(earlier) => values[earlier.index()],
                 Argument::Measured(measurement) => self.measurements[measurement].value(at),
             };
         }
@@ -311,21 +314,21 @@ impl Graph {
         values: &[f64],
         mut add: impl FnMut(Argument, f64),
     ) {
-        with_scratch(root + 1, |adjoints| {
-            adjoints[root] = 1.0;
-            for index in (0..=root).rev() {
-                let (signal, adjoint) = (&self.signals[index], adjoints[index]);
+        with_scratch(root.index() + 1, |adjoints| {
+            adjoints[root.index()] = 1.0;
+            for id in SignalId::first(root.index() + 1).rev() {
+                let (signal, adjoint) = (&self.signals[id], adjoints[id.index()]);
                 if adjoint == 0.0 || signal.sampling.is_some() {
                     continue;
                 }
                 let (mut arguments, mut gradient) = ([0.0; MAX_ARGUMENTS], [0.0; MAX_ARGUMENTS]);
                 let count = signal.arguments.len();
                 self.gather(signal, at, values, &mut arguments);
-                let sides = self.sides(index, at);
+                let sides = self.sides(id, at);
                 signal.function.gradient(at.time, &arguments[..count], sides, &mut gradient[..count]);
                 for (argument, derivative) in signal.arguments.iter().zip(&gradient) {
                     match *argument {
-                        Argument::Signal(earlier) => adjoints[earlier] += adjoint * derivative,
+                        Argument::Signal(earlier) => adjoints[earlier.index()] += adjoint * derivative,
                         Argument::Held(_) | Argument::Measured(_) => add(*argument, adjoint * derivative),
                     }
                 }
@@ -388,7 +391,7 @@ impl Graph {
     /// Sets sampled signals to their values before the first sample.
     pub fn set_values_before_first_sample(&self, at: &mut Kinematics) {
         for Sampling { held, .. } in self.signals.iter().filter_map(|signal| signal.sampling) {
-            at.held[held] = self.held[held].1;
+            at.held[held.index()] = self.held[held].1;
         }
     }
 
@@ -400,13 +403,13 @@ impl Graph {
     pub fn sample(&self, at: &mut Kinematics, elapsed: f64) -> Result<(), SignalError> {
         let before = at.held.clone();
         let mut values = vec![0.0; self.signals.len()];
-        for (index, signal) in self.signals.iter().enumerate() {
-            values[index] = match signal.sampling {
-                Some(Sampling { held, period }) if !is_due(at.time, elapsed, period) => at.held[held],
-                _ => self.compute(index, at, &values, self.sides(index, at)),
+        for (id, signal) in SignalId::enumerate(&self.signals) {
+            values[id.index()] = match signal.sampling {
+                Some(Sampling { held, period }) if !is_due(at.time, elapsed, period) => at.held[held.index()],
+                _ => self.compute(id, at, &values, self.sides(id, at)),
             };
             if let Some(Sampling { held, .. }) = signal.sampling {
-                at.held[held] = values[index];
+                at.held[held.index()] = values[id.index()];
             }
         }
         let checked = self.check(at);

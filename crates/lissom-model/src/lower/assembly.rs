@@ -116,7 +116,7 @@ pub(super) fn assembled(
         .chain(document.superelements.iter().map(|element| &element.name.value));
     let size = before.nodes.iter().map(|node| node.frame.position.norm()).fold(0.0, f64::max);
     let moved = parts.filter_map(|part| {
-        let of_nodes = nodes_of(part).into_iter().map(|node| found.moved[node]);
+        let of_nodes = nodes_of(part).into_iter().map(|node| found.moved[node.index()]);
         let (distance, turn) =
             of_nodes.fold((0.0, 0.0), |most: (f64, f64), own| (most.0.max(own.0), most.1.max(own.1)));
         let is_moved = distance > NOTHING * size || turn > NOTHING;

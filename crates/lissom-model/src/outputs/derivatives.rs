@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lissom_core::kinematics::local_derivatives::LocalDerivatives;
-use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId};
+use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, MeasurementId, NodeId};
 use lissom_core::linear::{LinearModel, OutputDerivatives};
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Gradient};
@@ -64,7 +64,7 @@ pub(super) fn add_argument(
     at: &Kinematics,
 ) {
     let graph = system.signals();
-    let measured = |index: usize| of_component(&graph.measurements[index], system, at);
+    let measured = |id: MeasurementId| of_component(&graph.measurements[id], system, at);
     match argument {
         Argument::Held(held) => *out.by_held.entry(held).or_insert(0.0) += factor,
         Argument::Measured(index) => add_scaled(out, &measured(index), factor),
@@ -80,16 +80,16 @@ pub(super) fn add_argument(
 
 /// Adds `factor` times other derivatives.
 pub(super) fn add_scaled(out: &mut OutputDerivatives, other: &OutputDerivatives, factor: f64) {
-    for (own, other) in [
-        (&mut out.by_place, &other.by_place),
-        (&mut out.by_rate, &other.by_rate),
-        (&mut out.by_acceleration, &other.by_acceleration),
-        (&mut out.by_multiplier, &other.by_multiplier),
-        (&mut out.by_held, &other.by_held),
-    ] {
-        for (&row, value) in other {
-            *own.entry(row).or_insert(0.0) += factor * value;
-        }
+    add_each(&mut out.by_place, &other.by_place, factor);
+    add_each(&mut out.by_rate, &other.by_rate, factor);
+    add_each(&mut out.by_acceleration, &other.by_acceleration, factor);
+    add_each(&mut out.by_multiplier, &other.by_multiplier, factor);
+    add_each(&mut out.by_held, &other.by_held, factor);
+}
+
+fn add_each<K: Ord + Copy>(out: &mut BTreeMap<K, f64>, other: &BTreeMap<K, f64>, factor: f64) {
+    for (&key, value) in other {
+        *out.entry(key).or_insert(0.0) += factor * value;
     }
 }
 

@@ -6,6 +6,7 @@
 //! ```
 
 use std::collections::BTreeSet;
+use std::ops::Bound;
 
 use lissom_core::kinematics::{CoordinateId, GROUND, LOCKED, NodeId};
 use lissom_core::linear::OutputDerivatives;
@@ -80,8 +81,9 @@ pub(super) fn of(channel: &Channel, at: &Evaluation<'_>, length: f64) -> Option<
 /// The smallest distance between two of several nodes [m].
 fn touched_length(touched: &Touched, state: &State) -> Option<f64> {
     let place = |node: &NodeId| state.kinematics.nodes[*node].frame.position;
-    let pairs =
-        touched.nodes.iter().flat_map(|one| touched.nodes.range(one + 1..).map(move |other| (one, other)));
+    let pairs = touched.nodes.iter().flat_map(|one| {
+        touched.nodes.range((Bound::Excluded(one), Bound::Unbounded)).map(move |other| (one, other))
+    });
     let distances = pairs.map(|(one, other)| (place(one) - place(other)).norm());
     distances.filter(|&distance| distance > 0.0).reduce(f64::min)
 }

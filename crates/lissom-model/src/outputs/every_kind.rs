@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{GROUND, LOCKED, NodeMotion};
+use lissom_core::kinematics::{HeldId, LOCKED, NodeMotion};
 use lissom_core::linear::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
@@ -50,7 +50,7 @@ fn waves(seed: f64) -> Vector6 {
 /// The start of the model, with everything in motion.
 fn in_motion(Lowered { state, accumulated, .. }: &Lowered) -> State {
     let mut state = state.clone();
-    for (index, node) in state.kinematics.nodes.iter_mut().enumerate().filter(|&(index, _)| index != GROUND) {
+    for (index, node) in state.kinematics.nodes.iter_mut().enumerate().skip(1) {
         let seed = 2.3 * index as f64;
         let frame = node.frame * Motion::exponential(&(0.05 * waves(seed)));
         *node = NodeMotion { frame, twist: waves(seed + 0.4), acceleration: waves(seed + 0.9) };
@@ -104,7 +104,7 @@ fn signals_have_the_values_that_are_recorded() {
     let mut state = in_motion(&model);
     let readings: Vec<_> = system.take_readings(&state).collect();
     for (held, value) in readings {
-        state.kinematics.held[held] = value;
+        state.kinematics.held[held.index()] = value;
     }
     system.signals().begin(&mut state.kinematics).expect("finite");
     let mut compared = BTreeMap::new();
@@ -156,7 +156,7 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
     let layout = system.layout();
     let at = |of: &BTreeMap<usize, f64>, row: usize| of.get(&row).copied().unwrap_or(0.0);
     let mut all: Vec<Direction<'d>> = Vec::new();
-    for node in 0..state.kinematics.nodes.len() {
+    for node in layout.nodes() {
         for (k, &row) in layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
             let (row, along) = (row as usize, Vector6::ith(k, 1.0));
             let name = layout.name_of(row).clone();
@@ -180,7 +180,7 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
             ));
         }
     }
-    for own in 0..state.kinematics.coordinates.len() {
+    for own in layout.coordinates() {
         let row = layout.row_of_coordinate(own);
         let name = layout.name_of(row).clone();
         all.push((
@@ -212,7 +212,7 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
         all.push((
             format!("held value {own}"),
             Box::new(move |state, change| state.kinematics.held[own] += change),
-            Box::new(move |of| at(&of.by_held, own)),
+            Box::new(move |of| of.by_held.get(&HeldId::new(own)).copied().unwrap_or(0.0)),
         ));
     }
     all

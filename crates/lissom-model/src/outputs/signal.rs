@@ -35,7 +35,7 @@ fn quantity(output: &Output, subjects: &Subjects<'_>) -> Found {
 /// Value of a signal, an input or a state.
 pub fn signal_value(system: &System, at: &Kinematics, argument: Argument) -> f64 {
     match argument {
-        Argument::Held(held) => at.held[held],
+        Argument::Held(held) => at.held[held.index()],
         Argument::Signal(signal) => system.signals().value(signal, at),
         Argument::Measured(measurement) => system.signals().measured(measurement, at),
     }

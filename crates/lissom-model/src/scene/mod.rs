@@ -13,7 +13,7 @@ mod solids;
 mod superelements;
 mod symbols;
 
-use lissom_core::kinematics::NodeId;
+use lissom_core::kinematics::{GROUND, NodeId};
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -165,7 +165,7 @@ impl Scene {
         let parts = (self.bodies.iter().map(|body| body.node))
             .chain(self.point_masses.iter().map(|mass| mass.node))
             .chain(self.beams.iter().flat_map(|beam| beam.nodes.iter().copied()));
-        anchors.map(|anchor| anchor.node).chain(parts).max().unwrap_or_default()
+        anchors.map(|anchor| anchor.node).chain(parts).max().unwrap_or(GROUND)
     }
 
     /// The direction that is upward in a picture: against gravity where that is along an axis, otherwise z.

@@ -9,6 +9,7 @@ use super::solids::{Axes, Solid};
 use super::{Anchor, Places, part_of};
 use crate::document::{Attachment, Component, Document, NodeReference};
 use crate::report::Located;
+use lissom_core::kinematics::{GROUND, NodeId};
 
 /// Solids that one node carries.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -157,7 +158,7 @@ fn of_joint(name: &str, document: &Document, places: &Places<'_>) -> Option<End>
 }
 
 /// Half the thickness of the thickest beam that ends at a node.
-fn thickness(document: &Document, places: &Places<'_>, node: usize) -> f64 {
+fn thickness(document: &Document, places: &Places<'_>, node: NodeId) -> f64 {
     let half = |outline: Outline| match outline {
         Outline::Circle { radius, .. } => radius,
         Outline::Rectangle { width, height } => 0.5 * width.min(height),
@@ -165,7 +166,7 @@ fn thickness(document: &Document, places: &Places<'_>, node: usize) -> f64 {
     };
     let ends_there = |beam: &&crate::document::Beam| {
         let line = places.lowered.names.lines.get(&beam.name.value);
-        node != 0
+        node != GROUND
             && line.is_some_and(|line| line.nodes.first() == Some(&node) || line.nodes.last() == Some(&node))
     };
     let beams = document.beams.iter().filter(ends_there);
@@ -210,7 +211,8 @@ mod tests {
         let document = Document::parse(text, "wheelset.toml", &registry()).expect("it is right");
         let scene = Scene::of(&document, &lower(&document).expect("it is right"));
         for (joint, offset) in [("left", 0.1506), ("right", -0.1506)] {
-            let mut wheels = scene.symbols.iter().filter(|own| own.name == joint && own.anchor.node != 0);
+            let mut wheels =
+                scene.symbols.iter().filter(|own| own.name == joint && own.anchor.node != GROUND);
             let place = wheels.next().expect("there is a wheel").anchor.position;
             assert!((place[0] - offset).abs() < 1e-9 && place[1].abs() + place[2].abs() < 1e-9, "{place:?}");
         }

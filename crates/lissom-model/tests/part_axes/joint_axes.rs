@@ -1,6 +1,7 @@
 //! Outputs of joints in every choice of axes against the frames that docs/joints.md describes, and values at the start, for every
 //! kind of joint between two nodes.
 
+use lissom_core::kinematics::{GROUND, NodeId};
 use lissom_model::registry::{ActsOn, FrameRule};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use toml::{Table, Value};
@@ -22,10 +23,10 @@ fn number(entry: &Table, key: &str) -> f64 {
 }
 
 /// The node that a name means.
-fn node(end: &End, name: &str) -> usize {
+fn node(end: &End, name: &str) -> NodeId {
     let names = &end.lowered.names;
     match (name.strip_suffix(".start"), name.strip_suffix(".end")) {
-        _ if name == "ground" => 0,
+        _ if name == "ground" => GROUND,
         (Some(beam), _) => names.lines[beam].nodes[0],
         (_, Some(beam)) => *names.lines[beam].nodes.last().expect("nodes"),
         _ => names.nodes[name],

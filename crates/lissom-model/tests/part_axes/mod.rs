@@ -236,7 +236,7 @@ fn agree(scene: &str, plain: &End, placed: &End) {
     assert_eq!(plain.frames.len(), placed.frames.len(), "{scene}");
     // A point mass has no axes: its node keeps global ones.
     let without_axes: BTreeSet<usize> =
-        plain.point_masses.iter().map(|name| plain.lowered.names.nodes[name]).collect();
+        plain.point_masses.iter().map(|name| plain.lowered.names.nodes[name].index()).collect();
     let size = 10.0;
     for node in 1..plain.frames.len() {
         let what = format!("{scene}, node {node}");

@@ -50,17 +50,16 @@ impl Builder {
             return Err(ParameterError::new("kind", "has no coordinates of its own"));
         };
         let free = build(parameters)?;
-        let first = self.model.coordinates.len();
         let numbered = |k: usize| if free.len() > 1 { (k + 1).to_string() } else { String::new() };
-        self.model.coordinates.extend(free.iter().enumerate().map(|(k, own)| Coordinate {
+        let coordinates = free.iter().enumerate().map(|(k, own)| Coordinate {
             name: format!("{name}.{}{}", own.coordinate.name, numbered(k)),
             value: own.value,
             rate: own.rate,
             quantity: own.coordinate.quantity,
-        }));
-        let added = first..self.model.coordinates.len();
-        self.free_coordinates.extend(added.clone());
-        Ok(added.collect())
+        });
+        let added: Vec<CoordinateId> = coordinates.map(|own| self.model.add_coordinate(own)).collect();
+        self.free_coordinates.extend(&added);
+        Ok(added)
     }
 
     /// Relates coordinates by a relation of the given kind, in the order of its arguments.

@@ -28,9 +28,9 @@ impl Builder {
                 .map(|&row| Group { unknowns: vec![row as usize], hosts: Vec::new() }),
         );
         for Impulse { coordinate, nodes, coordinates } in &self.impulses {
-            let nodes = nodes.iter().filter_map(|&node| of_node[node]);
-            groups[first_coordinate + coordinate].hosts =
-                nodes.chain(coordinates.iter().map(|own| first_coordinate + own)).collect();
+            let nodes = nodes.iter().filter_map(|&node| of_node[node.index()]);
+            groups[first_coordinate + coordinate.index()].hosts =
+                nodes.chain(coordinates.iter().map(|own| first_coordinate + own.index())).collect();
         }
         let hosts = (&of_node[..], first_coordinate);
         groups.extend(self.constraints.iter().map(|constraint| group_of(constraint, layout, hosts)));

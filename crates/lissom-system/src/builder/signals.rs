@@ -21,7 +21,7 @@ impl Builder {
     /// Adds a held value, an input or the last sample of a signal, with its initial value.
     pub fn add_held(&mut self, name: &str, start: f64) -> HeldId {
         self.graph.held.push((name.to_owned(), start));
-        self.graph.held.len() - 1
+        HeldId::new(self.graph.held.len() - 1)
     }
 
     /// Adds a held value that has a quantity of the state at samples, see [`assign_readings`](crate::System::assign_readings).
@@ -48,7 +48,7 @@ impl Builder {
     /// Adds a component of a measurement.
     pub fn add_component(&mut self, component: Component) -> MeasurementId {
         self.graph.measurements.push(component);
-        self.graph.measurements.len() - 1
+        MeasurementId::new(self.graph.measurements.len() - 1)
     }
 
     /// Adds a measurement of an element that is not added yet, see [`measure_element`](Self::measure_element).
@@ -104,11 +104,11 @@ impl Builder {
     /// # Errors
     /// If it refers to a later signal, or has too many arguments.
     pub fn add_signal(&mut self, signal: Signal) -> Result<SignalId, ParameterError> {
-        let next = self.graph.signals.len();
+        let next = SignalId::new(self.graph.signals.len());
         let is_there = |argument: &Argument| match *argument {
-            Argument::Held(held) => held < self.graph.held.len(),
+            Argument::Held(held) => held.index() < self.graph.held.len(),
             Argument::Signal(earlier) => earlier < next,
-            Argument::Measured(measurement) => measurement < self.graph.measurements.len(),
+            Argument::Measured(measurement) => measurement.index() < self.graph.measurements.len(),
         };
         if !signal.arguments.iter().all(is_there) {
             return Err(ParameterError::new(&signal.subject.to_string(), "names what is not there yet"));
@@ -132,9 +132,9 @@ impl Builder {
     /// If it refers to signals or held values that do not exist.
     pub fn add_event(&mut self, event: Event) -> Result<(), ParameterError> {
         let is_there = |&(held, signal): &(HeldId, SignalId)| {
-            held < self.graph.held.len() && signal < self.graph.signals.len()
+            held.index() < self.graph.held.len() && signal.index() < self.graph.signals.len()
         };
-        if event.root >= self.graph.signals.len() || !event.sets.iter().all(is_there) {
+        if event.root.index() >= self.graph.signals.len() || !event.sets.iter().all(is_there) {
             return Err(ParameterError::new(&event.name, "names what is not there"));
         }
         self.graph.events.push(event);

@@ -56,13 +56,12 @@ impl Builder {
         let own = if is_drawn { place } else { on_line };
         let point = self.model.nodes[tip].motion.frame.inverse_transform_point(&own);
         let alignments = self.alignments((&nodes, &line.at(value)), tip, orientation)?;
-        self.model.coordinates.push(Coordinate {
+        let coordinate = self.model.add_coordinate(Coordinate {
             name: format!("{name}.displacement"),
             value,
             rate: 0.0,
             quantity: Quantity::Length,
         });
-        let coordinate = self.model.coordinates.len() - 1;
         let first_multiplier = self.multipliers.len();
         for direction in ["force along x", "force along y", "force along z"] {
             self.multipliers.push((name.to_owned(), direction));

@@ -11,6 +11,7 @@ use super::{ExportError, Format, Sink, chosen_frames, poses};
 use crate::folder_page::RecordedRun;
 use crate::geometry::{Carrier, Colour, Geometry, Mesh, Piece, Sweep, span, turn_to};
 use crate::picture::shade_of;
+use lissom_core::kinematics::NodeId;
 
 pub(super) const FORMAT: Format = Format {
     name: "gltf",
@@ -50,7 +51,7 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
     let start = motion.times()[first];
     let times: Vec<f32> = frames.iter().map(|frame| (motion.times()[*frame] - start) as f32).collect();
     let clock = file.buffer.vectors(&times, 1, true, None);
-    let mut carriers: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut carriers: BTreeMap<NodeId, usize> = BTreeMap::new();
     let mut on_top = vec![root];
     for piece in &geometry.pieces {
         let material = file.material(piece.colour);
@@ -60,7 +61,7 @@ fn write(run: &RecordedRun, most: usize, sink: &mut Sink<'_>) -> Result<(), Expo
                 let child = file.holding(&piece.name, mesh);
                 let carrier = *carriers.entry(*node).or_insert_with(|| {
                     let track: Track = all.iter().map(|poses| (poses[*node], 1.0)).collect();
-                    let name = &motion.header().nodes[*node];
+                    let name = &motion.header().nodes[node.index()];
                     file.moving(name, &track, (root, clock))
                 });
                 file.child(carrier, child);

@@ -14,6 +14,7 @@ use lissom_motion::Motion as Pose;
 
 use crate::folder_page::RecordedRun;
 use crate::motion::Motion;
+use lissom_core::kinematics::NodeId;
 
 /// Writes a file, given its name below the target and its bytes.
 pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), FileError> + 'a;
@@ -83,7 +84,7 @@ fn chosen_frames(motion: &Motion, most: usize) -> Vec<usize> {
 
 /// Poses of all nodes in a frame.
 fn poses(motion: &Motion, frame: usize) -> Vec<Pose> {
-    (0..motion.reference().len()).map(|node| motion.pose(frame, node)).collect()
+    NodeId::first(motion.reference().len()).map(|node| motion.pose(frame, node)).collect()
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use lissom_motion::{Motion as Pose, Rotation, Vector3};
 use super::mesh::{Mesh, turn_to};
 use super::sweep::{Sweep, between};
 use crate::motion::Motion;
+use lissom_core::kinematics::{GROUND, NodeId};
 
 /// Minimum half thickness of a section in a picture, relative to the model.
 const MIN_THICKNESS: f64 = 0.0045;
@@ -46,7 +47,7 @@ pub enum Colour {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Carrier {
     /// That of a node, in whose frame the mesh is given.
-    Node(usize),
+    Node(NodeId),
     /// That of a beam: the mesh is in the configuration of the model file.
     Sections(Sweep),
     /// Between two positions; the mesh has unit length along its second axis.
@@ -255,13 +256,13 @@ impl Geometry {
         }
         // A plinth is drawn below every joint on the ground.
         for joint in &scene.joints {
-            let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == 0) else { continue };
+            let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == GROUND) else { continue };
             let around =
                 scene.symbols.iter().find(|symbol| symbol.name == joint.name).map_or(0.0, |s| s.around);
             let radius = self.radius(around);
             let pose = Pose::new(turn_to(&self.up), Vector3::from(base.position) - 1.15 * radius * self.up);
             let mesh = Mesh::plinth(0.55 * radius, 1.75 * radius, 1.9 * radius).moved(&pose);
-            self.add(&joint.name, (Role::Joint, Colour::Ground), mesh, Carrier::Node(0));
+            self.add(&joint.name, (Role::Joint, Colour::Ground), mesh, Carrier::Node(GROUND));
         }
         for rod in &scene.rods {
             let mesh = Mesh::cylinder(0.35 * self.radius(0.0), 1.0);
@@ -337,7 +338,7 @@ fn arrow_mesh(radius: f64, length: f64, heads: u32) -> Mesh {
 }
 
 /// Points of a node at which joints, springs and loads are attached, in its frame.
-fn attached(scene: &Scene, node: usize) -> Vec<Vector3> {
+fn attached(scene: &Scene, node: NodeId) -> Vec<Vector3> {
     let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
     let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
     let loads = scene.loads.iter().map(|load| load.anchor);
@@ -364,7 +365,7 @@ fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3) {
     }
     let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
     let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
-    for anchor in joints.chain(springs).flatten().filter(|anchor| anchor.node == 0) {
+    for anchor in joints.chain(springs).flatten().filter(|anchor| anchor.node == GROUND) {
         take(&Vector3::from(anchor.position));
     }
     if (high - low).norm() > 0.0 {
@@ -389,9 +390,9 @@ pub fn poses_at(motion: &Motion, time: f64) -> Option<Vec<Pose>> {
     let before = after.saturating_sub(1);
     let duration = times[after] - times[before];
     let x = if duration > 0.0 { ((time - times[before]) / duration).clamp(0.0, 1.0) } else { 1.0 };
-    let pose = |node: usize| {
+    let pose = |node: NodeId| {
         let (a, b) = (motion.pose(before, node), motion.pose(after, node));
         Pose::new(between(&a.rotation, &b.rotation, x), a.position + x * (b.position - a.position))
     };
-    Some((0..motion.reference().len()).map(pose).collect())
+    Some(NodeId::first(motion.reference().len()).map(pose).collect())
 }

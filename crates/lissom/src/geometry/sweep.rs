@@ -5,6 +5,7 @@ use lissom_model::scene::{Beam, Outline};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
 
 use super::mesh::Mesh;
+use lissom_core::kinematics::NodeId;
 
 /// Number of points of round outlines.
 const ROUND: usize = 20;
@@ -14,7 +15,7 @@ const RINGS: usize = 40;
 /// A beam that can be drawn at any poses of the nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    nodes: Vec<usize>,
+    nodes: Vec<NodeId>,
     /// Section frames in the frames of the nodes.
     offsets: Vec<Pose>,
     /// Lengths between the nodes in the configuration of the model file [m].

@@ -33,8 +33,7 @@ impl Header {
     /// For the nodes and beams of a model.
     pub(super) fn of(lowered: &Lowered) -> Self {
         let layout: &Layout = lowered.system.layout();
-        let nodes: Vec<String> =
-            (0..layout.node_count()).map(|node| layout.node_name(node).to_owned()).collect();
+        let nodes: Vec<String> = layout.nodes().map(|node| layout.node_name(node).to_owned()).collect();
         let points = |(beam, line): (&String, &lissom_core::elements::beam::line::BeamLine)| {
             let count = line.elements.len();
             let place = |element: usize, xi: f64| (element as f64 + 0.5 * (1.0 + xi)) / count as f64;

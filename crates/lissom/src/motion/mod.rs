@@ -22,6 +22,8 @@ mod header;
 mod reader;
 mod recorder;
 
+pub use lissom_core::kinematics::NodeId;
+
 pub use header::{ForcePoints, Header};
 pub use reader::{Motion, MotionError};
 pub use recorder::MotionRecorder;

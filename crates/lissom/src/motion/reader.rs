@@ -4,6 +4,7 @@ use lissom_motion::{Motion as Pose, Rotation, Vector3, Vector6};
 
 use super::header::Header;
 use super::{MAGIC, PREFIX, VERSION};
+use lissom_core::kinematics::NodeId;
 
 /// Why a file is not a valid motion file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -101,8 +102,8 @@ impl Motion {
     }
 
     /// The node called `name`.
-    pub fn node(&self, name: &str) -> Option<usize> {
-        self.header.nodes.iter().position(|known| known == name)
+    pub fn node(&self, name: &str) -> Option<NodeId> {
+        self.header.nodes.iter().position(|known| known == name).map(NodeId::new)
     }
 
     /// Poses of the nodes in the configuration of the model file.
@@ -123,12 +124,12 @@ impl Motion {
     ///
     /// # Panics
     /// If there is no such frame or node.
-    pub fn pose(&self, frame: usize, node: usize) -> Pose {
+    pub fn pose(&self, frame: usize, node: NodeId) -> Pose {
         let (numbers, count) = (self.frame(frame), self.header.nodes.len());
         let vector = |at: usize| Vector3::from_fn(|k, _| f64::from(numbers[3 * at + k]));
         let start = &self.reference[node];
-        let rotation = Rotation::exponential(&vector(count + node)) * start.rotation;
-        Pose::new(rotation, start.position + vector(node))
+        let rotation = Rotation::exponential(&vector(count + node.index())) * start.rotation;
+        Pose::new(rotation, start.position + vector(node.index()))
     }
 
     /// Another motion: each frame has its time, and displacements of nodes except the ground from the first frame of this
@@ -137,18 +138,18 @@ impl Motion {
         let count = self.header.nodes.len();
         let (mut times, mut numbers) = (Vec::new(), Vec::new());
         for (time, moved) in frames {
-            let of = |node: usize, k: usize| match node.checked_sub(1) {
+            let of = |node: NodeId, k: usize| match node.index().checked_sub(1) {
                 Some(node) => moved.get(6 * node + k).copied().unwrap_or(0.0),
                 None => 0.0,
             };
             times.push(*time);
-            let vector = |node: usize, first: usize| Vector3::from_fn(|k, _| of(node, first + k));
+            let vector = |node: NodeId, first: usize| Vector3::from_fn(|k, _| of(node, first + k));
             let start = numbers.len();
-            for node in 0..count {
+            for node in NodeId::first(count) {
                 let shift = self.pose(0, node).position - self.reference[node].position + vector(node, 0);
                 numbers.extend(shift.iter().map(|number| *number as f32));
             }
-            for node in 0..count {
+            for node in NodeId::first(count) {
                 let rotation = Rotation::exponential(&vector(node, 3)) * self.pose(0, node).rotation;
                 let turn = (rotation * self.reference[node].rotation.inverse()).logarithm();
                 numbers.extend(turn.iter().map(|number| *number as f32));

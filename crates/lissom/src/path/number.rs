@@ -102,7 +102,7 @@ fn moved_where_locked(lowered: &Lowered, start: &Kinematics) -> Option<String> {
     let layout = lowered.system.layout();
     let own = &lowered.state.kinematics.nodes;
     let size = own.iter().map(|node| node.frame.position.amax()).fold(f64::MIN_POSITIVE, f64::max);
-    for (node, rows) in (0..layout.node_count()).map(|node| (node, layout.rows_of_node(node))) {
+    for (node, rows) in layout.nodes().map(|node| (node, layout.rows_of_node(node))) {
         let change = own[node].frame.relative_to(&start.nodes[node].frame).logarithm();
         for (k, _) in rows.iter().enumerate().filter(|&(_, &row)| row == LOCKED) {
             let unit = if k < 3 { size } else { 1.0 };

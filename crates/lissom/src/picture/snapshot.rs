@@ -8,6 +8,7 @@ use super::painter::{Seen, painted};
 use super::view::{Projection, View};
 use crate::geometry::{Geometry, poses_at};
 use crate::motion::Motion;
+use lissom_core::kinematics::GROUND;
 
 const WORDS: Shade = [0x1d, 0x24, 0x30];
 const FAINT: Shade = [0x6b, 0x76, 0x86];
@@ -186,7 +187,7 @@ impl Picture {
 
 /// Projected paths of the observed points [m].
 fn paths(scene: &Scene, motion: &Motion, projection: &Projection) -> Vec<Vec<[f64; 2]>> {
-    let points = scene.outputs.iter().filter_map(|output| output.point).filter(|point| point.node != 0);
+    let points = scene.outputs.iter().filter_map(|output| output.point).filter(|point| point.node != GROUND);
     let path = |anchor: lissom_model::scene::Anchor| {
         let at = |frame| motion.pose(frame, anchor.node).transform_point(&Vector3::from(anchor.position));
         (0..motion.times().len()).map(|frame| projection.flat(&at(frame))).collect()

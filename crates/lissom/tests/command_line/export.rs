@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use flate2::read::DeflateDecoder;
+use lissom::motion::NodeId;
 use lissom::{Record, ResultFolder};
 use lissom_motion::Vector3;
 use serde_json::Value;
@@ -72,10 +73,11 @@ fn arrays_hold_the_table_with_its_units() {
     let motion = ResultFolder::recorded(&out).unwrap().motion;
     let (header, content) = array(of("positions.npy"));
     let nodes = motion.reference().len();
+    let last_node = NodeId::new(nodes - 1);
     assert!(header.contains(&format!(", {nodes}, 3,)")), "{header}");
     let last = content.len() - 24;
     let place: Vec<f64> = (0..3).map(|k| f64::from_le_bytes(number(content, last + 8 * k))).collect();
-    assert_eq!(Vector3::from_row_slice(&place), motion.pose(motion.times().len() - 1, nodes - 1).position);
+    assert_eq!(Vector3::from_row_slice(&place), motion.pose(motion.times().len() - 1, last_node).position);
 }
 
 /// The two parts of a binary glTF file.

@@ -1,6 +1,7 @@
 //! `lissom modes` and analyses of kind `modes`, as scripts see them.
 
 use lissom::ResultFolder;
+use lissom::motion::NodeId;
 
 use super::support::{CANTILEVER, Folder, lissom, summary};
 
@@ -197,8 +198,9 @@ fn modes_are_drawn_as_shapes_and_as_oscillations() {
     let motion = modes.oscillation(1, &[0.0, 0.25, 0.5]).unwrap();
     let still = ResultFolder::recorded_modes(&out).unwrap().oscillation(1, &[0.25]).unwrap();
     let tip = motion.reference().len() - 1;
-    let shift = |frame: usize| motion.pose(frame, tip).position - still.pose(0, tip).position;
-    let length = motion.reference()[tip].position.norm();
+    let node = NodeId::new(tip);
+    let shift = |frame: usize| motion.pose(frame, node).position - still.pose(0, node).position;
+    let length = motion.reference()[node].position.norm();
     assert!((shift(0).norm() / length - 1.0 / 12.0).abs() < 1e-4, "{} of {length}", shift(0));
     assert!((shift(0) + shift(2)).norm() < 1e-6 * length && shift(1).norm() < 1e-6 * length);
     let table = rows(&out, "shapes.csv");

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use lissom::Record;
-use lissom::motion::{Motion, MotionError};
+use lissom::motion::{Motion, MotionError, NodeId};
 use lissom_motion::Vector3;
 use serde_json::Value;
 
@@ -37,7 +37,7 @@ fn compare(motion: &Motion, scene: &Value, record: &Record) -> usize {
             "displacement" => ["u1", "u2", "u3"],
             _ => continue,
         };
-        let node = output["point"]["node"].as_u64().unwrap() as usize;
+        let node = NodeId::new(output["point"]["node"].as_u64().unwrap() as usize);
         let point = vector(&output["point"]["position"]);
         let columns = letters.map(|letter| record.column(name, letter).unwrap());
         let start = motion.reference()[node].transform_point(&point);

@@ -205,8 +205,8 @@ impl<'a> Closing<'a> {
             frame.position += frame.rotation.apply(&(shift / longest));
             frame.rotation = (frame.rotation * Rotation::exponential(&(turn / longest))).normalized();
         }
-        for (coordinate, value) in moved.coordinates.iter_mut().enumerate() {
-            if let Some(column) = self.columns.of_coordinate[coordinate] {
+        for (coordinate, value) in CoordinateId::enumerate(&mut moved.coordinates) {
+            if let Some(column) = self.columns.of_coordinate[coordinate.index()] {
                 *value += self.columns.unit(coordinate) * step[column] / longest;
             }
         }

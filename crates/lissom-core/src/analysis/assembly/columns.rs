@@ -4,7 +4,7 @@
 use lissom_motion::Vector3;
 
 use super::groups::Groups;
-use crate::kinematics::{CoordinateId, LOCKED, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, GROUND, LOCKED, NodeId, Quantity};
 use crate::system::System;
 
 /// What a row of the system's equations of motion belongs to.
@@ -32,7 +32,6 @@ pub(super) struct Columns<'a> {
 impl<'a> Columns<'a> {
     pub(super) fn new(system: &'a System, groups: &'a Groups, held: &[CoordinateId]) -> Self {
         let layout = system.layout();
-        let coordinates = layout.coordinate_rows.len();
         let mut count = 0;
         let mut next = |is_free: bool| {
             count += usize::from(is_free);
@@ -40,19 +39,19 @@ impl<'a> Columns<'a> {
         };
         let of_group: Vec<[Option<usize>; 6]> =
             groups.all.iter().map(|group| group.free.map(&mut next)).collect();
-        let is_free = |coordinate: usize| {
+        let is_free = |coordinate: CoordinateId| {
             layout.coordinate_quantity(coordinate) != Quantity::State && !held.contains(&coordinate)
         };
         let of_coordinate: Vec<Option<usize>> =
-            (0..coordinates).map(|coordinate| next(is_free(coordinate))).collect();
+            layout.coordinates().map(|coordinate| next(is_free(coordinate))).collect();
         let driven: Vec<usize> = system.drives().iter().map(|drive| drive.multiplier).collect();
-        let mut owners = vec![Owner::Node(0, 0); layout.coordinate_count()];
-        for node in 0..layout.node_count() {
+        let mut owners = vec![Owner::Node(GROUND, 0); layout.coordinate_count()];
+        for node in layout.nodes() {
             for (k, &row) in layout.rows_of_node(node).iter().enumerate().filter(|(_, row)| **row != LOCKED) {
                 owners[row as usize] = Owner::Node(node, k);
             }
         }
-        for coordinate in 0..coordinates {
+        for coordinate in layout.coordinates() {
             owners[layout.row_of_coordinate(coordinate)] = Owner::Coordinate(coordinate);
         }
         let rows = (0..layout.multiplier_count).filter(|multiplier| !driven.contains(multiplier)).collect();
@@ -92,7 +91,7 @@ impl<'a> Columns<'a> {
                 let value = values.map_or(1.0, |values| scale * values[position]);
                 match self.owners[unknown] {
                     Owner::Coordinate(coordinate) => {
-                        if let Some(column) = self.of_coordinate[coordinate] {
+                        if let Some(column) = self.of_coordinate[coordinate.index()] {
                             hand(row, column, value * self.unit(coordinate));
                         }
                     }
@@ -106,7 +105,7 @@ impl<'a> Columns<'a> {
 
     /// What a derivative by a freedom of a node is by those of its group.
     fn of_node(&self, (node, freedom): (NodeId, usize), value: f64, hand: &mut dyn FnMut(usize, f64)) {
-        let (index, place) = self.groups.of_node[node];
+        let (index, place) = self.groups.of_node[node.index()];
         let group = &self.groups.all[index];
         let frame = group.nodes[place].1;
         let mut direction = Vector3::zeros();

@@ -36,20 +36,20 @@ pub(super) struct Groups {
 impl Groups {
     pub(super) fn new(system: &System, at: &Kinematics, rigid: &[&[NodeId]], fixed: &[NodeId]) -> Self {
         let count = at.nodes.len();
-        let mut first: Vec<NodeId> = (0..count).collect();
+        let mut first: Vec<NodeId> = NodeId::first(count).collect();
         for nodes in rigid {
             for pair in nodes.windows(2) {
                 let (a, b) = (root(&first, pair[0]), root(&first, pair[1]));
-                first[a.max(b)] = a.min(b);
+                first[a.max(b).index()] = a.min(b);
             }
         }
         let mut points: Vec<Vec<Vector3>> = vec![Vec::new(); count];
-        for (node, motion) in at.nodes.iter().enumerate().filter(|&(node, _)| node != GROUND) {
-            points[root(&first, node)].push(motion.frame.position);
+        for (node, motion) in NodeId::enumerate(&at.nodes).filter(|&(node, _)| node != GROUND) {
+            points[root(&first, node).index()].push(motion.frame.position);
         }
         for frame in system.joints().iter().flat_map(|joint| joint.frames) {
             let place = at.nodes[frame.node].frame.transform_point(&frame.offset.position);
-            points[root(&first, frame.node)].push(place);
+            points[root(&first, frame.node).index()].push(place);
         }
         let everything: Vec<Vector3> = points.concat();
         let (_, spread) = center_and_radius(&everything);
@@ -57,18 +57,19 @@ impl Groups {
         let mut all: Vec<RigidGroup> = Vec::new();
         let mut of_node = vec![(0, 0); count];
         let mut of_root = vec![usize::MAX; count];
-        for node in 0..count {
+        for node in NodeId::first(count) {
             let own = root(&first, node);
-            if of_root[own] == usize::MAX {
-                of_root[own] = all.len();
-                all.push(group(system, at, own, &points[own], length));
+            let index = &mut of_root[own.index()];
+            if *index == usize::MAX {
+                *index = all.len();
+                all.push(group(system, at, own, &points[own.index()], length));
             }
-            let group = &mut all[of_root[own]];
-            of_node[node] = (of_root[own], group.nodes.len());
+            let group = &mut all[*index];
+            of_node[node.index()] = (*index, group.nodes.len());
             group.nodes.push((node, at.nodes[node].frame.relative_to(&group.frame)));
         }
         for &node in fixed.iter().chain([&GROUND]) {
-            all[of_node[node].0].free = [false; 6];
+            all[of_node[node.index()].0].free = [false; 6];
         }
         Self { all, of_node, length }
     }
@@ -106,8 +107,8 @@ fn center_and_radius(points: &[Vector3]) -> (Vector3, f64) {
 
 /// The first of the nodes that move together with `node`.
 fn root(first: &[NodeId], mut node: NodeId) -> NodeId {
-    while first[node] != node {
-        node = first[node];
+    while first[node.index()] != node {
+        node = first[node.index()];
     }
     node
 }

@@ -160,7 +160,7 @@ pub fn assemble(
                 let wanted = if stage == stages {
                     value
                 } else {
-                    start[coordinate] + share * (value - start[coordinate])
+                    start[coordinate.index()] + share * (value - start[coordinate.index()])
                 };
                 tree.bring(system, &mut pose, coordinate, wanted, closing.length());
             }
@@ -206,7 +206,7 @@ fn held_values(system: &System, at: &Kinematics, request: &Request<'_>) -> Vec<(
 /// In how many stages the coordinates are brought to their values.
 fn stages(system: &System, pose: &Pose, values: &[(CoordinateId, f64)], length: f64) -> usize {
     let of = |&(coordinate, value): &(CoordinateId, f64)| {
-        let way = (value - pose.coordinates[coordinate]).abs();
+        let way = (value - pose.coordinates[coordinate.index()]).abs();
         match system.layout().coordinate_quantity(coordinate) {
             Quantity::Angle => way / TURN,
             Quantity::Length | Quantity::State => way / (SHIFT * length),

@@ -37,7 +37,7 @@ impl<'a> Tree<'a> {
         }
         let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); count];
         for index in order {
-            let [base, tip] = joints[index].frames.map(|frame| groups.of_node[frame.node].0);
+            let [base, tip] = joints[index].frames.map(|frame| groups.of_node[frame.node.index()].0);
             let (from, to) = (root[base], root[tip]);
             if from != to {
                 root.iter_mut().filter(|own| **own == to).for_each(|own| *own = from);
@@ -69,7 +69,7 @@ impl<'a> Tree<'a> {
         for (group, parent, joint) in visited.into_iter().rev() {
             let own = hanging[group].clone();
             hanging[parent].extend(&own);
-            let tip_is_beyond = groups.of_node[joints[joint].frames[1].node].0 == group;
+            let tip_is_beyond = groups.of_node[joints[joint].frames[1].node.index()].0 == group;
             beyond[joint] = Some((own, tip_is_beyond));
         }
         Self { groups, beyond }
@@ -86,7 +86,7 @@ impl<'a> Tree<'a> {
     ) {
         let owner = |joint: &AttachedJoint| joint.coordinates.contains(&coordinate);
         let found = system.joints().iter().position(owner);
-        let before = std::mem::replace(&mut pose.coordinates[coordinate], value);
+        let before = std::mem::replace(&mut pose.coordinates[coordinate.index()], value);
         let Some((index, (groups, tip_is_beyond))) =
             found.and_then(|index| Some((index, self.beyond[index].as_ref()?)))
         else {
@@ -97,12 +97,12 @@ impl<'a> Tree<'a> {
         }
         let joint = &system.joints()[index];
         let [base, tip] = joint.frames.map(|frame| {
-            let (group, place) = self.groups.of_node[frame.node];
+            let (group, place) = self.groups.of_node[frame.node.index()];
             pose.frames[group] * self.groups.all[group].nodes[place].1 * frame.offset
         });
         let mut own = JointCoordinates::default();
         for (k, &coordinate) in joint.coordinates.iter().enumerate() {
-            own.value[k] = pose.coordinates[coordinate];
+            own.value[k] = pose.coordinates[coordinate.index()];
         }
         let Some(relative) = in_place(joint, tip.relative_to(&base), &own, length) else { return };
         let shift = if *tip_is_beyond {

@@ -55,7 +55,7 @@ impl Stages {
         let memory = rows.clone();
         let at = AtStage { place: rows.clone(), rate: rows.clone(), acceleration: rows };
         Self {
-            moving: (0..layout.node_count()).filter(is_moving).collect(),
+            moving: layout.nodes().filter(is_moving).collect(),
             parts: system.empty_linearization(),
             products: vec![Products::default(); count],
             maps: vec![Vec::new(); count],

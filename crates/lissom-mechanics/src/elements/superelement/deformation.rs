@@ -89,10 +89,10 @@ mod tests {
     fn unknowns_are_those_of_the_matrices() {
         let places = vec![Vector3::zeros(), Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 2.0, 0.0)];
         let deformation = Deformation {
-            nodes: vec![1, 2, 3],
+            nodes: [1, 2, 3].map(NodeId::new).to_vec(),
             floating: 1,
             places: places.clone(),
-            modes: vec![(0, 2.0), (1, 0.5)],
+            modes: vec![(CoordinateId::new(0), 2.0), (CoordinateId::new(1), 0.5)],
         };
         let shift = Vector3::new(0.0, 0.0, 0.25);
         let nodes = [Vector3::zeros(), places[0], places[1], places[2] + shift];
@@ -110,7 +110,7 @@ mod tests {
         (wanted[14], wanted[18], wanted[19]) = (0.25, 0.6, 0.2);
         assert_eq!(deformation.unknowns(&at), wanted);
         assert_eq!(deformation.size(), wanted.len());
-        assert_eq!(deformation.coordinates().collect::<Vec<_>>(), [0, 1]);
+        assert_eq!(deformation.coordinates().collect::<Vec<_>>(), [0, 1].map(CoordinateId::new));
         let modal = deformation.modal().map(|(own, factor)| {
             [at.coordinates[own].value, at.coordinates[own].rate].map(|part| factor * part)
         });

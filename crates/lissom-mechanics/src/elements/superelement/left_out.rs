@@ -104,7 +104,7 @@ mod tests {
     use super::*;
     use crate::elements::inertia::Gravity;
     use crate::elements::superelement::{Damping, ReducedMatrices};
-    use crate::kinematics::NodeMotion;
+    use crate::kinematics::{NodeId, NodeMotion};
     use lissom_motion::Motion;
 
     /// A rod with linear shapes: a quarter of its mass is omitted, and a sixth of it times the acceleration of its end is the
@@ -126,7 +126,7 @@ mod tests {
             ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new(), geometric: None };
         let places = [Vector3::zeros(), Vector3::new(length, 0.0, 0.0)];
         let gravity = Gravity::constant(Vector3::zeros());
-        let element = Part::new((vec![0, 1], Vec::new()), (0, &places), matrices, gravity);
+        let element = Part::new((NodeId::first(2).collect(), Vec::new()), (0, &places), matrices, gravity);
         let estimate = LeftOut::of(&element).expect("it moves");
         let share = |own: f64, of_base: f64| {
             let mut at = Kinematics {

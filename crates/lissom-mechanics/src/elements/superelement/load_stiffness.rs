@@ -225,6 +225,7 @@ mod tests {
     use super::*;
     use crate::elements::inertia::Gravity;
     use crate::elements::superelement::{Damping, ReducedMatrices};
+    use crate::kinematics::NodeId;
 
     const LENGTH: f64 = 2.0;
     /// E A and E I of the bar.
@@ -248,7 +249,7 @@ mod tests {
             ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new(), geometric: None };
         let places = [Vector3::zeros(), Vector3::new(0.0, LENGTH, 0.0)];
         let gravity = Gravity::constant(Vector3::zeros());
-        Part::new((vec![1, 2], Vec::new()), (0, &places), matrices, gravity)
+        Part::new((vec![NodeId::new(1), NodeId::new(2)], Vec::new()), (0, &places), matrices, gravity)
     }
 
     /// ∫ w'² dy of the cubic that starts with zero displacement and slope and ends with these, by Simpson's rule.

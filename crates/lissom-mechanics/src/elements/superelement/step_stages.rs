@@ -129,7 +129,7 @@ mod tests {
     use super::*;
     use crate::elements::inertia::Gravity;
     use crate::elements::superelement::{Damping, ReducedMatrices};
-    use crate::kinematics::{CoordinateMotion, Kinematics, MotionChange, NodeMotion};
+    use crate::kinematics::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion};
 
     /// Three interfaces that translate up to the first stage and rotate about the floating frame, the second of them, up to the
     /// other: the longer path counts, with rotations as arcs at the size of the part, 5 m.
@@ -144,7 +144,7 @@ mod tests {
             geometric: None,
         };
         let gravity = Gravity::constant(Vector3::zeros());
-        let element = Part::new((vec![0, 1, 2], Vec::new()), (1, &places), matrices, gravity);
+        let element = Part::new((NodeId::first(3).collect(), Vec::new()), (1, &places), matrices, gravity);
         let moving = |spatial: [Vector3; 2]| Kinematics {
             time: 0.0,
             elapsed: 0.0,
@@ -196,7 +196,12 @@ mod tests {
             geometric: None,
         };
         let gravity = Gravity::constant(Vector3::zeros());
-        let element = Part::new((vec![0, 1], vec![0]), (0, &places), matrices, gravity);
+        let element = Part::new(
+            (NodeId::first(2).collect(), CoordinateId::first(1).collect()),
+            (0, &places),
+            matrices,
+            gravity,
+        );
         let twist = screw(&Vector3::new(0.3, -0.2, 0.5), &Vector3::new(0.4, 0.7, -0.1));
         for size in [1e-5, 2e-4, 0.02, 0.4] {
             let changed = [
