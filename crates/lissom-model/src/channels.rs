@@ -32,11 +32,20 @@ impl Channel {
         self.quantity.append_values(&Evaluation { system, state }, out);
     }
 
-    /// Whether it reports velocities, accelerations or forces of constraints. Forces in beams are those of their strains, and a
-    /// signal is what acts.
+    /// Whether it, or an output in its formula, has this feature. A signal is what acts, whatever it consists of.
+    fn has(&self, feature: Feature) -> bool {
+        let of_arguments = self.quantity.arguments().iter().any(|(channel, _)| channel.has(feature));
+        self.kind.has(feature) || of_arguments
+    }
+
+    /// Whether it reports velocities, accelerations or forces of constraints.
     pub fn reports_rates(&self) -> bool {
-        let of_arguments = self.quantity.arguments().iter().any(|(channel, _)| channel.reports_rates());
-        self.kind.has(Feature::Rates) || of_arguments
+        self.has(Feature::Rates)
+    }
+
+    /// Whether it reports forces of springs or within beams.
+    pub fn reports_internal_forces(&self) -> bool {
+        self.has(Feature::InternalForces)
     }
 
     /// Column names, as `midspan.u1`.

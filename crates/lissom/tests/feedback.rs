@@ -588,7 +588,8 @@ fn moments_and_powers_of_springs_are_fed_back() {
             (twice.value("pull.moment").unwrap() * 2.0 - once.value("pull.moment").unwrap()).abs() < 1e-7
         );
         let power = -twice.value("pull.moment").unwrap() * twice.value("pull.rate").unwrap();
-        assert!((twice.value("gain").unwrap() - 2.0 * power).abs() < 1e-12, "{scheme}: {power}");
+        // The signal is what acts; the output is recovered from the positions.
+        assert!((twice.value("gain").unwrap() - 2.0 * power).abs() < 1e-5, "{scheme}: {power}");
     }
     // θ = 0.3 (1 - cos ωt): the moment vanishes after a quarter of a period.
     let event = "[events.slack]\nzero_of = \"pull.moment\"\nstop = true\n";

@@ -262,7 +262,8 @@ fn a_four_bar_is_differentiated_over_time() {
         let set = set(&[("analysis.end", "0.3"), ("analysis.scheme", scheme)]);
         let drive = ("drive", "moment");
         let mass = [("sections.stiff.mass.per_length", 1.9968, 1e-2)];
-        agrees_closely(&model, "drive.moment", drive, &mass, &set, 1e-7);
+        // Forces that are recovered are differenced over some thousandths of a number.
+        agrees_closely(&model, "drive.moment", drive, &mass, &set, 2e-7);
         // The moment hardly depends on these: a millionth of it is round-off of the runs.
         let little = [("parameters.EI", 70.656, 1e-2), ("parameters.reach", 0.24, 1e-3)];
         agrees_closely(&model, "drive.moment", drive, &little, &set, 1e-5);

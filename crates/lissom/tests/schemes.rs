@@ -15,18 +15,20 @@ fn pendulum(scheme: &str, steps: u32) -> [f64; 2] {
     [runs::last(&record, "bob", "x"), forces[0].hypot(forces[1])]
 }
 
-/// Errors of two and three stages as the chapter on schemes has them.
+/// Errors of two and three stages as the chapter on schemes has them. Reactions are recovered from the positions.
 #[test]
-fn three_stages_are_of_fifth_order_for_positions_and_second_for_reactions() {
+fn three_stages_are_of_fifth_order_for_positions_and_reactions() {
     let reference = pendulum("radau-iia-5", 1600);
     let errors = |scheme: &str, steps: u32| {
         let found = pendulum(scheme, steps);
         [0, 1].map(|k| (found[k] - reference[k]).abs())
     };
-    let (two, three) = (errors("radau-iia", 25), [25, 50].map(|steps| errors("radau-iia-5", steps)));
+    let [two, three] = ["radau-iia", "radau-iia-5"].map(|scheme| [25, 50].map(|steps| errors(scheme, steps)));
     println!("two stages {two:?}, three stages {three:?}");
-    assert!(two[0] > 1e-6 && three[0][0] < 1e-9, "positions: {two:?} {three:?}");
+    assert!(two[0][0] > 1e-6 && three[0][0] < 1e-9, "positions: {two:?} {three:?}");
     assert!(three[1][0] < three[0][0] / 20.0, "fifth order of positions: {three:?}");
-    let order = (three[0][1] / three[1][1]).log2();
-    assert!((order - 2.0).abs() < 0.3, "second order of reactions: {order}");
+    for (errors, least) in [(two, 2.7), (three, 4.7)] {
+        let order = (errors[0][1] / errors[1][1]).log2();
+        assert!(order > least, "order of reactions: {order}");
+    }
 }

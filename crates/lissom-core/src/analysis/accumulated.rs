@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::consistent_rates::ConsistentRates;
+use super::recovery::Recovery;
 use super::settings::Problem;
 use super::simulation::Simulation;
 use crate::elements::quadrature::gauss_legendre;
@@ -84,7 +84,7 @@ pub(crate) struct Accumulation {
     /// Room for the Gauss points of a step, where there are any.
     within: Option<Box<[State; 2]>>,
     /// Makes velocities, accelerations and multipliers there consistent with the positions, if numbers depend on them.
-    rates: Option<ConsistentRates>,
+    rates: Option<Recovery>,
     /// Room for the values after a step.
     after: Vec<f64>,
 }
@@ -95,7 +95,7 @@ impl Accumulation {
         let state = simulation.state();
         let within = (!numbers.is_empty()).then(|| Box::new([state.clone(), state.clone()]));
         let depends = numbers.iter().any(|number| number.depends_on_multipliers());
-        let rates = depends.then(|| ConsistentRates::of(simulation)).flatten();
+        let rates = depends.then(|| Recovery::of(simulation)).flatten();
         Self { within, rates, after: Vec::with_capacity(numbers.len()), numbers }
     }
 
@@ -117,9 +117,9 @@ impl Accumulation {
             let duration = time - start.kinematics.time;
             for (state, (xi, _)) in within.iter_mut().zip(gauss_legendre(2)) {
                 interpolate(start, end, start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
-                let consistent = rates.as_mut().and_then(|rates| rates.state(system, state, duration));
-                match consistent {
-                    Some(consistent) => *state = consistent,
+                let recovered = rates.as_mut().and_then(|rates| rates.recover(system, state, duration));
+                match recovered {
+                    Some(recovered) => *state = recovered.rates,
                     None => has_consistent_rates = false,
                 }
             }

@@ -27,11 +27,11 @@ const REPEATED: f64 = 1e-10;
 
 /// Which inertias weigh in a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Inertias {
+pub(super) enum Inertias {
     /// All of them.
     All,
-    /// All of them, and what damping adds over so long a time [s].
-    WithDamping(f64),
+    /// All of them, and what damping and stiffness add over so long a time τ [s]: M + τ D + τ² K.
+    Within(f64),
     /// Those of parts and of generalised coordinates, not those that act on coordinates of joints.
     OfParts,
 }
@@ -45,16 +45,8 @@ pub struct ConsistentInitialConditions {
     radian: f64,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
-    /// The mass, while that in use has damping.
-    undamped: Vec<f64>,
-    /// What of the system is differentiated; all of it by default.
-    relevant: Option<Relevant>,
-}
-
-/// Elements by kind with inertia or damping, and whether any of them have damping.
-struct Relevant {
-    kinds: Vec<bool>,
-    is_damped: bool,
+    /// The inertias that weigh.
+    weights: Vec<f64>,
 }
 
 impl ConsistentInitialConditions {
@@ -75,109 +67,75 @@ impl ConsistentInitialConditions {
             radian: representative.length,
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
-            undamped: Vec::new(),
-            relevant: None,
+            weights: Vec::new(),
         }
     }
 
-    /// The same for many states of one system: elements without inertia and damping are not differentiated again and again.
-    pub(super) fn repeated(
+    pub(super) fn factor(
+        &mut self,
         system: &System,
         state: &State,
-        representative: &Representative,
-        kind: &SolverKind,
-    ) -> Self {
-        let mut initial = Self::new(system, state, representative, kind);
-        // Constraints between velocities are elements, too.
-        if system.layout().impulses().next().is_some() {
-            return initial;
-        }
-        // Without motion only dampers have derivatives by twists.
-        let mut at = state.kinematics.clone();
-        at.nodes.iter_mut().for_each(|node| node.twist.fill(0.0));
-        at.coordinates.iter_mut().for_each(|coordinate| coordinate.rate = 0.0);
-        let zero = vec![0.0; system.layout().multiplier_count];
-        let mut linearization = system.empty_linearization();
-        let mut derivatives = |kinds: &[bool]| {
-            system.linearize_kinds(kinds, &initial.point(&at, &zero), Chart::Body, &mut linearization);
-            [&linearization.mass, &linearization.damping].map(Clone::clone)
-        };
-        let mut alone = vec![false; system.kind_count()];
-        let none = derivatives(&alone);
-        let mut relevant = Relevant { kinds: alone.clone(), is_damped: false };
-        for kind in 0..alone.len() {
-            alone[kind] = true;
-            let [mass, damping] = derivatives(&alone);
-            alone[kind] = false;
-            relevant.kinds[kind] = mass != none[0] || damping != none[1];
-            relevant.is_damped |= damping != none[1];
-        }
-        initial.relevant = Some(relevant);
-        initial
-    }
-
-    fn factor(&mut self, system: &System, state: &State, inertias: Inertias) -> Result<(), InitialError> {
+        inertias: Inertias,
+    ) -> Result<(), InitialError> {
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
-        let point = self.point(&state.kinematics, &zero);
-        match &self.relevant {
-            Some(relevant) => {
-                system.linearize_kinds(&relevant.kinds, &point, Chart::Body, &mut linearization);
-            }
-            None => system.linearize(&point, Chart::Body, &mut linearization),
-        }
+        system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
+        self.linearization = linearization;
+        self.weigh(system, inertias);
+        self.factor_weights(system)
+    }
+
+    /// Makes the matrix of inertias from the linearisation.
+    fn weigh(&mut self, system: &System, inertias: Inertias) {
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let (weights, linearization) = (&mut self.weights, &self.linearization);
+        weights.clone_from(&linearization.mass);
         // States have no inertia: a unit in its place keeps them apart from the rest.
-        for (row, ..) in system.layout().states() {
-            if let Some(diagonal) = system.structure().pattern.position(row, row) {
-                linearization.mass[diagonal] += 1.0;
+        for (row, ..) in layout.states() {
+            if let Some(diagonal) = pattern.position(row, row) {
+                weights[diagonal] += 1.0;
             }
         }
-        if let Inertias::WithDamping(time) = inertias {
-            self.undamped.clone_from(&linearization.mass);
-            let pattern = &system.structure().pattern;
-            let mut is_of_rates = vec![false; pattern.size()];
-            system.layout().rate_rows().for_each(|row| is_of_rates[row] = true);
+        if let Inertias::Within(time) = inertias {
+            let is_of_rates = rate_rows(layout);
             for column in (0..pattern.size()).filter(|&column| !is_of_rates[column]) {
                 for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
                     if !is_of_rates[pattern.row_indices()[at]] {
-                        linearization.mass[at] += time * linearization.damping[at];
+                        weights[at] +=
+                            time * (linearization.damping[at] + time * linearization.stiffness[at]);
                     }
                 }
             }
         }
         // Constraints between velocities stand where those between places do: [M Bᵀ; B 0].
-        for (row, _) in system.layout().impulses() {
-            let pattern = system.structure().pattern.clone();
+        for (row, _) in layout.impulses() {
             for &other in pattern.column(row) {
                 for (row, column) in [(row, other), (other, row)] {
                     if let Some(position) = pattern.position(row, column) {
-                        linearization.mass[position] = linearization.damping[position];
+                        weights[position] = linearization.damping[position];
                     }
                 }
             }
         }
         if inertias == Inertias::OfParts {
-            let pattern = system.structure().pattern.clone();
             let coordinates = system.joints().iter().flat_map(|joint| &joint.coordinates);
-            for row in coordinates.map(|&coordinate| system.layout().row_of_coordinate(coordinate)) {
+            for row in coordinates.map(|&coordinate| layout.row_of_coordinate(coordinate)) {
                 for &other in pattern.column(row) {
                     for (row, column) in [(row, other), (other, row)] {
                         if let Some(position) = pattern.position(row, column) {
-                            linearization.mass[position] = 0.0;
+                            weights[position] = 0.0;
                         }
                     }
                 }
             }
         }
-        self.linearization = linearization;
-        self.factor_inertias(system)
     }
 
-    fn factor_inertias(&mut self, system: &System) -> Result<(), InitialError> {
+    fn factor_weights(&mut self, system: &System) -> Result<(), InitialError> {
         let layout = system.layout();
-        let Linearization { mass, gram, constraint, .. } = &self.linearization;
+        let Linearization { gram, constraint, .. } = &self.linearization;
         for (i, value) in self.saddle.matrices.values.iter_mut().enumerate() {
-            *value = mass[i] + self.scale * (gram[i] + constraint[i]);
+            *value = self.weights[i] + self.scale * (gram[i] + constraint[i]);
         }
         let result = self.saddle.factor(system.structure(), self.scale).map(|_| ());
         result.map_err(|error| match error {
@@ -196,7 +154,7 @@ impl ConsistentInitialConditions {
         Augmentation { weight: 0.0, radian: self.radian }
     }
 
-    fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
+    pub(super) fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
         Point {
             at,
             stressed: at,
@@ -213,7 +171,7 @@ impl ConsistentInitialConditions {
     }
 
     /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector.
-    fn solve(&mut self, system: &System, right: &mut [f64]) {
+    pub(super) fn solve(&mut self, system: &System, right: &mut [f64]) {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let original = right.to_vec();
@@ -235,14 +193,27 @@ impl ConsistentInitialConditions {
     }
 
     /// rest -= [M Bᵀ; B 0] x.
-    fn subtract_product(&self, system: &System, x: &[f64], rest: &mut [f64]) {
+    pub(super) fn subtract_product(&self, system: &System, x: &[f64], rest: &mut [f64]) {
         let pattern = &system.structure().pattern;
         for column in 0..pattern.size() {
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
             for position in range {
                 let row = pattern.row_indices()[position];
-                rest[row] -=
-                    (self.linearization.mass[position] + self.linearization.constraint[position]) * x[column];
+                rest[row] -= (self.weights[position] + self.linearization.constraint[position]) * x[column];
+            }
+        }
+    }
+
+    /// out += factor · K x over motions; equations of rates have no stiffness.
+    pub(super) fn add_stiffness_product(&self, system: &System, factor: f64, x: &[f64], out: &mut [f64]) {
+        let pattern = &system.structure().pattern;
+        let is_of_rates = rate_rows(system.layout());
+        for column in (0..system.layout().coordinate_count()).filter(|&column| !is_of_rates[column]) {
+            for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                let row = pattern.row_indices()[position];
+                if !is_of_rates[row] {
+                    out[row] += factor * self.linearization.stiffness[position] * x[column];
+                }
             }
         }
     }
@@ -272,33 +243,6 @@ impl ConsistentInitialConditions {
     pub fn velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
         self.factor(system, state, Inertias::All)?;
         Ok(self.project(system, state))
-    }
-
-    /// Velocities, accelerations and multipliers that agree with the places of `state`, to which a step of `step` [s] led: the
-    /// nearest velocities in the norm of inertia and of what damping adds over the step.
-    ///
-    /// # Errors
-    /// As [`velocities`](Self::velocities) and [`accelerations`](Self::accelerations).
-    pub(super) fn rates(
-        &mut self,
-        system: &System,
-        state: &mut State,
-        step: f64,
-    ) -> Result<(), InitialError> {
-        if self.relevant.as_ref().is_some_and(|relevant| !relevant.is_damped) {
-            self.factor(system, state, Inertias::All)?;
-            self.project(system, state);
-            // The matrix is one of places alone.
-            return self.factored_accelerations(system, state);
-        }
-        self.factor(system, state, Inertias::WithDamping(step))?;
-        self.project(system, state);
-        if self.relevant.is_none() {
-            return self.accelerations(system, state);
-        }
-        std::mem::swap(&mut self.linearization.mass, &mut self.undamped);
-        self.factor_inertias(system)?;
-        self.factored_accelerations(system, state)
     }
 
     /// The same for velocities that are given to parts: coordinates of joints follow, whatever mass they have of their own,
@@ -466,7 +410,7 @@ impl ConsistentInitialConditions {
     }
 
     /// Puts Ḃ v in the rows of constraints between velocities: their derivative by places, along the motion.
-    fn turn_slides(&self, system: &System, at: &Kinematics, rows: &mut [f64]) {
+    pub(super) fn turn_slides(&self, system: &System, at: &Kinematics, rows: &mut [f64]) {
         let layout = system.layout();
         if layout.impulses.is_empty() {
             return;
@@ -527,6 +471,13 @@ impl ConsistentInitialConditions {
     }
 }
 
+/// Which rows are equations of rates.
+fn rate_rows(layout: &Layout) -> Vec<bool> {
+    let mut is_of_rates = vec![false; layout.size()];
+    layout.rate_rows().for_each(|row| is_of_rates[row] = true);
+    is_of_rates
+}
+
 /// The state moved along its motion for a short time, to second order.
 fn moved(state: &State, time: f64) -> State {
     let mut moved = state.clone();
@@ -543,11 +494,11 @@ fn moved(state: &State, time: f64) -> State {
     moved
 }
 
-fn gather_rates(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
+pub(super) fn gather_rates(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
     gather(layout, at, out, |node| &node.twist, |coordinate| coordinate.rate);
 }
 
-fn gather_accelerations(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
+pub(super) fn gather_accelerations(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
     gather(layout, at, out, |node| &node.acceleration, |coordinate| coordinate.acceleration);
 }
 
@@ -568,7 +519,7 @@ fn gather(
     }
 }
 
-fn scatter_accelerations(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+pub(super) fn scatter_accelerations(layout: &Layout, values: &[f64], at: &mut Kinematics) {
     for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
         for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
             node.acceleration[k] = values[row as usize];

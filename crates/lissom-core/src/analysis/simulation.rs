@@ -83,6 +83,19 @@ impl Simulation {
         self.state.kinematics.time - self.previous.kinematics.time
     }
 
+    /// How long the step was from which velocities, accelerations and multipliers of the state follow [s]; 0 where they were made
+    /// consistent since, as after an event.
+    pub fn step_of_rates(&self) -> f64 {
+        // A side that was not known before is no change.
+        let first_side = self.system.signals().first_side();
+        let is_jump = |(index, (now, before)): (usize, (&f64, &f64))| {
+            now != before && (index < first_side || *before != 0.0)
+        };
+        let held = self.state.kinematics.held.iter().zip(&self.previous.kinematics.held);
+        let has_jumped = held.enumerate().any(is_jump);
+        if has_jumped { 0.0 } else { self.last_step() }
+    }
+
     /// A shared handle on the system.
     pub fn shared_system(&self) -> Arc<System> {
         Arc::clone(&self.system)

@@ -157,11 +157,13 @@ diagnostics! {
             missed: f64,
         } => "unresolved-rates" {
             time: *time,
-            cause: ("the steps are too long for velocities and forces: from t = {time:.6e} s on positions satisfy joints and drives, but \
-                    their rates have an error of {:.1} % of the speed of the model, and forces a larger one", 100.0 * missed),
+            cause: ("the steps are too long for velocities and forces that signals and events read: from t = {time:.6e} s on positions \
+                    satisfy joints and drives, but their rates have an error of {:.1} % of the speed of the model, and forces a larger \
+                    one", 100.0 * missed),
             remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "Fixed steps satisfy the constraints of joints and drives, but not their rates: the mean error of the constraint rates \
-                over the sampled steps exceeds 2 % of the speed. Velocities have the same error, accelerations and forces a larger one.",
+                over the sampled steps exceeds 2 % of the speed. Signals and events read velocities with the same error, accelerations and forces \
+                with a larger one. Recorded outputs are recovered from the positions and do not have it.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
         /// Steps of planned size do not resolve the motion.

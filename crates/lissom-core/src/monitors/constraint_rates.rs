@@ -1,5 +1,6 @@
 //! Violation of velocity constraints. Schemes satisfy the constraints of position, and their rates only as well as the step
-//! resolves the motion. If drives or loops prescribe the positions, nothing else shows that steps are too long.
+//! resolves the motion. If drives or loops prescribe the positions, nothing else shows that steps are too long for signals and events that
+//! depend on velocities.
 //!
 //! ```text
 //! B v + ∂c/∂t ≈ (c(q + ε v, t + ε) - c(q, t))/ε
@@ -33,8 +34,11 @@ struct ConstraintRates {
 }
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
-    let rates = ConstraintRates::new(beginning.problem.system, &beginning.state.kinematics);
-    beginning.is_planned_motion().then(|| Box::new(rates) as Box<dyn Monitor>)
+    let system = beginning.problem.system;
+    let rates = ConstraintRates::new(system, &beginning.state.kinematics);
+    // What is recorded follows from the positions; what signals read are the scheme's velocities.
+    let is_read = !(system.signals().signals().is_empty() && system.signals().events().is_empty());
+    (is_read && beginning.is_planned_motion()).then(|| Box::new(rates) as Box<dyn Monitor>)
 }
 
 impl Monitor for ConstraintRates {

@@ -41,6 +41,8 @@ pub(crate) enum Feature {
     Point,
     /// It depends on velocities, accelerations or forces of constraints.
     Rates,
+    /// It is a force within the model, which deformation determines.
+    InternalForces,
     /// It depends on the whole motion since the start.
     Accumulated,
 }

@@ -16,7 +16,7 @@ pub(crate) const SECTION_FORCE: Declaration = Declaration {
     word: "section_force",
     summary: "Axial and shear forces in a beam, section axes.",
     subject: Subject::Section,
-    features: &[Feature::Fatigue],
+    features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[("f1", "N"), ("f2", "N"), ("f3", "N")],
     build: Build::Motion(|output, subjects| quantity(0, output, subjects)),
 };
@@ -25,7 +25,7 @@ pub(crate) const SECTION_MOMENT: Declaration = Declaration {
     word: "section_moment",
     summary: "Torsion and bending moments in a beam, section axes.",
     subject: Subject::Section,
-    features: &[Feature::Fatigue],
+    features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
     build: Build::Motion(|output, subjects| quantity(3, output, subjects)),
 };

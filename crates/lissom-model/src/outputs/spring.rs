@@ -18,7 +18,7 @@ pub(crate) const SPRING: Declaration = Declaration {
     word: "spring",
     summary: "Elongation or rotation of a spring, its rate, and its force or moment.",
     subject: Subject::Spring,
-    features: &[Feature::Fatigue, Feature::Rates],
+    features: &[Feature::Fatigue, Feature::InternalForces],
     components: &[("elongation", "m"), ("rate", "m/s"), ("force", "N")],
     build: Build::Element(Of::Spring, quantity),
 };

@@ -49,9 +49,25 @@ struct Neighbours {
 /// Method for the derivatives with respect to a number.
 enum Sensitivity {
     /// Direct differentiation, with this index; the neighbours are kept for their outputs.
-    Direct(usize, Vec<(Observed, f64)>),
+    Direct(usize, Vec<NeighbourOutputs>),
     /// The neighbours perform the steps themselves.
     FiniteDifference(Vec<(Session, f64)>),
+}
+
+/// A model with a slightly different number.
+struct Neighbour {
+    session: Session,
+    weight: f64,
+    /// Its number less that of the model.
+    distance: f64,
+}
+
+/// Its outputs.
+struct NeighbourOutputs {
+    observed: Observed,
+    weight: f64,
+    /// Its number less that of the model.
+    distance: f64,
 }
 
 /// All numbers, each with its method.
@@ -89,7 +105,7 @@ impl Question<'_> {
         path: &str,
         number: f64,
         (distance, is_fourth): (f64, bool),
-    ) -> Result<Vec<(Session, f64)>, GradientError> {
+    ) -> Result<Vec<Neighbour>, GradientError> {
         let apart = number * distance;
         let sides: &[(f64, f64)] = if is_fourth {
             &[(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)]
@@ -109,7 +125,9 @@ impl Question<'_> {
             {
                 match self.moved_kink(&neighbour) {
                     Some(time) => Err(GradientError::KinkMoves { path: path.to_owned(), time }),
-                    None => Ok((neighbour, weight / apart)),
+                    None => {
+                        Ok(Neighbour { session: neighbour, weight: weight / apart, distance: side * apart })
+                    }
                 }
             } else {
                 Err(GradientError::Unlike(path.to_owned()))
@@ -154,17 +172,22 @@ impl ParameterSensitivities {
                     .neighbours(path, number, (AROUND, true))
                     .or_else(|_| question.neighbours(path, number, (NEAR, false)))?;
                 let simulations: Vec<(&Simulation, f64)> =
-                    sessions.iter().map(|(session, weight)| (session.simulation(), *weight)).collect();
+                    sessions.iter().map(|near| (near.session.simulation(), near.weight)).collect();
                 if sensitivities.add(base, &simulations) {
                     count += 1;
-                    let observed = |(session, weight): (Session, f64)| (session.into_observed(), weight);
+                    let outputs = |Neighbour { session, weight, distance }| NeighbourOutputs {
+                        observed: session.into_observed(),
+                        weight,
+                        distance,
+                    };
                     let sensitivity =
-                        Sensitivity::Direct(count - 1, sessions.into_iter().map(observed).collect());
+                        Sensitivity::Direct(count - 1, sessions.into_iter().map(outputs).collect());
                     return Ok(Neighbours { path: path.clone(), number, sensitivity });
                 }
             }
-            let sensitivity =
-                Sensitivity::FiniteDifference(question.neighbours(path, number, (APART, false))?);
+            let sessions = question.neighbours(path, number, (APART, false))?;
+            let sessions = sessions.into_iter().map(|near| (near.session, near.weight)).collect();
+            let sensitivity = Sensitivity::FiniteDifference(sessions);
             Ok(Neighbours { path: path.clone(), number, sensitivity })
         };
         let numbers = paths.iter().map(&mut of).collect::<Result<Vec<_>, GradientError>>()?;
@@ -203,15 +226,24 @@ impl ParameterSensitivities {
                 Sensitivity::FiniteDifference(sessions) => {
                     let of = |(session, weight): &(Session, f64)| {
                         let simulation = session.simulation();
-                        weight * session.observed().value(column, simulation.state(), simulation.last_step())
+                        weight
+                            * session.observed().value(column, simulation.state(), simulation.step_of_rates())
                     };
                     return sessions.iter().map(of).sum();
                 }
             };
             let Some(sensitivities) = &*sensitivities else { return f64::NAN };
+            // Stiff parts of a neighbour would be strained by its number in the state of the model itself.
+            if session.observed().recovers(column) {
+                let mut along = |near: &NeighbourOutputs| {
+                    sensitivities.displace(base, index, near.distance, state);
+                    near.weight * near.observed.value(column, state, base.step_of_rates())
+                };
+                return observed.iter().map(&mut along).sum();
+            }
             // The column itself may depend on the number: by the location and reference of its measurement.
-            let of = |(observed, weight): &(Observed, f64)| {
-                weight * observed.value(column, base.state(), base.last_step())
+            let of = |near: &NeighbourOutputs| {
+                near.weight * near.observed.value(column, base.state(), base.step_of_rates())
             };
             let directly: f64 = observed.iter().map(of).sum();
             let extent = sensitivities.extent(base, index);
@@ -249,7 +281,7 @@ fn along(
     let simulation = session.simulation();
     let [below, above] = [-share, share].map(|share| {
         sensitivities.displace(simulation, index, share, state);
-        session.observed().value(column, state, simulation.last_step())
+        session.observed().value(column, state, simulation.step_of_rates())
     });
     (above - below) / (2.0 * share)
 }

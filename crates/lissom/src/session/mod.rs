@@ -236,12 +236,12 @@ impl Session {
 
     /// Appends the present values of all columns.
     pub fn values(&self, out: &mut Vec<f64>) {
-        self.observed.values(self.simulation.state(), self.simulation.last_step(), out);
+        self.observed.values(self.simulation.state(), self.simulation.step_of_rates(), out);
     }
 
     /// The present values of one channel.
     fn values_of(&self, channel: &Channel) -> Vec<f64> {
-        self.observed.values_of(channel, self.simulation.state(), self.simulation.last_step())
+        self.observed.values_of(channel, self.simulation.state(), self.simulation.step_of_rates())
     }
 
     /// The present value of a signal, an input or a state, or of a column, such as `tip.u1`; none if the name is unknown.

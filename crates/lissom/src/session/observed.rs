@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lissom_core::analysis::{ConsistentRates, Simulation};
+use lissom_core::analysis::{Recovered, Recovery, Simulation};
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 
@@ -10,15 +10,15 @@ use lissom_model::channels::Channel;
 pub(crate) struct Observed {
     system: Arc<System>,
     channels: Vec<Channel>,
-    /// For motions prescribed by drives, if any output contains rates.
-    consistent_rates: Option<Mutex<ConsistentRates>>,
+    /// Of motions, if any output depends on more than positions.
+    recovery: Option<Mutex<Recovery>>,
 }
 
 impl Observed {
     pub(super) fn new(simulation: &Simulation, channels: Vec<Channel>) -> Self {
-        let is_reported = channels.iter().any(Channel::reports_rates);
-        let consistent_rates = is_reported.then(|| ConsistentRates::of(simulation)).flatten().map(Mutex::new);
-        Self { system: simulation.shared_system(), channels, consistent_rates }
+        let is_recovered = channels.iter().any(is_recovered);
+        let recovery = is_recovered.then(|| Recovery::of(simulation)).flatten().map(Mutex::new);
+        Self { system: simulation.shared_system(), channels, recovery }
     }
 
     /// The outputs, as they are evaluated.
@@ -28,39 +28,60 @@ impl Observed {
 
     /// Appends the values of all channels in a state at the end of a step of `step` [s].
     pub(crate) fn values(&self, state: &State, step: f64, out: &mut Vec<f64>) {
-        let consistent = self.consistent(state, step);
-        self.channels.iter().for_each(|channel| self.evaluate(channel, (state, consistent.as_ref()), out));
+        let recovered = self.recovered(state, step);
+        self.channels.iter().for_each(|channel| self.evaluate(channel, (state, recovered.as_ref()), out));
     }
 
     /// The values of one channel.
     pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64) -> Vec<f64> {
         let mut values = Vec::new();
-        let consistent = channel.reports_rates().then(|| self.consistent(state, step)).flatten();
-        self.evaluate(channel, (state, consistent.as_ref()), &mut values);
+        let recovered = is_recovered(channel).then(|| self.recovered(state, step)).flatten();
+        self.evaluate(channel, (state, recovered.as_ref()), &mut values);
         values
     }
 
     /// The value of a column, counted over all channels.
     pub(crate) fn value(&self, column: usize, state: &State, step: f64) -> f64 {
+        let found = self.channel_of(column);
+        found.map_or(f64::NAN, |(channel, component)| self.values_of(channel, state, step)[component])
+    }
+
+    /// Whether a column is recovered from the positions.
+    pub(crate) fn recovers(&self, column: usize) -> bool {
+        self.recovery.is_some() && self.channel_of(column).is_some_and(|(channel, _)| is_recovered(channel))
+    }
+
+    /// Channel and component of a column.
+    fn channel_of(&self, column: usize) -> Option<(&Channel, usize)> {
         let mut first = 0;
-        for channel in &self.channels {
-            let count = channel.components.len();
-            if column < first + count {
-                return self.values_of(channel, state, step)[column - first];
-            }
-            first += count;
-        }
-        f64::NAN
+        self.channels.iter().find_map(|channel| {
+            let begin = first;
+            first += channel.components.len();
+            (column < first).then_some((channel, column - begin))
+        })
     }
 
-    fn evaluate(&self, channel: &Channel, (state, consistent): (&State, Option<&State>), out: &mut Vec<f64>) {
-        let state_of_rates = consistent.filter(|_| channel.reports_rates());
-        channel.evaluate(&self.system, state_of_rates.unwrap_or(state), out);
+    fn evaluate(
+        &self,
+        channel: &Channel,
+        (state, recovered): (&State, Option<&Recovered>),
+        out: &mut Vec<f64>,
+    ) {
+        let state = match recovered {
+            Some(recovered) if channel.reports_internal_forces() => &recovered.forces,
+            Some(recovered) if channel.reports_rates() => &recovered.rates,
+            _ => state,
+        };
+        channel.evaluate(&self.system, state, out);
     }
 
-    /// The state with rates, accelerations and constraint forces that are consistent with its positions.
-    fn consistent(&self, state: &State, step: f64) -> Option<State> {
-        let rates = self.consistent_rates.as_ref()?;
-        rates.lock().unwrap_or_else(PoisonError::into_inner).state(&self.system, state, step)
+    fn recovered(&self, state: &State, step: f64) -> Option<Recovered> {
+        let recovery = self.recovery.as_ref()?;
+        recovery.lock().unwrap_or_else(PoisonError::into_inner).recover(&self.system, state, step)
     }
+}
+
+/// Whether it depends on more than positions.
+fn is_recovered(channel: &Channel) -> bool {
+    channel.reports_rates() || channel.reports_internal_forces()
 }
