@@ -170,6 +170,11 @@ impl Workspace {
         }
     }
 
+    /// From residuals in SI to right-hand sides of the tangent in use.
+    pub(crate) fn row_factors(&self) -> &[f64] {
+        &self.row_factors
+    }
+
     /// Makes the next first guess from the scheme alone.
     pub(crate) fn forget_predictions(&mut self) {
         self.predictors.iter_mut().for_each(Predictor::forget);

@@ -2,6 +2,7 @@
 //! the result.
 
 mod attempt;
+mod defect;
 pub(crate) mod error_estimate;
 mod history;
 
@@ -38,6 +39,8 @@ pub(crate) struct Integrator {
     /// The scaling of the tangent in use, for the size of the last attempt.
     pub(crate) scaled: Scaled,
     pub(crate) work: Box<Workspace>,
+    /// The middle of a step, where its defect is evaluated.
+    middle: Box<defect::Middle>,
     pub(crate) jacobian_state: JacobianState,
     /// For schemes whose memory depends on the step size.
     pub(crate) history: Option<IntegratorHistory>,
@@ -78,6 +81,7 @@ impl Integrator {
             representative,
             scaled,
             work: Box::new(work),
+            middle: Box::new(defect::Middle::new(state)),
             jacobian_state: JacobianState::default(),
             history,
             projection,

@@ -1,0 +1,90 @@
+//! Defect of the equations between the ends of a step: Newton's correction in the middle of the dense output.
+//!
+//! Legend: q(½) dense output, its accelerations and multipliers interpolated linearly, r residual of the equations of motion, C
+//! violation of the constraints, J tangent of the step with its constraints, δ defect as a displacement.
+//!
+//! ```text
+//! J [δ; ·] = [M a + f(q, v, t) + Bᵀ λ; C(q(½)) - (C_start + C_end)/2]
+//! ```
+//!
+//! A solution satisfies the equations at the stages only. A long step can lead from one branch of equilibria to another where
+//! branches come close, for example where the links of a loop are in line: residual and error estimate at its ends are
+//! correct, and a path between them does not exist. The motion in between violates the equations. For a smooth motion δ is
+//! the error of the dense output, O(h⁴). Violations that the ends have by round-off are no defect of the step.
+
+use super::Integrator;
+use crate::analysis::Problem;
+use crate::joints::evaluation_point::{Increments, Point};
+use crate::kinematics::MotionChange;
+use crate::stepping::dense;
+use crate::system::State;
+
+/// The middle of the step: the cubic through both ends errs most there.
+const MIDDLE: f64 = 0.5;
+
+/// Storage for the state in the middle of a step.
+pub(super) struct Middle {
+    state: State,
+    unmoved: Vec<MotionChange>,
+    unchanged: Vec<f64>,
+}
+
+impl Middle {
+    /// Storage for states such as this one.
+    pub(super) fn new(state: &State) -> Self {
+        let kinematics = &state.kinematics;
+        Self {
+            state: state.clone(),
+            unmoved: vec![MotionChange::none(); kinematics.nodes.len()],
+            unchanged: vec![0.0; kinematics.coordinates.len()],
+        }
+    }
+}
+
+impl Integrator {
+    /// The largest scaled displacement of the defect in the middle of the last attempt, which led from one of these states to
+    /// the other. NaN if the equations have no value there.
+    pub(crate) fn defect(
+        &mut self,
+        Problem { system, settings }: Problem<'_>,
+        (from, to): (&State, &State),
+    ) -> f64 {
+        let Self { middle, work, scaled, .. } = self;
+        let Middle { state, unmoved, unchanged } = &mut **middle;
+        dense::at_share(from, to, MIDDLE, state);
+        system.violations(&state.kinematics, &mut state.violations);
+        let ends = from.violations.iter().zip(&to.violations);
+        for (violation, (start, end)) in state.violations.iter_mut().zip(ends) {
+            *violation -= 0.5 * (start + end);
+        }
+        let at = &state.kinematics;
+        let point = Point {
+            at,
+            stressed: at,
+            increments: Increments { start: at, nodes: unmoved, coordinates: unchanged, joints: None },
+            multipliers: &state.multipliers,
+            violations: &state.violations,
+            augmentation: scaled.augmentation(),
+        };
+        let mut residuals = std::mem::take(&mut work.residuals);
+        for residual in &mut residuals {
+            system.residual(&point, residual);
+            residual.iter_mut().zip(work.row_factors()).for_each(|(value, factor)| *value *= factor);
+        }
+        work.tangent.matrices.solve(&settings.scheme.coupling, &mut residuals);
+        let mut largest = 0.0_f64;
+        if let Some(last) = residuals.last_mut() {
+            work.tangent.scale(last);
+            for (value, size) in last.iter().zip(&work.sizes) {
+                let displacement = (value * size).abs();
+                // A NaN counts as the largest.
+                if largest.is_nan() || displacement <= largest {
+                    continue;
+                }
+                largest = displacement;
+            }
+        }
+        work.residuals = residuals;
+        largest
+    }
+}
