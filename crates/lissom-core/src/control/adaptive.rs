@@ -22,8 +22,8 @@ const MAX_GROWTH: f64 = 5.0;
 /// Fraction of the tolerance allowed for a step whose estimate is of lower order than its scheme: such steps are few.
 const FIRST: f64 = 0.1;
 /// Largest defect in the middle of a step, as a fraction of the reference, if the tolerance is not smaller: a tolerance coarser
-/// than the distance of two branches does not distinguish them. Of a four-bar whose links pass through one line, all schemes
-/// find the branch with seven times this limit.
+/// than the distance of two branches does not distinguish them. Of a four-bar whose links pass through one line, generalized-α,
+/// HHT and Radau IIA find the branch with seven times this limit.
 const MAX_DEFECT: f64 = 1e-3;
 /// Defects below this fraction of the allowed one are not expected to exceed it in the next step, which is at most five times as
 /// long.

@@ -189,7 +189,7 @@ fn four_bar_follows_its_branch() {
     }
 }
 
-/// The same with finer tolerances, in a quarter of an hour.
+/// The same with finer tolerances.
 #[test]
 #[ignore = "long"]
 fn four_bar_follows_its_branch_with_fine_tolerances() {
