@@ -8,6 +8,7 @@ use crate::judge::Warning;
 use crate::linear::{
     BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
 };
+use crate::stepping::SnapshotError;
 
 /// Their entries: warnings, then failures.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
@@ -15,7 +16,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
     Warning::ENTRIES.iter().chain(of_motions).chain([&signal_failure::ENTRY]).chain(of_analyses())
 }
 
-/// Those of assembly, paths and linear models, which do not concern a motion.
+/// Those of assembly, paths, linear models and snapshots, which do not concern a motion.
 pub(crate) fn of_analyses() -> impl Iterator<Item = &'static Entry> {
     let parts = [
         AssemblyError::ENTRIES,
@@ -27,6 +28,7 @@ pub(crate) fn of_analyses() -> impl Iterator<Item = &'static Entry> {
         ReductionError::ENTRIES,
         ResponseError::ENTRIES,
         StateSpaceError::ENTRIES,
+        SnapshotError::ENTRIES,
     ];
     parts.into_iter().flatten()
 }

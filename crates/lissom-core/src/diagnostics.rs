@@ -49,8 +49,8 @@ pub enum Value {
 /// A warning or failure, for programs. It is rendered as "cause; remedy".
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Its code, if it is an entry of the catalogue.
-    pub code: Option<&'static str>,
+    /// Its code in the catalogue.
+    pub code: &'static str,
     /// Whether it is a warning.
     pub severity: Severity,
     /// Time [s], if there is one.
@@ -72,17 +72,9 @@ pub trait Diagnose {
 }
 
 impl Diagnostic {
-    /// A failure that has no entry in the catalogue, such as a request that a command rejects: its sentence is the cause.
-    pub fn uncatalogued(sentence: &dyn Display) -> Self {
-        Self {
-            code: None,
-            severity: Severity::Failure,
-            time: None,
-            subject: None,
-            values: Vec::new(),
-            cause: sentence.to_string(),
-            remedy: String::new(),
-        }
+    /// A diagnostic of an entry without values.
+    pub fn of(entry: &Entry, cause: impl Into<String>, remedy: impl Into<String>) -> Self {
+        crate::catalogued::diagnostic(entry, Vec::new(), cause.into(), remedy.into())
     }
 
     /// The same, in a wider context: `context` precedes the cause.
@@ -127,12 +119,15 @@ macro_rules! value_from {
 
 value_from! {
     f64, own => Self::Number(*own);
+    u32, own => Self::Count(*own as usize);
     usize, own => Self::Count(*own);
     bool, own => Self::Flag(*own);
     String, own => Self::Text(own.clone());
     &'static str, own => Self::Text((*own).to_owned());
     Subject, own => Self::Text(own.to_string());
     [String; 2], own => Self::Text(own.join(", "));
+    std::io::Error, own => Self::Text(own.to_string());
+    crate::registry::ParameterError, own => Self::Text(own.to_string());
 }
 
 /// Defines an enumeration of warnings or failures with its entries of the catalogue.
@@ -187,7 +182,7 @@ macro_rules! diagnostics {
                 match self {
                     $(Self::$variant { .. } => $code,)*
                     $($(Self::$wrap { .. } => {
-                        $crate::diagnostics::Diagnose::diagnostic(self).code.unwrap_or_default()
+                        $crate::diagnostics::Diagnose::diagnostic(self).code
                     })*)?
                 }
             }
@@ -205,7 +200,7 @@ macro_rules! diagnostics {
                     $(Self::$variant { $($field),* } => {
                         let values = [$((stringify!($field), $crate::diagnostics::Value::from($field))),*];
                         $crate::diagnostics::Diagnostic {
-                            code: Some($code),
+                            code: $code,
                             severity: $crate::diagnostics::Severity::$severity,
                             time: [$($time)?].into_iter().next().filter(|time: &f64| time.is_finite()),
                             subject: [$($crate::kinematics::Subject::from($subject))?].into_iter().next(),
@@ -243,6 +238,7 @@ pub(crate) mod tests {
     use crate::linear::{
         BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
     };
+    use crate::stepping::SnapshotError;
 
     /// A name with all characters that separate parts of sentences.
     const NAME: &str = "a`; b` = c: d";
@@ -268,6 +264,7 @@ pub(crate) mod tests {
         StepError => StepError::TurnsTooFar { time: 0.25, node: NAME.to_owned(), angle: 2.0 };
         Vec<Gap> => vec![Gap { joint: NAME.to_owned(), distance: Some(0.25), angle: None }];
         usize => 3;
+        u32 => 3;
         bool => true;
         String => NAME.to_owned();
         &'static str => "try this";
@@ -290,6 +287,7 @@ pub(crate) mod tests {
             of(&ReductionError::samples()),
             of(&ResponseError::samples()),
             of(&StateSpaceError::samples()),
+            of(&SnapshotError::samples()),
         ];
         parts.into_iter().flatten()
     }
@@ -316,7 +314,7 @@ pub(crate) mod tests {
     #[test]
     fn every_code_has_an_entry_and_every_entry_a_code() {
         let codes: Vec<&str> = crate::catalogue::entries().map(|entry| entry.code).collect();
-        let made: Vec<&str> = all().iter().map(|diagnostic| diagnostic.code.unwrap()).collect();
+        let made: Vec<&str> = all().iter().map(|diagnostic| diagnostic.code).collect();
         assert_eq!(made, codes);
         let distinct: std::collections::BTreeSet<&str> = codes.iter().copied().collect();
         assert_eq!(distinct.len(), codes.len(), "{codes:?}");
@@ -351,7 +349,7 @@ pub(crate) mod tests {
             InitialError::ENTRIES.iter().chain(InputError::ENTRIES).map(|entry| entry.code).collect();
         let of_analyses: Vec<&str> = crate::catalogue::of_analyses().map(|entry| entry.code).collect();
         for diagnostic in all() {
-            let code = diagnostic.code.unwrap();
+            let code = diagnostic.code;
             let text = diagnostic.to_string();
             assert!(text.starts_with(&diagnostic.cause) && text.ends_with(&diagnostic.remedy), "{code}");
             // Many analyses concern the whole model, at no time.

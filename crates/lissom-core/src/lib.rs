@@ -11,6 +11,7 @@ pub use lissom_system as system;
 pub mod analysis;
 mod bytes;
 pub mod catalogue;
+pub mod catalogued;
 pub(crate) mod control;
 pub mod diagnostics;
 pub(crate) mod integrator;

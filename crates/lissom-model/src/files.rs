@@ -3,6 +3,7 @@
 //! overwritten, by any path or link. Only regular files are read and written. Whole files are replaced atomically: after a
 //! failure the file has its earlier contents, or does not exist.
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufWriter, Write};
@@ -25,7 +26,7 @@ pub enum Action {
 
 /// A file that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot {} `{}`: {reason}", words(*.action), .path.display())]
+#[error("{}", self.diagnostic())]
 pub struct FileError {
     /// The operation.
     pub action: Action,
@@ -38,14 +39,6 @@ pub struct FileError {
     /// The system's error.
     #[source]
     pub source: io::Error,
-}
-
-fn words(action: Action) -> &'static str {
-    match action {
-        Action::Read => "read",
-        Action::Write => "write",
-        Action::CreateFolder => "create the folder",
-    }
 }
 
 /// How names of unfinished files begin.

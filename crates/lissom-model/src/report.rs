@@ -480,7 +480,7 @@ impl fmt::Display for Report {
 impl std::error::Error for Report {}
 
 /// Entry of the catalogue for errors of a model file.
-pub const MODEL_FILE: Entry = Entry {
+pub(crate) const MODEL_FILE: Entry = Entry {
     code: "model-file",
     variant: "Report",
     severity: diagnostics::Severity::Failure,
@@ -497,7 +497,7 @@ impl Diagnose for Report {
         let first = self.to_value().get(0).cloned().unwrap_or_default();
         let part = first["part"].as_str().filter(|part| !part.is_empty());
         Diagnostic {
-            code: Some(MODEL_FILE.code),
+            code: MODEL_FILE.code,
             severity: MODEL_FILE.severity,
             time: None,
             subject: part.map(|part| Subject::new("", part).called(format!("`{part}`"))),

@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use lissom::core::diagnostics::Value;
 use lissom::sweep::{SweepError, SweepFolderError};
-use lissom::{Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};
+use lissom::{CommandError, Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -82,8 +82,12 @@ fn with(error: PyErr, diagnostic: &Diagnostic) -> PyErr {
 
 /// An argument that cannot be read.
 pub(crate) fn question(words: impl Into<String>) -> PyErr {
-    let words = words.into();
-    with(ModelError::new_err(words.clone()), &Diagnostic::uncatalogued(&words))
+    request(&CommandError::Request(words.into()))
+}
+
+/// An argument with an invalid value.
+pub(crate) fn value_error(error: &(impl Diagnose + Display)) -> PyErr {
+    with(PyValueError::new_err(error.to_string()), &error.diagnostic())
 }
 
 /// A request that is invalid for a model.
@@ -124,15 +128,14 @@ pub(crate) fn of_session(error: &SessionError) -> PyErr {
 
 /// A file that cannot be used.
 pub(crate) fn of_file(error: &FileError) -> PyErr {
-    let help = error.help.as_ref().map_or_else(String::new, |help| format!("; {help}"));
-    PyOSError::new_err(format!("{error}{help}"))
+    with(PyOSError::new_err(error.to_string()), &error.diagnostic())
 }
 
 /// Results that cannot be read.
 pub(crate) fn of_folder(error: &FolderError) -> PyErr {
     match error {
         FolderError::File(error) => of_file(error),
-        other => PyValueError::new_err(other.to_string()),
+        other => value_error(other),
     }
 }
 
@@ -148,6 +151,6 @@ pub(crate) fn of_sweep(error: &SweepError) -> PyErr {
 pub(crate) fn of_sweep_folder(error: &SweepFolderError) -> PyErr {
     match error {
         SweepFolderError::File(error) => of_file(error),
-        other => PyValueError::new_err(other.to_string()),
+        other => value_error(other),
     }
 }

@@ -5,6 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lissom::core::analysis::InputError;
 use lissom::core::judge::Warning;
+use lissom::core::stepping::SnapshotError;
 use lissom::{Document, Session, SessionSnapshot};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -12,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::analyses::linearize_here;
-use crate::errors::solution;
+use crate::errors::{solution, value_error};
 use crate::model::NativeModel;
 use crate::watch::Watch;
 
@@ -218,9 +219,7 @@ impl Simulation {
             let mut inner = self.lock();
             inner.are_current = false;
             inner.session.set_input(name, value).map_err(|error| match error {
-                InputError::Unknown { .. } | InputError::NotFinite { .. } => {
-                    PyValueError::new_err(error.to_string())
-                }
+                InputError::Unknown { .. } | InputError::NotFinite { .. } => value_error(&error),
                 other => solution(&other),
             })
         })
@@ -268,8 +267,7 @@ impl Simulation {
     /// Raises `ValueError` if the bytes are no snapshot of this model and version; the simulation is then as it was.
     fn restore(&self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
         py.detach(|| {
-            let refused =
-                |error: lissom::core::stepping::SnapshotError| PyValueError::new_err(error.to_string());
+            let refused = |error: SnapshotError| value_error(&error);
             let (of, bytes) = snapshot
                 .split_first_chunk()
                 .ok_or_else(|| PyValueError::new_err("the bytes are no snapshot: there are too few"))?;

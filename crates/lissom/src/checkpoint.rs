@@ -1,6 +1,7 @@
 //! Resumption of an interrupted run: the file `checkpoint.lissom` in its folder contains the model, the options and a
 //! snapshot. It is replaced as a whole, so that there is one at any moment.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -69,19 +70,14 @@ pub struct Checkpoint {
 
 /// Why the run of a folder cannot be resumed.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum CheckpointError {
     /// There is no checkpoint.
-    #[error(
-        "there is no checkpoint in `{0}`: the run has ended, or was started without `--checkpoint-every`; \
-         run the model again"
-    )]
     Missing(String),
     /// The file is not a checkpoint, or one of another version.
-    #[error("`{0}` is not a checkpoint of this version of the program: run the model again")]
     Unreadable(String),
     /// A file cannot be read or written.
-    #[error(transparent)]
     File(#[from] FileError),
 }
 

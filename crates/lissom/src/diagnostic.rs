@@ -1,7 +1,6 @@
 //! Diagnostics of analyses and runs: their contents, and the catalogue of all codes.
 
 use lissom_core::diagnostics::{Diagnose, Entry, Value};
-use lissom_model::MODEL_FILE;
 use serde_json::json;
 
 use crate::{failures, gradient};
@@ -9,7 +8,8 @@ use crate::{failures, gradient};
 /// All codes of warnings and failures, with their meaning.
 pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
     let of_core = lissom_core::catalogue::entries();
-    of_core.chain(gradient::ENTRIES).chain([&MODEL_FILE]).chain(failures::ENTRIES)
+    let of_model = lissom_model::failures::entries();
+    of_core.chain(gradient::ENTRIES).chain(of_model).chain(failures::entries())
 }
 
 /// A failure for `summary.json`, without the message.
@@ -80,10 +80,7 @@ mod tests {
         let wrong =
             crate::Model::from_text("a.toml", "lissom = 1\ngravitiy = 1\n").document(&[]).unwrap_err();
         let diagnostic = wrong.diagnostic();
-        assert_eq!(
-            (diagnostic.code, diagnostic.cause.as_str()),
-            (Some("model-file"), wrong.to_string().as_str())
-        );
+        assert_eq!((diagnostic.code, diagnostic.cause.as_str()), ("model-file", wrong.to_string().as_str()));
         assert!(!diagnostic.remedy.is_empty());
         let wrapped = crate::SessionError::Model(wrong);
         assert_eq!(wrapped.diagnostic(), diagnostic);

@@ -1,117 +1,44 @@
-//! Table of the failures of analyses, sweeps and units: code, values, cause, remedy and explanation of each.
+//! Table of the failures of analyses, sweeps, studies, results and units: code, values, cause, remedy and explanation of each.
 //!
 //! The enumerations are defined with their analyses. A new variant is an entry here, and `#[error("{}", self.diagnostic())]`
-//! above it. The catalogue, the chapter on warnings and `lissom explain` are generated from the table.
+//! above its enumeration. The catalogue, the chapter on warnings and `lissom explain` are generated from the table.
 
-use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
-use lissom_core::registry::ParameterError;
+use lissom_core::catalogued;
+use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity};
 
 use crate::buckling::BucklingRunError;
+use crate::builder::ForeignId;
 use crate::campbell::CampbellError;
+use crate::checkpoint::CheckpointError;
+use crate::command_error::CommandError;
+use crate::export::ExportError;
 use crate::fmu::FmuError;
+use crate::folder::FolderError;
 use crate::gradient::GradientError;
+use crate::import::ImportError;
 use crate::modes::ModesError;
+use crate::motion::{MotionError, VERSION};
 use crate::path::{PathRunError, PathSessionError};
+use crate::picture::PictureError;
 use crate::ports::PortError;
+use crate::prepared::PartError;
 use crate::prepared::StartError;
 use crate::reduce::ReduceError;
 use crate::report::RunError;
 use crate::response::FrequencyError;
+use crate::session::ReadError;
 use crate::session::SessionError;
+use crate::study::StudyError;
 use crate::sweep::SweepError;
+use crate::sweep::SweepFolderError;
 
-/// A field of a failure, as a value for programs.
-trait Field {
-    fn value(&self) -> Value;
+/// Entries of the catalogue.
+pub(crate) fn entries() -> impl Iterator<Item = &'static Entry> {
+    ENTRIES.iter().chain([&PICTURE, &FOREIGN_ID, &IMPORT])
 }
 
-impl Field for f64 {
-    fn value(&self) -> Value {
-        Value::Number(*self)
-    }
-}
-
-impl Field for usize {
-    fn value(&self) -> Value {
-        Value::Count(*self)
-    }
-}
-
-macro_rules! texts {
-    ($($type:ty),*) => {
-        $(impl Field for $type {
-            fn value(&self) -> Value {
-                Value::Text(self.to_string())
-            }
-        })*
-    };
-}
-
-texts!(String, &'static str, std::io::Error, ParameterError);
-
-/// A failure with these values; a value `time` is its time.
-fn failure(
-    code: &'static str,
-    values: Vec<(&'static str, Value)>,
-    cause: String,
-    remedy: String,
-) -> Diagnostic {
-    let time = values.iter().find_map(|(name, value)| match value {
-        Value::Number(time) if *name == "time" => Some(*time),
-        _ => None,
-    });
-    Diagnostic {
-        code: Some(code),
-        severity: Severity::Failure,
-        time: time.filter(|time| time.is_finite()),
-        subject: None,
-        values: values.into_iter().filter(|(name, _)| *name != "time").collect(),
-        cause,
-        remedy,
-    }
-}
-
-/// Entries of the catalogue and diagnostics of enumerations. Each field of a variant is followed by its name in the message and
-/// among the values. `wraps` has the variants that contain another failure.
-macro_rules! failures {
-    ($(
-        $type:ident {
-            $($variant:ident { $($field:tt => $name:ident),* } => $code:literal {
-                cause: $cause:literal,
-                remedy: $remedy:literal,
-                meaning: $meaning:literal,
-                advice: $advice:literal,
-            })*
-        } wraps {
-            $($wrap:ident { $($wrapped:tt => $inner:ident),* } => $made:expr,)*
-        }
-    )*) => {
-        /// Entries of the catalogue.
-        pub(crate) const ENTRIES: &[Entry] = &[$($(Entry {
-            code: $code,
-            variant: concat!(stringify!($type), "::", stringify!($variant)),
-            severity: Severity::Failure,
-            message: $cause,
-            meaning: $meaning,
-            advice: $advice,
-        },)*)*];
-
-        $(impl Diagnose for $type {
-            fn diagnostic(&self) -> Diagnostic {
-                match self {
-                    $(Self::$variant { $($field: $name),* } => {
-                        let values = vec![$((stringify!($name), Field::value($name))),*];
-                        failure($code, values, format!($cause), format!($remedy))
-                    })*
-                    $(Self::$wrap { $($wrapped: $inner),* } => $made,)*
-                }
-            }
-        })*
-    };
-}
-
-failures! {
-    SessionError {
+catalogued! {
+    Failure SessionError {
         NotInTime { 0 => kind } => "session-kind" {
             cause: "an analysis of kind `{kind}` has no time steps",
             remedy: "use an analysis of kind `dynamics` or `statics`",
@@ -123,7 +50,7 @@ failures! {
         Initial { 0 => error } => error.diagnostic(),
     }
 
-    StartError {
+    Failure StartError {
         OtherModel { what => what, found => found, wanted => wanted } => "state-of-other-model" {
             cause: "the state has {found} {what}, but the model has {wanted}",
             remedy: "use a state of this model",
@@ -146,7 +73,7 @@ failures! {
         Initial { 0 => error } => error.diagnostic(),
     }
 
-    RunError {
+    Failure RunError {
         Write { 0 => error } => "results-not-written" {
             cause: "the results cannot be written: {error}",
             remedy: "check the folder and the free disk space",
@@ -157,7 +84,7 @@ failures! {
         Step { 0 => error } => error.diagnostic(),
     }
 
-    PathRunError {
+    Failure PathRunError {
         Write { 0 => error } => "path-not-written" {
             cause: "the results cannot be written: {error}",
             remedy: "check the folder and the free disk space",
@@ -169,7 +96,7 @@ failures! {
         Model { 0 => report } => report.diagnostic(),
     }
 
-    PathSessionError {
+    Failure PathSessionError {
         NotAPath { 0 => kind } => "path-kind" {
             cause: "the analysis is of kind `{kind}`, not `path`",
             remedy: "set `analysis.kind` to `path`",
@@ -192,7 +119,7 @@ failures! {
         )),
     }
 
-    ModesError {
+    Failure ModesError {
         Time { time => time, reason => reason } => "linearization-time" {
             cause: "the model cannot be linearised at t = {time} s: {reason}",
             remedy: "choose a time of the analysis, `static` or `undeformed`",
@@ -251,7 +178,7 @@ failures! {
         Mode { 0 => error } => error.diagnostic(),
     }
 
-    PortError {
+    Failure PortError {
         Input { name => name, known => known } => "port-input" {
             cause: "the model has no input `{name}`; its inputs are {known}",
             remedy: "specify an entry of [inputs], a load or a prescribed motion",
@@ -286,7 +213,7 @@ failures! {
         Model { 0 => error } => error.diagnostic(),
     }
 
-    FrequencyError {
+    Failure FrequencyError {
         Range { from => from, to => to } => "response-range" {
             cause: "the frequencies are from {from} to {to} Hz",
             remedy: "both must be greater than zero, and the first smaller than the last",
@@ -308,7 +235,7 @@ failures! {
         Response { frequency => frequency, error => error } => error.diagnostic().within(&format!("at {frequency} Hz")),
     }
 
-    BucklingRunError {
+    Failure BucklingRunError {
         AlreadyCritical { 0 => load_factor } => "buckling-loads-critical" {
             cause: "the loads of the model exceed a critical load at load factor {load_factor:.6e}",
             remedy: "reduce the loads, or follow the equilibrium path by an analysis of kind `path`",
@@ -328,7 +255,7 @@ failures! {
         Buckling { 0 => error } => error.diagnostic(),
     }
 
-    CampbellError {
+    Failure CampbellError {
         Range { path => path, from => from, to => to } => "campbell-range" {
             cause: "`{path}` varies from {from} to {to}",
             remedy: "both must be finite, and different",
@@ -348,7 +275,7 @@ failures! {
         },
     }
 
-    GradientError {
+    Failure GradientError {
         Column { name => name, known => known } => "gradient-column" {
             cause: "the model has no output column `{name}`",
             remedy: "its columns are {known}",
@@ -419,7 +346,7 @@ failures! {
         Step { 0 => error } => error.diagnostic(),
     }
 
-    ReduceError {
+    Failure ReduceError {
         Question { 0 => reason } => "reduction-request" {
             cause: "{reason}",
             remedy: "",
@@ -444,7 +371,7 @@ failures! {
         Reduction { 0 => error } => error.diagnostic(),
     }
 
-    SweepError {
+    Failure SweepError {
         NotInTime { 0 => kind } => "sweep-kind" {
             cause: "an analysis of kind `{kind}` has no history from which scalars are collected",
             remedy: "use an analysis of kind `dynamics` or `statics`",
@@ -473,7 +400,7 @@ failures! {
         Model { 0 => report } => report.diagnostic(),
     }
 
-    FmuError {
+    Failure FmuError {
         NotInTime { 0 => kind } => "unit-kind" {
             cause: "an analysis of kind `{kind}` has no time steps, which a unit requires",
             remedy: "use an analysis of kind `dynamics` or `statics`",
@@ -494,5 +421,302 @@ failures! {
         }
     } wraps {
         Model { 0 => report } => report.diagnostic(),
+    }
+
+    Failure FolderError {
+        NoResults { path => path, is => content } => "no-results" {
+            cause: "`{path}` {content}",
+            remedy: "specify a folder of results, such as `lissom run MODEL.toml --out DIR` creates",
+            meaning: "The given path is not a folder with results of a run.",
+            advice: "Specify a folder of results, such as `lissom run MODEL.toml --out DIR` creates.",
+        }
+        NoMotion { path => path, holds => content, remedy => remedy } => "no-motion" {
+            cause: "`{path}` contains {content}",
+            remedy: "{remedy}",
+            meaning: "The results contain no recorded motion of a run.",
+            advice: "Run the model without `--no-plots`; shapes of modes are shown by `lissom view` and `lissom snapshot`.",
+        }
+    } wraps {
+        File { 0 => error } => error.diagnostic(),
+        Record { path => path, error => error } => error.diagnostic().within(&format!("`{path}`")),
+        Motion { path => path, error => error } => error.diagnostic().within(&format!("`{path}`")),
+        Scene { path => path, error => error } => error.diagnostic().within(&format!("`{path}`")),
+        Figure { 0 => error } => error.diagnostic(),
+    }
+
+    Failure MotionError {
+        Foreign {} => "motion-foreign" {
+            cause: "the file is not a motion file of this program",
+            remedy: "run the model again",
+            meaning: "A file in the place of a recorded motion, `motion.bin`, has other contents.",
+            advice: "Run the model again.",
+        }
+        Version { 0 => version } => "motion-version" {
+            cause: "the motion file is of version {version}, but this program reads version {VERSION}",
+            remedy: "run the model again",
+            meaning: "A motion was recorded by another version of the program.",
+            advice: "Run the model again.",
+        }
+        Damaged {} => "motion-damaged" {
+            cause: "the motion file is damaged, or belongs to another model",
+            remedy: "run the model again",
+            meaning: "A recorded motion ends before its first frame, has an invalid header, or does not fit the scene beside it.",
+            advice: "Run the model again.",
+        }
+        NotFinite { 0 => frame } => "motion-not-finite" {
+            cause: "frame {frame} of the motion contains a number that is not finite",
+            remedy: "run the model again",
+            meaning: "A recorded motion contains a number that is infinite or not a number.",
+            advice: "Run the model again.",
+        }
+    } wraps {}
+
+    Failure ExportError {
+        Empty {} => "export-empty" {
+            cause: "the motion has no frames",
+            remedy: "run the model again",
+            meaning: "The recorded motion to be exported has no frames.",
+            advice: "Run the model again.",
+        }
+        Archive { 0 => error } => "export-archive" {
+            cause: "the archive cannot be packed: {error}",
+            remedy: "request fewer frames or outputs",
+            meaning: "The archive of an export exceeds the limits of its format, or memory is insufficient.",
+            advice: "Request fewer frames or outputs.",
+        }
+        TooLarge {} => "export-too-large" {
+            cause: "the results exceed 4 GB, the limit of this format",
+            remedy: "request fewer frames or outputs",
+            meaning: "The format of an export addresses at most 4 GB.",
+            advice: "Request fewer frames or outputs, or use another format.",
+        }
+    } wraps {
+        File { 0 => error } => error.diagnostic(),
+    }
+
+    Failure PictureError {
+        Outside { time => time, first => first, last => last } => "picture-time" {
+            cause: "there is no motion at t = {time} s: it was recorded from {first} s to {last} s",
+            remedy: "choose an instant of the recorded motion",
+            meaning: "A picture was requested at an instant outside of the recorded motion.",
+            advice: "Choose an instant of the recorded motion.",
+        }
+        Empty {} => "picture-empty" {
+            cause: "the motion has no frames",
+            remedy: "run the model again",
+            meaning: "The recorded motion to be drawn has no frames.",
+            advice: "Run the model again.",
+        }
+        TooMany { count => count, most => most } => "picture-count" {
+            cause: "{count} pictures were requested",
+            remedy: "request 1 to {most}",
+            meaning: "A sheet or an animation was requested with no pictures, or with too many.",
+            advice: "Request fewer pictures.",
+        }
+    } wraps {
+        Drawing { 0 => error } => Diagnostic::of(
+            &PICTURE,
+            format!("the picture cannot be drawn: {error}"),
+            "choose another size, view or instant",
+        ),
+    }
+
+    Failure SweepFolderError {
+        OtherSweep { 0 => path } => "sweep-of-other-model" {
+            cause: "`{path}` holds another sweep: its model, its sweep file or the version of the program is different",
+            remedy: "choose another folder by `--out`, or discard its contents by `--restart`",
+            meaning: "The folder of a sweep has members of another sweep.",
+            advice: "Choose another folder by `--out`, or discard its contents by `--restart`.",
+        }
+        Busy { 0 => path } => "sweep-busy" {
+            cause: "another process is writing to `{path}`",
+            remedy: "wait for it, or choose another folder by `--out`",
+            meaning: "Two processes cannot write to the folder of one sweep.",
+            advice: "Wait for the other process, or choose another folder by `--out`.",
+        }
+        Damaged { path => path, line => line } => "sweep-damaged" {
+            cause: "line {line} of `{path}` is not a member of this sweep",
+            remedy: "discard the contents of the folder by `--restart`",
+            meaning: "The record of the completed members of a sweep has an invalid line.",
+            advice: "Discard the contents of the folder by `--restart`.",
+        }
+    } wraps {
+        File { 0 => error } => error.diagnostic(),
+    }
+
+    Failure CheckpointError {
+        Missing { 0 => path } => "checkpoint-missing" {
+            cause: "there is no checkpoint in `{path}`: the run has ended, or was started without `--checkpoint-every`",
+            remedy: "run the model again",
+            meaning: "A run cannot be resumed without a checkpoint, which is removed at the end of a run.",
+            advice: "Run the model again, with `--checkpoint-every`.",
+        }
+        Unreadable { 0 => path } => "checkpoint-version" {
+            cause: "`{path}` is not a checkpoint of this version of the program",
+            remedy: "run the model again",
+            meaning: "A checkpoint is damaged, or was written by another version of the program.",
+            advice: "Run the model again.",
+        }
+    } wraps {
+        File { 0 => error } => error.diagnostic(),
+    }
+
+    Failure StudyError {
+        NotDynamic {} => "study-kind" {
+            cause: "this study requires time steps, which the analysis of the model does not have",
+            remedy: "use an analysis of kind `dynamics`",
+            meaning: "A study compares time steps or step sizes, which an analysis of another kind does not have.",
+            advice: "Use an analysis of kind `dynamics`.",
+        }
+        SchemeWord { word => word, reason => reason } => "study-scheme" {
+            cause: "`{word}` is not a scheme for a study",
+            remedy: "{reason}",
+            meaning: "A scheme of a study is unknown, or is written with invalid parameters.",
+            advice: "Write the name of a scheme, and its step size after a colon where the study requires it.",
+        }
+        Output { name => name, known => known } => "study-output" {
+            cause: "the model has no output `{name}`",
+            remedy: "its outputs are {known}",
+            meaning: "The output to be compared does not exist.",
+            advice: "Specify an entry of [outputs].",
+        }
+        Steps { step => step, coarsest => coarsest } => "study-steps" {
+            cause: "the step size {step} s does not divide the largest, {coarsest} s",
+            remedy: "choose steps that are integer fractions of the largest, such as 1e-2,5e-3,2.5e-3",
+            meaning: "Runs are compared at the ends of the largest steps, which must be ends of all steps.",
+            advice: "Choose steps that are integer fractions of the largest.",
+        }
+        CoarseReference { 0 => step } => "study-reference" {
+            cause: "the step size of the reference, {step} s, is larger than a step of the study",
+            remedy: "choose a smaller one",
+            meaning: "The errors of runs are differences from a reference, which must be more accurate.",
+            advice: "Choose a smaller step for the reference.",
+        }
+        NothingToCompare { 0 => name } => "study-output-zero" {
+            cause: "the output `{name}` is zero at all times",
+            remedy: "choose an output that changes",
+            meaning: "Errors are relative to the amplitude of the output, which is zero.",
+            advice: "Choose an output that changes.",
+        }
+        Interrupted {} => "study-interrupted" {
+            cause: "interrupted",
+            remedy: "",
+            meaning: "A study was interrupted by Ctrl-C or by the caller.",
+            advice: "Start it again.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Initial { 0 => error } => error.diagnostic(),
+        Step { 0 => error } => error.diagnostic(),
+        Run { 0 => error } => error.diagnostic(),
+    }
+
+    Failure CommandError {
+        Request { 0 => reason } => "request" {
+            cause: "{reason}",
+            remedy: "",
+            meaning: "The arguments of a command or function contradict each other, or name something that does not exist. Nothing was \
+                      computed.",
+            advice: "Follow the message; `lissom COMMAND --help` lists the arguments of a command.",
+        }
+        Members { failed => failed, count => count } => "sweep-members" {
+            cause: "{failed} of {count} members have no solution",
+            remedy: "",
+            meaning: "Some members of a sweep failed; the others are in its table.",
+            advice: "The table of the sweep has the cause of each failure; run the model of such a member alone.",
+        }
+        Port { port => port, reason => reason } => "live-port" {
+            cause: "port {port} cannot be used: {reason}",
+            remedy: "choose another port by `--port`",
+            meaning: "Another program uses the port of a live page, or it is reserved.",
+            advice: "Choose another port by `--port`.",
+        }
+        Browser { 0 => path } => "no-browser" {
+            cause: "no browser could be started",
+            remedy: "open `{path}` in one",
+            meaning: "A page was written, but the desktop has no program that shows it.",
+            advice: "Open the page in a browser.",
+        }
+    } wraps {}
+
+    Failure ReadError {
+        NotBuilt {} => "read-by-id" {
+            cause: "the model was not built in code, so its parts have no ids",
+            remedy: "use the names of its quantities",
+            meaning: "A quantity was requested by an id, but ids exist only for models that are built in code.",
+            advice: "Use the names of outputs and inputs.",
+        }
+        NotRecorded { 0 => name } => "read-not-recorded" {
+            cause: "`{name}` is not recorded",
+            remedy: "remove the override that removes this output",
+            meaning: "An output was requested by its id, but an override has removed it from the model.",
+            advice: "Remove the override, or do not request the output.",
+        }
+    } wraps {
+        Foreign { 0 => error } => error.diagnostic(),
+        Input { 0 => error } => error.diagnostic(),
+    }
+
+    Failure PartError {
+        NotBuilt {} => "part-by-id" {
+            cause: "the model was not built in code, so its parts have no ids",
+            remedy: "use the names of nodes",
+            meaning: "A part was requested by an id, but ids exist only for models that are built in code.",
+            advice: "Use the names of nodes.",
+        }
+        NoInput { 0 => name } => "state-without-input" {
+            cause: "the state has no input `{name}`: it belongs to another model",
+            remedy: "use a state of this model",
+            meaning: "An input of a given initial state was set, which the model of the state does not have.",
+            advice: "Obtain the state from the prepared model itself.",
+        }
+        Beam { 0 => name } => "state-of-beam" {
+            cause: "`{name}` is a beam, which has many nodes",
+            remedy: "set the motion of its nodes in the state",
+            meaning: "The motion of a part was set by one position and velocity, which a beam does not have.",
+            advice: "Set the motion of its nodes in the state.",
+        }
+    } wraps {
+        Foreign { 0 => error } => error.diagnostic(),
+    }
+}
+
+const PICTURE: Entry = Entry {
+    code: "picture-drawing",
+    variant: "PictureError::Drawing",
+    severity: Severity::Failure,
+    message: "the picture cannot be drawn: {error}",
+    meaning: "A picture is empty, exceeds the size of an image, or has a position that is not finite.",
+    advice: "Choose another size, view or instant.",
+};
+
+const FOREIGN_ID: Entry = Entry {
+    code: "foreign-id",
+    variant: "ForeignId",
+    severity: Severity::Failure,
+    message: "a {kind} of another model is used with this one",
+    meaning: "Ids of parts, inputs and outputs are valid only in the model that returned them.",
+    advice: "Use the ids that this model has returned.",
+};
+
+impl Diagnose for ForeignId {
+    fn diagnostic(&self) -> Diagnostic {
+        let cause = format!("a {} of another model is used with this one", self.kind());
+        Diagnostic::of(&FOREIGN_ID, cause, "ids are valid only in the model that returned them")
+    }
+}
+
+const IMPORT: Entry = Entry {
+    code: "import",
+    variant: "ImportError",
+    severity: Severity::Failure,
+    message: "{message}",
+    meaning: "A robot description has an error, or elements that a model of this program cannot represent, and vice versa.",
+    advice: "Follow the message; `--without` omits what cannot be represented.",
+};
+
+impl Diagnose for ImportError {
+    fn diagnostic(&self) -> Diagnostic {
+        Diagnostic::of(&IMPORT, self.message.clone(), "")
     }
 }

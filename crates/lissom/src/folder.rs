@@ -1,6 +1,7 @@
 //! The results folder of a run: `history.csv`, `summary.json`, the motion with its scene, and the plots. Independent of
 //! simulations.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fs::{File, TryLockError};
 use std::io::{BufWriter, Error, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -69,13 +70,12 @@ const LOCK: &str = ".lock";
 
 /// Why results cannot be written or read.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum FolderError {
     /// A file or folder cannot be written.
-    #[error(transparent)]
     File(#[from] FileError),
     /// The table of results is invalid.
-    #[error("`{path}`: {error}")]
     Record {
         /// The file.
         path: String,
@@ -83,7 +83,6 @@ pub enum FolderError {
         error: RecordError,
     },
     /// The motion file is invalid.
-    #[error("`{path}`: {error}")]
     Motion {
         /// The file.
         path: String,
@@ -91,7 +90,6 @@ pub enum FolderError {
         error: MotionError,
     },
     /// The scene is invalid.
-    #[error("`{path}`: {error}")]
     Scene {
         /// The file.
         path: String,
@@ -99,7 +97,6 @@ pub enum FolderError {
         error: SceneError,
     },
     /// There are no results at the given path.
-    #[error("`{path}` {is}: pass a folder of results, such as `lissom run MODEL.toml --out DIR` leaves")]
     NoResults {
         /// The folder or file.
         path: String,
@@ -107,15 +104,15 @@ pub enum FolderError {
         is: &'static str,
     },
     /// There is no motion to be shown.
-    #[error("`{path}` holds {holds}")]
     NoMotion {
         /// The folder.
         path: String,
         /// Its actual content.
         holds: &'static str,
+        /// The remedy.
+        remedy: &'static str,
     },
     /// A plot cannot be drawn.
-    #[error(transparent)]
     Figure(#[from] FigureError),
 }
 

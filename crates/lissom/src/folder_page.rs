@@ -32,13 +32,18 @@ impl ResultFolder {
     /// If the folder contains no table or no motion, or if table, motion or scene are invalid.
     pub fn recorded(path: &Path) -> Result<RecordedRun, FolderError> {
         if path.join(MODES).is_file() {
-            let kind = "natural modes: `lissom view` and `lissom snapshot` show their shapes";
-            return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
+            let remedy = "show their shapes by `lissom view` or `lissom snapshot`";
+            return Err(FolderError::NoMotion {
+                path: path.display().to_string(),
+                holds: "natural modes",
+                remedy,
+            });
         }
         let (_, record, title) = Self::open(path)?;
         let Some((_, bytes)) = drawn(path)? else {
-            let kind = "a run without recorded motion: run the model without `--no-plots`";
-            return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
+            let holds = "a run without recorded motion";
+            let remedy = "run the model without `--no-plots`";
+            return Err(FolderError::NoMotion { path: path.display().to_string(), holds, remedy });
         };
         let scene = read_scene(&path.join(SCENE))?;
         let motion = Motion::from_bytes(&bytes).map_err(|error| foreign(&path.join(MOTION), error))?;

@@ -118,6 +118,7 @@ mod operating_point;
 
 pub mod campbell;
 mod checkpoint;
+mod command_error;
 mod diagnostic;
 pub mod export;
 mod failures;
@@ -152,6 +153,7 @@ mod timings;
 pub mod view;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
+pub use command_error::CommandError;
 pub use diagnostic::catalogue;
 pub use folder::{FolderError, ResultFolder, protect_results};
 pub use folder_page::RecordedRun;

@@ -57,19 +57,16 @@ pub enum StartError {
 
 /// Why the initial motion of an id cannot be set.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum PartError {
     /// The model was read from a text: its parts have no ids.
-    #[error("the model was not built in code: its parts have no ids")]
     NotBuilt,
     /// The id belongs to another model.
-    #[error(transparent)]
     Foreign(#[from] ForeignId),
     /// The state is of another model.
-    #[error("the state has no input `{0}`: it belongs to another model")]
     NoInput(String),
     /// A beam has many nodes.
-    #[error("`{0}` is a beam: set the motion of its nodes in the state")]
     Beam(String),
 }
 

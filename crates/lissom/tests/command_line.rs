@@ -6,6 +6,7 @@ use crate::support::truss;
 mod accumulated;
 mod assembly;
 mod changes;
+mod codes;
 mod data_file;
 mod determinism;
 mod export;

@@ -17,7 +17,7 @@ impl Diagnose for SignalError {
     fn diagnostic(&self) -> Diagnostic {
         let Self { signal, value, time } = self;
         Diagnostic {
-            code: Some(ENTRY.code),
+            code: ENTRY.code,
             severity: ENTRY.severity,
             time: Some(*time),
             subject: Some(signal.clone()),

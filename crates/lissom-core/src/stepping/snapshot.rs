@@ -13,6 +13,7 @@ use super::EventState;
 use super::laws::Magnitudes;
 use crate::analysis::snapshot_parts::Learned;
 use crate::analysis::{Settings, Simulation, Totals};
+use crate::diagnostics::diagnostics;
 use crate::integrator::IntegratorHistory;
 use crate::judge::{EnergyBalance, Warning};
 use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
@@ -48,25 +49,39 @@ pub struct Snapshot {
     learned: Learned,
 }
 
-/// A snapshot that cannot be restored.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SnapshotError {
-    /// It was taken by another version of the program.
-    #[error("the snapshot is of version {found}, this program reads version {VERSION}: run the model again")]
-    Version {
-        /// The snapshot's version.
-        found: u32,
-    },
-    /// It was taken of another model, or with another scheme.
-    #[error("the snapshot belongs to another model or scheme ({found}): restore it where it was taken")]
-    OtherModel {
-        /// Description of the snapshot's model and scheme.
-        found: String,
-    },
-    /// The tangent in use cannot be factorised again.
-    #[error("the tangent of the snapshot cannot be factored: it was damaged")]
-    Damaged,
+diagnostics! {
+    /// A snapshot that cannot be restored.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    #[non_exhaustive]
+    Failure SnapshotError {
+        /// It was taken by another version of the program.
+        Version {
+            /// The snapshot's version.
+            found: u32,
+        } => "snapshot-version" {
+            cause: ("the snapshot is of version {found}, but this program reads version {VERSION}"),
+            remedy: "run the model again",
+            meaning: "A snapshot was taken by another version of the program.",
+            advice: "Run the model again.",
+        }
+        /// It was taken of another model, or with another scheme.
+        OtherModel {
+            /// Description of the snapshot's model and scheme.
+            found: String,
+        } => "snapshot-of-other-model" {
+            cause: ("the snapshot belongs to another model or scheme ({found})"),
+            remedy: "restore it in a session of the model of which it was taken",
+            meaning: "A snapshot was taken of another model, or with another scheme.",
+            advice: "Restore it in a session of the model of which it was taken.",
+        }
+        /// It contains invalid data, such as a tangent that cannot be factored again.
+        Damaged {} => "snapshot-damaged" {
+            cause: ("the snapshot is damaged"),
+            remedy: "run the model again",
+            meaning: "A snapshot cannot be read, or its tangent cannot be factored again.",
+            advice: "Run the model again.",
+        }
+    }
 }
 
 /// A state as numbers, in the order of its fields.
@@ -203,7 +218,7 @@ impl Simulation {
             && self.control.restore(&from.control)
             && self.monitors.restore(&from.monitors);
         if !is_read {
-            return Err(SnapshotError::Damaged);
+            return Err(SnapshotError::Damaged {});
         }
         self.previous = (&from.states[0]).into();
         self.state = (&from.states[1]).into();
@@ -235,7 +250,7 @@ impl Simulation {
         let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
         let mut copy =
             Self::start(Arc::clone(&self.system), origin, settings, Some(&self.integrator.representative))
-                .map_err(|_| SnapshotError::Damaged)?;
+                .map_err(|_| SnapshotError::Damaged {})?;
         copy.accumulate(self.accumulation.numbers.clone());
         copy.restore(&self.snapshot())?;
         Ok(copy)

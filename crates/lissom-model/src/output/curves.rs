@@ -3,6 +3,7 @@
 use super::plot::{Axis, Figure, Panel, file_name, quantity_of};
 use super::spectrum::Spectrum;
 use super::{Column, Record};
+use lissom_core::diagnostics::Diagnose;
 
 /// Results with the name that distinguishes them.
 #[derive(Clone, Copy, Debug)]
@@ -26,10 +27,10 @@ pub enum Over<'a> {
 
 /// Curves that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum CurveError {
     /// There is no such column.
-    #[error("`{source_name}` has no column or output `{name}`; it has {known}")]
     Unknown {
         /// The request.
         name: String,
@@ -39,7 +40,6 @@ pub enum CurveError {
         known: String,
     },
     /// Columns of one name have several units.
-    #[error("`{name}` is in {first} in one of the results and in {second} in another")]
     Units {
         /// The column.
         name: String,
@@ -49,10 +49,8 @@ pub enum CurveError {
         second: String,
     },
     /// Results have nothing in common.
-    #[error("the results have no output in common")]
     NothingShared,
     /// There is no spectrum.
-    #[error("`{0}` has no spectrum: it needs at least four rows of finite numbers over time")]
     NoSpectrum(String),
 }
 

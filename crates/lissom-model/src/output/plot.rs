@@ -1,5 +1,6 @@
 //! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by `lissom-drawing`.
 
+use lissom_core::diagnostics::Diagnose;
 use lissom_drawing::{
     Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, DrawingError, Panel as ChartPanel, palette,
 };
@@ -17,7 +18,7 @@ const SOLID: usize = 3;
 
 /// A figure that could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the figure `{figure}` cannot be drawn: {reason}")]
+#[error("{}", self.diagnostic())]
 pub struct FigureError {
     /// Name of the figure.
     pub figure: String,

@@ -1,5 +1,6 @@
 //! Results in memory, by columns; written to by a run, or read back from comma-separated values.
 
+use lissom_core::diagnostics::Diagnose;
 use std::io;
 
 use super::{Column, Writer};
@@ -17,12 +18,11 @@ pub struct Record {
 
 /// A text that is no table of results.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 pub enum RecordError {
     /// There is no heading.
-    #[error("the table has no heading `time,…`")]
     NoHeading,
     /// A line has too many or too few numbers, or something that is none.
-    #[error("line {0} does not hold one number per column")]
     BadLine(usize),
 }
 

@@ -13,6 +13,7 @@ mod solids;
 mod superelements;
 mod symbols;
 
+use lissom_core::diagnostics::Diagnose;
 use lissom_core::kinematics::{GROUND, NodeId};
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -35,13 +36,12 @@ const VERSION: usize = 2;
 
 /// A text that is no scene of this version.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum SceneError {
     /// It was written by another version.
-    #[error("it is of version {0}, and this program reads version {VERSION}: run the model again")]
     Version(usize),
     /// It is damaged or something else.
-    #[error("it does not describe a model: {0}; run the model again")]
     Damaged(String),
 }
 

@@ -1,5 +1,6 @@
 //! Ids of the parts of a model built in code: a table, an index in it, and the builder to which it belongs.
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -16,8 +17,15 @@ pub struct AnyId {
 
 /// An id that does not belong to the model in which it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a {0} of another model is used with this one: ids are valid only in the model that returned them")]
+#[error("{}", self.diagnostic())]
 pub struct ForeignId(&'static str);
+
+impl ForeignId {
+    /// Its kind, such as `body`.
+    pub(crate) fn kind(self) -> &'static str {
+        self.0
+    }
+}
 
 impl AnyId {
     /// The error for this id.

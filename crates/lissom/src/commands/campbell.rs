@@ -71,7 +71,7 @@ impl Campbell {
         let found = match campbell(&model, &self.model.set, &request) {
             Err(CampbellError::Model(report)) => return Err(report.into()),
             Err(error @ (CampbellError::Range { .. } | CampbellError::Unlike(_))) => {
-                return Err(Failure::new(Exit::BadModel, error));
+                return Err(Failure::new(Exit::BadModel, &error));
             }
             other => other,
         };

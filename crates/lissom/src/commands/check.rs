@@ -48,7 +48,7 @@ impl Check {
             terminal::complain(&warning(redundant));
         }
         // Errors of a run before its first step are reported here as well.
-        let session = Session::start(lowered).map_err(|error| Failure::new(Exit::BadModel, error))?;
+        let session = Session::start(lowered).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         for warning in session.warnings() {
             terminal::complain(&format!("warning: {warning}\n"));
         }
@@ -65,7 +65,7 @@ impl Check {
 
     /// Facts about the model, and whether it can be run.
     fn facts(&self) -> Result<(Value, Exit), Failure> {
-        let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let model = model.without(self.model.unset.clone());
         let wrong = |report: &Report| (json!({ "ok": false, "problems": report.to_value() }), Exit::BadModel);
         let document = match model.document(&self.model.set) {

@@ -3,6 +3,7 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
+use super::results::writing_failed;
 use super::{Exit, Failure, Line};
 use crate::terminal;
 
@@ -49,14 +50,11 @@ impl Man {
                     title = format!("lissom-{name}");
                     found.clone()
                 }
-                None => return Err(Failure::new(Exit::BadModel, format!("there is no command `{name}`"))),
+                None => return Err(Failure::request(format!("there is no command `{name}`"))),
             },
         };
         let mut page = Vec::new();
-        clap_mangen::Man::new(command)
-            .title(title)
-            .render(&mut page)
-            .map_err(|error| Failure::new(Exit::Failed, error))?;
+        clap_mangen::Man::new(command).title(title).render(&mut page).map_err(writing_failed)?;
         terminal::print(&String::from_utf8_lossy(&page));
         Ok(Exit::Done)
     }

@@ -54,10 +54,7 @@ impl Explain {
         if found.is_empty() {
             let codes: Vec<&str> = catalogue().map(|entry| entry.code).collect();
             let message = format!("no entry contains `{words}`; codes are {}", codes.join(", "));
-            return Err(Failure::new(
-                Exit::BadModel,
-                format!("{message}; `lissom explain` prints all entries"),
-            ));
+            return Err(Failure::request(format!("{message}; `lissom explain` prints all entries")));
         }
         terminal::print(&found.into_iter().map(render).collect::<String>());
         Ok(Exit::Done)
@@ -67,10 +64,9 @@ impl Explain {
 /// The reports in the summary of a run, each with its explanation.
 fn of_run(folder: &Path) -> Result<String, Failure> {
     let path = folder.join("summary.json");
-    let text =
-        lissom_model::files::read_text(&path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+    let text = lissom_model::files::read_text(&path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
     let summary: Value = serde_json::from_str(&text)
-        .map_err(|error| Failure::new(Exit::BadModel, format!("`{}`: {error}", path.display())))?;
+        .map_err(|error| Failure::request(format!("`{}`: {error}", path.display())))?;
     let mut lines: Vec<String> = Vec::new();
     let mut report = |what: &str, message: &str, code: &str| {
         lines.push(format!("{what}: {message}"));

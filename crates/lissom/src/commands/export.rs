@@ -67,13 +67,13 @@ impl Export {
         let format: &Format = FORMATS
             .iter()
             .find(|format| format.name == self.format)
-            .ok_or_else(|| Failure::new(Exit::BadModel, "there is no such format"))?;
+            .ok_or_else(|| Failure::request("there is no such format"))?;
         let run =
-            ResultFolder::recorded(&self.folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+            ResultFolder::recorded(&self.folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         lissom::protect_results(&self.folder);
         let target = self.out.clone().unwrap_or_else(|| self.folder.join(format.target));
         if format.is_folder {
-            files::create_folder(&target).map_err(|error| Failure::file(Exit::Failed, &error))?;
+            files::create_folder(&target).map_err(|error| Failure::new(Exit::Failed, &error))?;
         }
         let mut last = target.clone();
         let mut sink = |name: &str, bytes: &[u8]| {
@@ -85,8 +85,8 @@ impl Export {
             Ok(())
         };
         (format.write)(&run, self.frames as usize, &mut sink).map_err(|error| match error {
-            ExportError::File(error) => Failure::file(Exit::Failed, &error),
-            error => Failure::new(Exit::Failed, error),
+            ExportError::File(error) => Failure::new(Exit::Failed, &error),
+            error => Failure::new(Exit::Failed, &error),
         })?;
         terminal::print(&format!("{}\n", last.display()));
         Ok(Exit::Done)
@@ -94,11 +94,10 @@ impl Export {
 
     /// Writes a model as a robot description.
     fn describe(self) -> Result<Exit, Failure> {
-        let model = Model::read(&self.folder).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(&self.folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let document = model.document(&self.set)?;
-        let refused = |words: String| {
-            Failure::new(Exit::BadModel, format!("`{}` as URDF: {words}", self.folder.display()))
-        };
+        let refused =
+            |words: String| Failure::request(format!("`{}` as URDF: {words}", self.folder.display()));
         let found = from_model(&document).map_err(|error| refused(error.to_string()))?;
         let robot = &found.robot;
         if self.without.is_none() && !robot.unsupported.is_empty() {
@@ -109,7 +108,7 @@ impl Export {
         }
         let stem = self.folder.file_stem().unwrap_or_default();
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension(URDF));
-        files::write(&out, to_urdf(robot).as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        files::write(&out, to_urdf(robot).as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
         let mut text = format!("{}\n", out.display());
         for what in robot.left_out.iter().chain(&robot.unsupported) {
             text.extend(["  omitted: ", what, "\n"]);

@@ -44,16 +44,16 @@ impl Fmu {
         show_warnings(&document);
         let library = self.library()?;
         let bytes = lissom_model::files::read_input(&library).map_err(|error| {
-            Failure::file(Exit::BadModel, &files::failure(files::Action::Read, &library, error))
+            Failure::new(Exit::BadModel, &files::failure(files::Action::Read, &library, error))
         })?;
         let unit = export(&model, &self.model.set, &bytes).map_err(|error| match error {
             FmuError::Model(report) => report.into(),
-            FmuError::Archive(_) => Failure::new(Exit::Failed, error),
-            other => Failure::new(Exit::BadModel, other),
+            FmuError::Archive(_) => Failure::new(Exit::Failed, &error),
+            other => Failure::new(Exit::BadModel, &other),
         })?;
         let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let target = self.out.unwrap_or_else(|| PathBuf::from(format!("{stem}.fmu")));
-        files::write(&target, &unit).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        files::write(&target, &unit).map_err(|error| Failure::new(Exit::Failed, &error))?;
         if !self.quiet {
             terminal::print(&format!("{} for {}\n", target.display(), platform()));
         }
@@ -71,11 +71,11 @@ impl Fmu {
         let places = [folder.join(&name), folder.join("../lib/lissom").join(&name)];
         places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
             let message = format!(
-                "the shared library `{name}` is not in the folder of the program, `{}`\n  help: build it with `cargo build --release \
+                "the shared library `{name}` is not in the folder of the program, `{}`; build it with `cargo build --release \
                  --manifest-path crates/lissom-fmi/Cargo.toml`, and name it by `--library`",
                 folder.display()
             );
-            Failure::new(Exit::BadModel, message)
+            Failure::request(message)
         })
     }
 }

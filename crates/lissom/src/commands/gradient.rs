@@ -47,16 +47,16 @@ pub(super) struct Gradient {
 
 impl Gradient {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        let target: Target = self.of.parse().map_err(|words: String| Failure::new(Exit::BadModel, words))?;
+        let target: Target = self.of.parse().map_err(|words: String| Failure::request(words))?;
         let (model, document) = self.model.read()?;
         show_warnings(&document);
         let found = match gradient(&model, &self.model.set, &target, &self.by, !self.unconfirmed) {
             Err(GradientError::Model(report)) => return Err(report.into()),
-            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
+            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, &error)),
             other => other,
         };
         let path = self.model.folder(self.out, "gradient");
-        let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
+        let unwritable = |error: lissom::FileError| Failure::new(Exit::Failed, &FolderError::from(error));
         let folder = ResultFolder::create(&path).map_err(unwritable)?;
         folder.clear().map_err(unwritable)?;
         let found = match found {
@@ -65,7 +65,7 @@ impl Gradient {
                 let mut summary = summary::of_request("gradient", model.name(), &self.model.set, &document);
                 summary::of_failure(&mut summary, &error);
                 folder.write_summary(&summary).map_err(unwritable)?;
-                return Err(Failure::new(Exit::Failed, error));
+                return Err(Failure::new(Exit::Failed, &error));
             }
         };
         folder.write_table("gradient.csv", &found.csv()).map_err(unwritable)?;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use lissom::import::{Freedom, Options, Pose, Root, Unsupported, from_description, model_text};
-use lissom::{Model, SessionError};
+use lissom::{Diagnose, Diagnostic, Model, SessionError};
 use lissom_model::files;
 
 use super::{Exit, Failure};
@@ -58,19 +58,18 @@ fn joint_value(text: &str) -> Result<(String, f64), String> {
 
 impl Import {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        let bad = |error: &dyn std::fmt::Display| {
-            Failure::new(Exit::BadModel, format!("`{}`: {error}", self.file.display()))
-        };
+        let file = format!("`{}`", self.file.display());
+        let bad = |error: Diagnostic| Failure::with_details(Exit::BadModel, &error.within(&file), "");
         let stem = self.file.file_stem().unwrap_or_default();
         let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension("toml"));
         if out.exists() {
             let message =
                 format!("`{}` already exists and is not overwritten: name another with --out", out.display());
-            return Err(Failure::new(Exit::BadModel, message));
+            return Err(Failure::request(message));
         }
         let text =
-            files::read_input_text(&self.file).map_err(|error| Failure::file(Exit::BadModel, &error))?;
-        let robot = from_description(&text).map_err(|error| bad(&error))?;
+            files::read_input_text(&self.file).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        let robot = from_description(&text).map_err(|error| bad(error.diagnostic()))?;
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {
             root: if self.floating { Root::Floating } else { Root::Held },
@@ -83,14 +82,14 @@ impl Import {
                 Unsupported::Refused
             },
         };
-        let model = model_text(&robot, &pose, options).map_err(|error| bad(&error))?;
+        let model = model_text(&robot, &pose, options).map_err(|error| bad(error.diagnostic()))?;
         // A model without a consistent initial state is not written.
         match Model::from_text(&out.display().to_string(), &model).session(&[]) {
             Ok(_) => {}
             Err(SessionError::Model(report)) => return Err(report.into()),
-            Err(error) => return Err(bad(&error)),
+            Err(error) => return Err(bad(error.diagnostic())),
         }
-        files::write(&out, model.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        files::write(&out, model.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
         let moving =
             robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();
         let left_out = robot.left_out.iter().chain(&robot.unsupported);

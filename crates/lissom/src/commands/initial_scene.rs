@@ -8,6 +8,7 @@ use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
+use super::results::writing_failed;
 use super::{Exit, Failure, show_warnings};
 
 /// Scene of a model in its initial state.
@@ -25,7 +26,7 @@ pub(super) struct InitialScene {
 impl InitialScene {
     /// Reads a model and computes its initial state.
     pub(super) fn of(path: &Path, set: &[Override], quiet: bool) -> Result<Self, Failure> {
-        let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let document = model.document(set)?;
         if !quiet {
             show_warnings(&document);
@@ -37,12 +38,12 @@ impl InitialScene {
         // If the model starts from equilibrium, the initial state is the equilibrium.
         let start = if document.starts_in_equilibrium() {
             let again = lower(&document)?;
-            let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, error))?;
+            let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, &error))?;
             session.simulation().state().clone()
         } else {
             lowered.state.clone()
         };
-        recorder.write_still(&start.kinematics).map_err(|error| Failure::new(Exit::Failed, error))?;
+        recorder.write_still(&start.kinematics).map_err(writing_failed)?;
         let title = document.title.clone().unwrap_or_default();
         Ok(Self { name: model.name().to_owned(), title, scene, motion })
     }
@@ -50,7 +51,7 @@ impl InitialScene {
 
 /// Rejects buckling analyses, which have a table of their own and no motion.
 pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result<(), Failure> {
-    let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+    let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
     let kind = model.document(set)?.analysis.kind;
     match kind {
         AnalysisKind::Dynamics { .. }
@@ -59,10 +60,7 @@ pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result
         | AnalysisKind::Path { .. } => Ok(()),
         AnalysisKind::Buckling { .. } => {
             let message = format!("an analysis of kind `{}` computes no motion", kind.name());
-            Err(Failure::new(
-                Exit::BadModel,
-                format!("{message}; `--initial` shows the model in its initial state"),
-            ))
+            Err(Failure::request(format!("{message}; `--initial` shows the model in its initial state")))
         }
     }
 }

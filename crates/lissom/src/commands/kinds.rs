@@ -62,7 +62,7 @@ impl Kinds {
                 "there is no kind whose name contains `{wanted}`; see `lissom kinds`, or `lissom kinds` with one of {}",
                 topics().join(", ")
             );
-            return Err(Failure::new(Exit::BadModel, message));
+            return Err(Failure::request(message));
         }
         terminal::print(&text);
         Ok(Exit::Done)
@@ -108,7 +108,7 @@ fn for_programs(registry: &Registry, wanted: &str) -> Result<Exit, Failure> {
     }
     if count == 0 {
         let message = format!("there is no kind whose name contains `{wanted}`; see `lissom kinds`");
-        return Err(Failure::new(Exit::BadModel, message));
+        return Err(Failure::request(message));
     }
     terminal::print(&format!("{all:#}\n"));
     Ok(Exit::Done)

@@ -24,7 +24,7 @@ pub(super) struct StateArgument {
 pub(super) fn answered<T>(found: Result<T, FrequencyError>) -> Result<Result<T, FrequencyError>, Failure> {
     match found {
         Err(FrequencyError::Model(report)) => Err(report.into()),
-        Err(error) if error.is_of_question() => Err(Failure::new(Exit::BadModel, error)),
+        Err(error) if error.is_of_question() => Err(Failure::new(Exit::BadModel, &error)),
         other => Ok(other),
     }
 }

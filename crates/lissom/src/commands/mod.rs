@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use lissom::{Document, FileError, FolderError, Model, Override, Report};
+use lissom::{CommandError, Diagnose, Diagnostic, Document, Model, Override, Report};
 
 use crate::terminal;
 
@@ -70,30 +70,34 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// A failure reported in one sentence.
-    fn new(exit: Exit, error: impl std::fmt::Display) -> Self {
-        Self { exit, words: format!("error: {error}\n") }
+    /// A failure with its code.
+    fn new(exit: Exit, error: &impl Diagnose) -> Self {
+        Self::with_details(exit, &error.diagnostic(), "")
     }
 
-    /// Results that cannot be read or written.
-    fn folder(exit: Exit, error: &FolderError) -> Self {
-        match error {
-            FolderError::File(error) => Self::file(exit, error),
-            other => Self::new(exit, other),
-        }
+    /// Arguments that do not match each other or what they name.
+    fn request(reason: impl Into<String>) -> Self {
+        Self::new(Exit::BadModel, &CommandError::Request(reason.into()))
     }
 
-    /// A file that cannot be read or written.
-    fn file(exit: Exit, error: &FileError) -> Self {
-        let help = error.help.as_ref().map_or_else(String::new, |help| format!("  help: {help}\n"));
-        Self { exit, words: format!("error: {error}\n{help}") }
+    /// A failure with its code. The lines `details` follow the message.
+    fn with_details(exit: Exit, diagnostic: &Diagnostic, details: &str) -> Self {
+        let explained = explained(diagnostic.code);
+        Self { exit, words: format!("error: {diagnostic}\n{details}{explained}") }
     }
 }
 
 impl From<Report> for Failure {
     fn from(report: Report) -> Self {
-        Self { exit: Exit::BadModel, words: report.render(terminal::in_colour()) + &format!("{report}\n") }
+        let explained = explained(report.diagnostic().code);
+        let words = report.render(terminal::in_colour()) + &format!("{report}\n{explained}");
+        Self { exit: Exit::BadModel, words }
     }
+}
+
+/// The command that explains a code, as a line below a message.
+fn explained(code: &str) -> String {
+    format!("  `lissom explain {code}` explains it\n")
 }
 
 /// Flexible multibody dynamics: simulates mechanisms of rigid bodies, flexible beams, joints and springs,
@@ -203,7 +207,7 @@ struct ModelArguments {
 impl ModelArguments {
     /// The text and the checked document.
     fn read(&self) -> Result<(Model, Document), Failure> {
-        let model = Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let model = model.without(self.unset.clone());
         let document = model.document(&self.set)?;
         Ok((model, document))

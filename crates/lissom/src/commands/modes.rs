@@ -8,12 +8,12 @@ use lissom::core::kinematics::Kinematics;
 use lissom::core::linear::Completeness;
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes, of_request};
 use lissom::motion::{Motion, MotionRecorder};
-use lissom::picture::Picture;
+use lissom::picture::{Picture, PictureError};
 use lissom::{Document, Model, Override, ResultFolder};
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
-use super::results::{folder_for, unwritable};
+use super::results::{folder_for, unwritable, writing_failed};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
@@ -86,7 +86,7 @@ pub(super) fn report(
     let found = match modes(model, overrides, request) {
         Err(ModesError::Model(report)) => return Err(report.into()),
         Err(error @ (ModesError::Time { .. } | ModesError::Shift(_))) => {
-            return Err(Failure::new(Exit::BadModel, error));
+            return Err(Failure::new(Exit::BadModel, &error));
         }
         other => other,
     };
@@ -115,7 +115,7 @@ fn write_state(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     folder.write_scene(&Scene::of(document, &lowered)).map_err(unwritable)?;
     let file = folder.motion().map_err(unwritable)?;
     let mut recorder = MotionRecorder::new(&lowered, None, file);
-    recorder.write_still(&found.state).map_err(|error| Failure::new(Exit::Failed, error))
+    recorder.write_still(&found.state).map_err(writing_failed)
 }
 
 /// Draws the first shapes on one sheet, `shapes.svg`.
@@ -123,7 +123,6 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     if found.moved.is_empty() || found.state.nodes.len() > MAX_DRAWN {
         return Ok(());
     }
-    let failed = |error: &dyn std::fmt::Display| Failure::new(Exit::Failed, error.to_string());
     let lowered = lower(document)?;
     let mut bytes = Vec::new();
     // A frame for each shape, with its number as time.
@@ -131,8 +130,8 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
         .zip(&found.moved)
         .map(|(number, moved)| Kinematics { time: f64::from(number), ..moved.clone() })
         .collect();
-    MotionRecorder::new(&lowered, None, &mut bytes).write_frames(&frames).map_err(|error| failed(&error))?;
-    let motion = Motion::from_bytes(&bytes).map_err(|error| failed(&error))?;
+    MotionRecorder::new(&lowered, None, &mut bytes).write_frames(&frames).map_err(writing_failed)?;
+    let motion = Motion::from_bytes(&bytes).map_err(|error| Failure::new(Exit::Failed, &error))?;
     let labels = found.modes.iter().take(frames.len()).enumerate();
     let labels = labels.map(|(index, mode)| format!("{}: {:.4} Hz", index + 1, mode.frequency));
     let picture = Picture {
@@ -141,9 +140,9 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
         ..Picture::default()
     };
     let title = document.title.as_deref().unwrap_or_default();
-    let drawing =
-        picture.draw(&Scene::of(document, &lowered), &motion, title).map_err(|error| failed(&error))?;
-    let text = drawing.svg().map_err(|error| failed(&error))?;
+    let failed = |error: PictureError| Failure::new(Exit::Failed, &error);
+    let drawing = picture.draw(&Scene::of(document, &lowered), &motion, title).map_err(failed)?;
+    let text = drawing.svg().map_err(|error| failed(error.into()))?;
     folder.write_table("shapes.svg", &text).map_err(unwritable)
 }
 

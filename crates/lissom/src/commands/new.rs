@@ -32,20 +32,17 @@ impl New {
         }
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         if stem.is_empty() || stem == ".toml" {
-            return Err(Failure::new(
-                Exit::BadModel,
-                format!("`{}` is not a valid model name", self.name.display()),
-            ));
+            return Err(Failure::request(format!("`{}` is not a valid model name", self.name.display())));
         }
         if path.exists() {
             let message =
                 format!("`{}` already exists and is not overwritten: choose another name", path.display());
-            return Err(Failure::new(Exit::BadModel, message));
+            return Err(Failure::request(message));
         }
         // Quoted as TOML text, because it may contain any letters.
         let title = stem.replace('\\', "\\\\").replace('"', "\\\"");
         let text = TEMPLATE.replace("@title@", &title);
-        files::write(&path, text.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        files::write(&path, text.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
         terminal::print(&render(&path));
         Ok(Exit::Done)
     }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
-use lissom::{Document, FolderError, Model, Override, ResultFolder, Writer};
+use lissom::{Diagnose, Document, FolderError, Model, Override, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
 
 use super::{Exit, Failure, show_warnings};
@@ -25,7 +25,7 @@ pub(super) fn run(
     interrupt: &Interrupt,
 ) -> Result<Exit, Failure> {
     show_warnings(document);
-    let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
+    let unwritable = |error: FolderError| Failure::new(Exit::Failed, &error);
     let mut summary = of_request(model.name(), overrides, document);
     let started = match PathSession::new(model, overrides) {
         Err(PathSessionError::Model(report)) => return Err(report.into()),
@@ -39,7 +39,7 @@ pub(super) fn run(
                 lissom::summary::of_failure(&mut summary, &error);
                 folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
             }
-            return Err(Failure::new(Exit::Failed, error));
+            return Err(Failure::new(Exit::Failed, &error));
         }
     };
     for warning in session.warnings() {
@@ -77,10 +77,10 @@ pub(super) fn run(
     match report.end {
         PathEnd::Reached => Ok(Exit::Done),
         PathEnd::Interrupted => Ok(Exit::Interrupted),
-        PathEnd::Failed(error) => Err(Failure::new(
-            Exit::Failed,
-            format!("{error}\n  {} equilibria are in `{}`", report.records, folder.path().display()),
-        )),
+        PathEnd::Failed(error) => {
+            let details = format!("  {} equilibria are in `{}`\n", report.records, folder.path().display());
+            Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &details))
+        }
     }
 }
 

@@ -47,8 +47,8 @@ pub(super) struct Plot {
 
 impl Plot {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        let bad = |error: FolderError| Failure::folder(Exit::BadModel, &error);
-        let failed = |error: FolderError| Failure::folder(Exit::Failed, &error);
+        let bad = |error: FolderError| Failure::new(Exit::BadModel, &error);
+        let failed = |error: FolderError| Failure::new(Exit::Failed, &error);
         let found: Vec<(ResultFolder, Record, String)> = self
             .folders
             .iter()
@@ -57,7 +57,7 @@ impl Plot {
         self.folders.iter().for_each(|folder| lissom::protect_results(folder));
         let is_plain = self.of.is_empty() && self.over.is_none() && !self.spectrum && self.out.is_none();
         let [(first, record, title), others @ ..] = &*found else {
-            return Err(Failure::new(Exit::BadModel, "name a folder of results"));
+            return Err(Failure::request("name a folder of results"));
         };
         if is_plain && others.is_empty() {
             first.write_plots(&CurveRecord::from(record), title).map_err(failed)?;
@@ -74,7 +74,7 @@ impl Plot {
             None => Over::Time,
         };
         let drawn =
-            plots(&sources, &self.of, over, title).map_err(|error| Failure::new(Exit::BadModel, error))?;
+            plots(&sources, &self.of, over, title).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         for words in &drawn.left_out {
             terminal::complain(&format!("note: {words}\n"));
         }

@@ -87,7 +87,7 @@ impl Reduce {
         };
         let found = match reduce(&model, &self.model.set, &request) {
             Err(ReduceError::State(ModesError::Model(report))) => return Err(report.into()),
-            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
+            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, &error)),
             other => other,
         };
         let path = self.model.folder(self.out, "reduced");

@@ -1,9 +1,10 @@
 //! Folders for the results of analyses, and their contents after the failure of an analysis without time steps.
 
 use std::fmt::Display;
+use std::io;
 use std::path::Path;
 
-use lissom::{Diagnose, FolderError, ResultFolder};
+use lissom::{Diagnose, FolderError, ResultFolder, RunError};
 use lissom_model::output::Summary;
 
 use super::{Exit, Failure};
@@ -23,12 +24,17 @@ pub(super) fn folder_for<T, E: Diagnose + Display>(
             let mut summary = summary();
             lissom::summary::of_failure(&mut summary, &error);
             folder.write_summary(&summary).map_err(unwritable)?;
-            Err(Failure::new(Exit::Failed, error))
+            Err(Failure::new(Exit::Failed, &error))
         }
     }
 }
 
+/// An error while results were written to an open file.
+pub(super) fn writing_failed(error: io::Error) -> Failure {
+    Failure::new(Exit::Failed, &RunError::Write(error))
+}
+
 /// Results that cannot be written.
 pub(super) fn unwritable(error: impl Into<FolderError>) -> Failure {
-    Failure::folder(Exit::Failed, &error.into())
+    Failure::new(Exit::Failed, &error.into())
 }

@@ -145,13 +145,13 @@ impl Run {
             Ok(session) => session,
             Err(error) => {
                 let kept = if folder.has_results() {
-                    format!("\n  the earlier results in `{}` are unchanged", folder.path().display())
+                    format!("  the earlier results in `{}` are unchanged\n", folder.path().display())
                 } else {
                     summary::of_failed_start(&mut summary, &error);
                     folder.write_summary(&summary).map_err(unwritable)?;
                     String::new()
                 };
-                return Err(Failure::new(Exit::Failed, format!("{error}{kept}{}", explained(&error))));
+                return Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &kept));
             }
         };
         session.cancel_by(interrupt.flag());
@@ -163,7 +163,7 @@ impl Run {
             Some(checkpoint) => folder.resumed_history(checkpoint).map_err(unwritable)?,
         };
         if let Some(checkpoint) = &task.resumed {
-            session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, error))?;
+            session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, &error))?;
             record.set_columns(session.columns());
         }
         if let Some((recorder, scene)) = recorder.zip(scene) {
@@ -210,7 +210,8 @@ impl Run {
 
     fn task(&self) -> Result<Task, Failure> {
         if let Some(folder) = &self.resume {
-            let checkpoint = Checkpoint::read(folder).map_err(|error| Failure::new(Exit::BadModel, error))?;
+            let checkpoint =
+                Checkpoint::read(folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
             return Ok(Task {
                 model: Model::from_text(&checkpoint.model, &checkpoint.text)
                     .with_included(checkpoint.included.clone())
@@ -223,7 +224,7 @@ impl Run {
             });
         }
         let path = self.model.as_deref().unwrap_or(Path::new(""));
-        let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(path).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let model = model.without(self.unset.clone());
         let stem = path.file_stem().unwrap_or_default();
         let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
@@ -273,16 +274,10 @@ impl Run {
                 Ok(Exit::Interrupted)
             }
             Stopped::Failed(error) => {
-                Err(Failure::new(Exit::Failed, format!("{error}\n  {saved}{}", explained(error))))
+                Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &format!("  {saved}\n")))
             }
         }
     }
-}
-
-/// The command that explains an error, as a line below its message.
-fn explained(error: &impl Diagnose) -> String {
-    let code = error.diagnostic().code;
-    code.map(|code| format!("\n  `lissom explain {code}` explains it")).unwrap_or_default()
 }
 
 impl Task {

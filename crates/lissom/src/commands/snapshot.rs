@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lissom::motion::Motion;
-use lissom::picture::{Picture, View, instants};
+use lissom::picture::{Picture, PictureError, View, instants};
 use lissom::{FolderError, Override, RecordedModes, ResultFolder};
 use lissom_model::files;
-use lissom_model::output::animation;
+use lissom_model::output::{DrawingError, animation};
 use lissom_model::scene::Scene;
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
@@ -113,10 +113,10 @@ impl Snapshot {
             Some(Some(ending)) if ending.eq_ignore_ascii_case("png") => true,
             Some(_) => {
                 let message = "the name of the picture must end in .svg or .png";
-                return Err(Failure::new(Exit::BadModel, message));
+                return Err(Failure::request(message));
             }
         };
-        let wrong = |message: String| Err(Failure::new(Exit::BadModel, message));
+        let wrong = |message: String| Err(Failure::request(message));
         if self.animate.is_some() && self.out.is_some() && !is_png {
             return wrong("an animation is a PNG file: its name must end in .png".to_owned());
         }
@@ -124,15 +124,12 @@ impl Snapshot {
             return wrong(format!("`--animate {duration}` must be from 0.1 to {MAX_SECONDS} seconds"));
         }
         if let Some(time) = self.at.iter().find(|time| !time.is_finite()) {
-            return Err(Failure::new(Exit::BadModel, format!("`--at {time}` is not a valid time")));
+            return Err(Failure::request(format!("`--at {time}` is not a valid time")));
         }
         if self.what.is_dir() {
             if self.initial || !self.set.is_empty() {
                 let message = format!("`{}` is a folder of results", self.what.display());
-                return Err(Failure::new(
-                    Exit::BadModel,
-                    format!("{message}; --initial and --set need a model"),
-                ));
+                return Err(Failure::request(format!("{message}; --initial and --set need a model")));
             }
             return self.of_folder(&self.what, is_png).map(|()| Exit::Done);
         }
@@ -140,7 +137,7 @@ impl Snapshot {
         if self.initial {
             let InitialScene { title, scene, motion, .. } =
                 InitialScene::of(&self.what, &self.set, self.quiet)?;
-            let motion = Motion::from_bytes(&motion).map_err(|error| Failure::new(Exit::Failed, error))?;
+            let motion = Motion::from_bytes(&motion).map_err(|error| Failure::new(Exit::Failed, &error))?;
             return self.draw((&scene, &motion, &title), (&folder, is_png)).map(|()| Exit::Done);
         }
         refuse_what_does_not_move(&self.what, &self.set)?;
@@ -156,14 +153,14 @@ impl Snapshot {
     }
 
     fn of_folder(&self, folder: &Path, is_png: bool) -> Result<(), Failure> {
-        let foreign = |error: FolderError| Failure::folder(Exit::BadModel, &error);
+        let foreign = |error: FolderError| Failure::new(Exit::BadModel, &error);
         if ResultFolder::holds_modes(folder) {
             return self.of_modes(&ResultFolder::recorded_modes(folder).map_err(foreign)?, folder, is_png);
         }
         if self.mode.is_some() {
             let message =
                 format!("`{}` contains no natural modes, which `--mode` requires", folder.display());
-            return Err(Failure::new(Exit::BadModel, message));
+            return Err(Failure::request(message));
         }
         let run = ResultFolder::recorded(folder).map_err(foreign)?;
         self.draw((&run.scene, &run.motion, &run.title), (folder, is_png))
@@ -175,7 +172,7 @@ impl Snapshot {
         let Some(number) = self.mode.map(|number| number as usize) else {
             if self.strip.is_some() || self.animate.is_some() || !self.at.is_empty() {
                 let message = "for natural modes `--at`, `--strip` and `--animate` draw a single one: choose it with `--mode N`";
-                return Err(Failure::new(Exit::BadModel, message));
+                return Err(Failure::request(message));
             }
             let motion = modes.shapes(MAX_SHAPES);
             let picture = Picture { times: motion.times().to_vec(), labels, ..self.picture() };
@@ -193,7 +190,7 @@ impl Snapshot {
         else {
             let message =
                 format!("there is no mode {number}: `{}` contains {}", folder.display(), modes.count());
-            return Err(Failure::new(Exit::BadModel, message));
+            return Err(Failure::request(message));
         };
         let below = |share: &f64| format!("mode {label}, {share:.3} of its period");
         let labels = shares.iter().map(below).collect();
@@ -225,7 +222,7 @@ impl Snapshot {
     ) -> Result<(), Failure> {
         let times = if self.at.is_empty() {
             let count = self.pictures().unwrap_or(self.strip.unwrap_or(1) as usize);
-            instants(motion, count).map_err(|error| Failure::new(Exit::BadModel, error))?
+            instants(motion, count).map_err(|error| Failure::new(Exit::BadModel, &error))?
         } else {
             self.at.clone()
         };
@@ -238,8 +235,8 @@ impl Snapshot {
         (scene, motion, title): (&Scene, &Motion, &str),
         (folder, is_png): (&Path, bool),
     ) -> Result<(), Failure> {
-        let wrong = |error| Failure::new(Exit::BadModel, error);
-        let failed = |error| Failure::new(Exit::Failed, error);
+        let wrong = |error| Failure::new(Exit::BadModel, &error);
+        let failed = |error: DrawingError| Failure::new(Exit::Failed, &PictureError::from(error));
         let bytes = if self.animate.is_some() {
             let drawings = picture.draw_moving(scene, motion, title).map_err(wrong)?;
             animation(&drawings, 1.0 / PICTURES_PER_SECOND, 1.0).map_err(failed)?
@@ -247,7 +244,7 @@ impl Snapshot {
             let drawing = picture.draw(scene, motion, title).map_err(wrong)?;
             if is_png { drawing.png().map_err(failed)? } else { drawing.svg().map_err(failed)?.into_bytes() }
         };
-        let unwritable = |error| Failure::file(Exit::Failed, &error);
+        let unwritable = |error| Failure::new(Exit::Failed, &error);
         let target = if let Some(file) = &self.out {
             file.clone()
         } else {

@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use lissom::sweep::{
     MemberOutcome, MemberState, Sweep, SweepError, SweepFile, SweepFolder, SweepFolderError,
 };
-use lissom::{Model, Override, Summary};
+use lissom::{CommandError, Diagnose, FileError, Model, Override, Summary};
 use lissom_model::files;
 use serde_json::json;
 
@@ -78,7 +78,7 @@ impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
         match error {
             SweepError::Model(report) => report.into(),
-            other => Self::new(Exit::BadModel, other),
+            other => Self::new(Exit::BadModel, &other),
         }
     }
 }
@@ -86,8 +86,8 @@ impl From<SweepError> for Failure {
 impl From<SweepFolderError> for Failure {
     fn from(error: SweepFolderError) -> Self {
         match error {
-            SweepFolderError::File(error) => Self::file(Exit::Failed, &error),
-            other => Self::new(Exit::BadModel, other),
+            SweepFolderError::File(error) => Self::new(Exit::Failed, &error),
+            other => Self::new(Exit::BadModel, &other),
         }
     }
 }
@@ -124,7 +124,7 @@ impl SweepCommand {
         };
         let ended = sweep.run(&missing, workers, &mut keep, &mut watch);
         bar.finish_and_clear();
-        let ended = ended.map_err(|error| Failure::file(Exit::Failed, &error))?;
+        let ended = ended.map_err(|error: FileError| Failure::new(Exit::Failed, &error))?;
         if ended.is_break() {
             if !self.quiet {
                 let (done, all) = (outcomes.len(), sweep.len());
@@ -138,12 +138,11 @@ impl SweepCommand {
         outcomes.sort_by_key(|outcome| outcome.member);
         let seconds = began.elapsed().as_secs_f64();
         let summary = summary(&sweep, &outcomes, (found, workers, seconds));
-        let table = folder
-            .finish(&sweep, &outcomes, &summary)
-            .map_err(|error| Failure::file(Exit::Failed, &error))?;
+        let table =
+            folder.finish(&sweep, &outcomes, &summary).map_err(|error| Failure::new(Exit::Failed, &error))?;
         if !self.no_plots && outcomes.iter().any(|outcome| outcome.state == MemberState::Solved) {
             let plot = lissom::sweep::plot(&sweep, &outcomes, sweep.model_name());
-            folder.write_plots(&plot).map_err(|error| Failure::folder(Exit::Failed, &error))?;
+            folder.write_plots(&plot).map_err(|error| Failure::new(Exit::Failed, &error))?;
         }
         if !self.quiet {
             terminal::print(&render(&sweep, &outcomes, (found, workers, seconds), &table));
@@ -152,12 +151,12 @@ impl SweepCommand {
     }
 
     fn sweep(&self) -> Result<Sweep, Failure> {
-        let unreadable = |error| Failure::file(Exit::BadModel, &error);
+        let unreadable = |error| Failure::new(Exit::BadModel, &error);
         let text = files::read_input_text(&self.file).map_err(unreadable)?;
         let file = SweepFile::parse(&text, &self.file.display().to_string())?;
         let Some(model) = &file.model else {
             let message = format!("`{}` specifies no model: add `model = \"….toml\"`", self.file.display());
-            return Err(Failure::new(Exit::BadModel, message));
+            return Err(Failure::request(message));
         };
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let model = Model::read(&folder.join(model)).map_err(unreadable)?;
@@ -186,7 +185,8 @@ fn exit(outcomes: &[MemberOutcome], table: &Path) -> Result<Exit, Failure> {
     if failed.is_empty() {
         return Ok(Exit::Done);
     }
-    let mut words = format!("{} of {} members have no solution:\n", failed.len(), outcomes.len());
+    let error = CommandError::Members { failed: failed.len(), count: outcomes.len() };
+    let mut words = String::new();
     for outcome in failed.iter().take(NAMED) {
         let diagnosis = outcome.diagnosis.as_deref().unwrap_or_default();
         // Writing to a string cannot fail.
@@ -195,8 +195,8 @@ fn exit(outcomes: &[MemberOutcome], table: &Path) -> Result<Exit, Failure> {
     if failed.len() > NAMED {
         let _ = writeln!(words, "  and {} more", failed.len() - NAMED);
     }
-    let _ = write!(words, "  all members, with the causes of failures, are in `{}`", table.display());
-    Err(Failure::new(Exit::Failed, words))
+    let _ = writeln!(words, "  all members, with the causes of failures, are in `{}`", table.display());
+    Err(Failure::with_details(Exit::Failed, &error.diagnostic(), &words))
 }
 
 fn count(outcomes: &[MemberOutcome], state: MemberState) -> usize {

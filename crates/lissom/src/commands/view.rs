@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 
 use clap::Args;
 use lissom::view::Results;
-use lissom::{FileError, Override, ResultFolder};
+use lissom::{CommandError, FileError, Override, ResultFolder};
 use lissom_model::files;
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
@@ -87,18 +87,14 @@ impl View {
     fn view_folder(&self) -> Result<Exit, Failure> {
         if self.initial || !self.set.is_empty() || self.out.is_some() {
             let message = format!("`{}` is a folder of results", self.what.display());
-            return Err(Failure::new(
-                Exit::BadModel,
-                format!("{message}; --initial, --set and --out need a model"),
-            ));
+            return Err(Failure::request(format!("{message}; --initial, --set and --out need a model")));
         }
         self.show(&self.what).map(|()| Exit::Done)
     }
 
     /// Writes the page of a folder of results.
     fn show(&self, folder: &Path) -> Result<(), Failure> {
-        let results =
-            ResultFolder::results(folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+        let results = ResultFolder::results(folder).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         lissom::protect_results(folder);
         let target = self.html.clone().unwrap_or_else(|| folder.join("view.html"));
         self.write(&target, &results)
@@ -111,7 +107,7 @@ impl View {
         let results = Results::new(&name)
             .with_title(&title)
             .with_scene(&scene, &motion)
-            .map_err(|error| Failure::new(Exit::Failed, error))?;
+            .map_err(|error| Failure::new(Exit::Failed, &error))?;
         let target = if let Some(file) = &self.html {
             file.clone()
         } else {
@@ -128,15 +124,15 @@ impl View {
             terminal::print(&format!("{}\n", target.display()));
         }
         if self.open && !open(target) {
-            let message = format!("no browser could be started: open `{}` in one", target.display());
-            return Err(Failure::new(Exit::Failed, message));
+            let error = CommandError::Browser(target.display().to_string());
+            return Err(Failure::new(Exit::Failed, &error));
         }
         Ok(())
     }
 }
 
 fn unwritable(error: &FileError) -> Failure {
-    Failure::file(Exit::Failed, error)
+    Failure::new(Exit::Failed, error)
 }
 
 /// Opens a file or address with the default program of the desktop. Returns whether that program could be started.

@@ -7,6 +7,7 @@ mod npz;
 mod parquet;
 mod vtk;
 
+use lissom_core::diagnostics::Diagnose;
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
@@ -21,19 +22,16 @@ pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), FileError> + 'a;
 
 /// Why results could not be exported.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum ExportError {
     /// A file cannot be written.
-    #[error(transparent)]
     File(#[from] FileError),
     /// The motion has no frames.
-    #[error("the motion holds no frame: run the model again")]
     Empty,
     /// The archive could not be written.
-    #[error("the archive cannot be packed: {0}; ask for fewer frames or outputs")]
     Archive(#[from] std::io::Error),
     /// It exceeds the limits of the format.
-    #[error("the results are larger than this format takes, 4 GB: ask for fewer frames or outputs")]
     TooLarge,
 }
 

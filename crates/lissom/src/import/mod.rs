@@ -11,6 +11,7 @@ mod to_urdf;
 mod urdf;
 mod xml;
 
+use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
@@ -174,7 +175,7 @@ pub struct Pose {
 
 /// An error of an import.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{message}")]
+#[error("{}", self.diagnostic())]
 pub struct ImportError {
     /// The error, its location, and the remedy.
     pub message: String,

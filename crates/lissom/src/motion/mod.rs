@@ -31,6 +31,6 @@ pub use recorder::MotionRecorder;
 /// First bytes of the file.
 const MAGIC: &[u8; 8] = b"LISSOMMO";
 /// Version of the format.
-const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 1;
 /// Bytes before the header.
 const PREFIX: usize = 16;

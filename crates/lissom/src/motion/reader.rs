@@ -1,5 +1,6 @@
 //! Reads motion files.
 
+use lissom_core::diagnostics::Diagnose;
 use lissom_motion::{Motion as Pose, Rotation, Vector3, Vector6};
 
 use super::header::Header;
@@ -8,21 +9,16 @@ use lissom_core::kinematics::NodeId;
 
 /// Why a file is not a valid motion file.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum MotionError {
     /// It begins differently.
-    #[error("it is not a motion file of this program")]
     Foreign,
     /// It was written by another version.
-    #[error(
-        "it is a motion file of version {0}, but this program reads version {VERSION}: run the model again"
-    )]
     Version(u32),
     /// It ends before its first frame, or its header is damaged.
-    #[error("its header is damaged: run the model again")]
     Damaged,
     /// A number is not finite.
-    #[error("frame {0} contains a number that is not finite: run the model again")]
     NotFinite(usize),
 }
 

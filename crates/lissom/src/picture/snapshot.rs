@@ -1,5 +1,6 @@
 //! The sheet of a picture: panels at several instants, their times, the axes and a scale.
 
+use lissom_core::diagnostics::Diagnose;
 use lissom_model::output::{Align, Drawing, DrawingError, Shade};
 use lissom_model::scene::Scene;
 use lissom_motion::Vector3;
@@ -31,10 +32,10 @@ const MAX_FRAMES: usize = 600;
 
 /// Why a picture cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum PictureError {
     /// An instant is outside the motion.
-    #[error("there is no motion at t = {time} s: it was recorded from {first} s to {last} s")]
     Outside {
         /// The instant [s].
         time: f64,
@@ -44,10 +45,8 @@ pub enum PictureError {
         last: f64,
     },
     /// The motion has no frames.
-    #[error("the motion holds no frame: run the model again")]
     Empty,
     /// There are none, or too many for a sheet or an animation.
-    #[error("{count} pictures were asked for, and 1 to {most} are possible")]
     TooMany {
         /// Their number.
         count: usize,
@@ -55,7 +54,6 @@ pub enum PictureError {
         most: usize,
     },
     /// The drawing failed.
-    #[error(transparent)]
     Drawing(#[from] DrawingError),
 }
 

@@ -1,5 +1,6 @@
 //! A session of a model that was built in code: access by ids of the builder, and copies of it.
 
+use lissom_core::diagnostics::Diagnose;
 use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,19 +15,16 @@ use crate::timings::Timings;
 
 /// Why an id cannot be read or set.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum ReadError {
     /// The model was read from a text: its parts have no ids.
-    #[error("the model was not built in code: ask for its quantities by name")]
     NotBuilt,
     /// The id belongs to another model.
-    #[error(transparent)]
     Foreign(#[from] ForeignId),
     /// An override has removed the output.
-    #[error("`{0}` is not recorded")]
     NotRecorded(String),
     /// The input cannot be set.
-    #[error(transparent)]
     Input(#[from] InputError),
 }
 

@@ -68,7 +68,7 @@ impl SessionSnapshot {
     /// # Errors
     /// If the bytes are not a snapshot of this version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        sealed::from_bytes(bytes).ok_or(SnapshotError::Damaged)
+        sealed::from_bytes(bytes).ok_or(SnapshotError::Damaged {})
     }
 }
 

@@ -2,6 +2,7 @@
 //! same as `sweep.parquet`, and `sweep.json`; requested histories in `histories/`, a file per member. Results from before a crash
 //! are read from it again. The only module of sweeps that opens files for output.
 
+use lissom_core::diagnostics::Diagnose;
 use std::fs::{File, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -26,22 +27,16 @@ const SUMMARY: &str = "sweep.json";
 
 /// Why a folder cannot be used for a sweep.
 #[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
 #[non_exhaustive]
 pub enum SweepFolderError {
     /// A file or folder cannot be read or written.
-    #[error(transparent)]
     File(#[from] FileError),
     /// It contains members of another sweep.
-    #[error(
-        "`{0}` holds another sweep: its model, its sweep file or the version of the program is not this one; choose \
-         another folder by `--out`, or discard what is there by `--restart`"
-    )]
     OtherSweep(String),
     /// Another process writes to it.
-    #[error("another process is writing to `{0}`: wait for it, or choose another folder by `--out`")]
     Busy(String),
     /// A line of the record is invalid.
-    #[error("line {line} of `{path}` is no member of this sweep: discard what is there by `--restart`")]
     Damaged {
         /// The file.
         path: String,

@@ -210,7 +210,7 @@ fn series_hold_sections_with_their_forces() {
     for (args, words) in [
         (vec!["export", "out", "--format", "step"], "possible values: gltf, npz, parquet, vtk, urdf"),
         (vec!["export", "nowhere", "--format", "npz"], "history.csv"),
-        (vec!["export", "bar.toml", "--format", "npz"], "pass a folder of results"),
+        (vec!["export", "bar.toml", "--format", "npz"], "specify a folder of results"),
         (vec!["export", "out", "--format", "npz", "--frames", "0"], "0 is not in"),
     ] {
         let export = lissom(&args, folder.path());

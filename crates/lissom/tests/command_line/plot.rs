@@ -65,7 +65,7 @@ fn paths_spectra_and_several_results_are_drawn() {
     fs::write(&path, text.replace(quantity, &quantity.replace("\"m\"", "\"mm\""))).unwrap();
     let plot = lissom(&["plot", "coarse", "fine", "--of", "bob"], folder.path());
     assert!(
-        plot.code == 2 && plot.errors.contains("in m in one of the results and in mm"),
+        plot.code == 2 && plot.errors.contains("in m in one of the results, and in mm"),
         "{}",
         plot.errors
     );

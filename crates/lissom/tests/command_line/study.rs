@@ -112,7 +112,7 @@ fn mistakes_have_their_exit_codes() {
         assert_eq!(run.code, 2, "{arguments:?}: {}", run.errors);
     }
     for (schemes, steps, reference, words) in [
-        ("newmark", "1e-2", "radau-iia:1e-3", "`newmark` is no scheme"),
+        ("newmark", "1e-2", "radau-iia:1e-3", "`newmark` is not a scheme"),
         ("hht(0.5)", "1e-2", "radau-iia:1e-3", "outside"),
         ("radau-iia", "1e-2,6e-3", "radau-iia:1e-3", "6e-3 s does not divide the largest"),
         ("radau-iia", "1e-2", "radau-iia:2e-2", "larger than a step"),

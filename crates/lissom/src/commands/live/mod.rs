@@ -9,7 +9,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
-use lissom::{Model, Override};
+use lissom::{CommandError, Model, Override};
 
 use super::view::open;
 use super::{Exit, Failure};
@@ -53,10 +53,11 @@ impl Live {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
         // A missing file is an error of the command; an invalid model may be corrected while the page is open.
-        Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let shared = Arc::new(Shared::default());
         let address = server::start(self.port, &self.model, &shared).map_err(|error| {
-            Failure::new(Exit::Failed, format!("port {} cannot be used: {error}", self.port))
+            let error = CommandError::Port { port: self.port.into(), reason: error.to_string() };
+            Failure::new(Exit::Failed, &error)
         })?;
         simulation::start(self.model, self.set, &shared);
         terminal::print(&format!("{address}\n"));

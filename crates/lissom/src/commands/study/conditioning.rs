@@ -61,7 +61,7 @@ fn parse_variation(text: &str) -> Result<Variation, String> {
 impl Conditioning {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let request = self.request();
         // The model without these values need not be consistent: its end may be before its own first step.
         let document = model.document(&request.first())?;

@@ -72,7 +72,7 @@ fn parse_reference(text: &str) -> Result<Reference, String> {
 impl Convergence {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let request = self.request();
         let document = model.document(&request.first())?;
         show_warnings(&document);

@@ -49,14 +49,14 @@ impl From<StudyError> for Failure {
     fn from(error: StudyError) -> Self {
         match error {
             StudyError::Model(report) => report.into(),
-            StudyError::Interrupted => Self::new(Exit::Interrupted, error),
+            StudyError::Interrupted => Self::new(Exit::Interrupted, &error),
             StudyError::NotDynamic
             | StudyError::SchemeWord { .. }
             | StudyError::Output { .. }
             | StudyError::Steps { .. }
             | StudyError::CoarseReference(_)
-            | StudyError::NothingToCompare(_) => Self::new(Exit::BadModel, error),
-            other => Self::new(Exit::Failed, other),
+            | StudyError::NothingToCompare(_) => Self::new(Exit::BadModel, &error),
+            other => Self::new(Exit::Failed, &other),
         }
     }
 }
@@ -75,7 +75,7 @@ fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
     folder
         .map_or(Ok(()), files::create_folder)
         .and_then(|()| files::write(path, contents))
-        .map_err(|error| Failure::file(Exit::Failed, &error))
+        .map_err(|error| Failure::new(Exit::Failed, &error))
 }
 
 /// Draws the plot beside the table. A failure to draw is a warning, because the table is written.

@@ -49,7 +49,7 @@ pub(super) struct Roundoff {
 impl Roundoff {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         let request = Request {
             steps: self.steps.iter().map(|step| step.trim().to_owned()).collect(),
             output: self.output,
