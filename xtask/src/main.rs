@@ -221,7 +221,7 @@ fn main() -> ExitCode {
         Chore::Defaults(arguments) => defaults::defaults(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
-        Chore::Forces(arguments) => forces::forces(&arguments),
+        Chore::Forces(arguments) => Ok(forces::forces(&arguments)),
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),

@@ -111,7 +111,9 @@ impl Recovery {
         self.initial.subtract_product(system, &speeds, &mut lacking);
         let slides: Vec<(usize, f64)> = layout.impulses().map(|(row, _)| (row, lacking[row])).collect();
         lacking[..count].fill(0.0);
-        slides.into_iter().for_each(|(row, slide)| lacking[row] = slide);
+        for (row, slide) in slides {
+            lacking[row] = slide;
+        }
         let mut explicit = vec![0.0; layout.multiplier_count];
         system.constraint_velocities(&found.kinematics, &mut explicit);
         lacking[count..].iter_mut().zip(&explicit).for_each(|(value, rate)| *value -= rate);
@@ -163,13 +165,17 @@ impl Recovery {
         subtract(&unbalanced, &mut stiff);
         self.initial.add_stiffness_product(system, -square, &accelerations, &mut stiff);
         self.subtract_turning(system, time, found, &mut stiff);
-        slides.iter().for_each(|&(row, slide)| stiff[row] = slide);
+        for &(row, slide) in &slides {
+            stiff[row] = slide;
+        }
         self.initial.solve(system, &mut stiff);
         for _ in 2..self.stages {
             let mut next = lacking.clone();
             subtract(&unbalanced, &mut next);
             self.initial.add_stiffness_product(system, square, &stiff, &mut next);
-            slides.iter().for_each(|&(row, slide)| next[row] = slide);
+            for &(row, slide) in &slides {
+                next[row] = slide;
+            }
             self.initial.solve(system, &mut next);
             stiff = next;
         }
@@ -181,12 +187,16 @@ impl Recovery {
         found.multipliers.fill(0.0);
         for repetition in 0..MAX_REPETITIONS {
             let mut right = residual(self, found);
-            right.iter_mut().for_each(|value| *value = -*value);
+            for value in &mut right {
+                *value = -*value;
+            }
             let shift: Vec<f64> = stiff.iter().zip(&change).map(|(x, y)| x - y).collect();
             self.initial.add_stiffness_product(system, square, &shift, &mut right);
             if repetition == 0 {
                 right[count..].copy_from_slice(&lacking[count..]);
-                slides.iter().for_each(|&(row, slide)| right[row] = slide);
+                for &(row, slide) in &slides {
+                    right[row] = slide;
+                }
             }
             self.initial.solve(system, &mut right);
             for (row, impulse) in layout.impulses() {
