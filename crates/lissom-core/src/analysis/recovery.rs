@@ -14,7 +14,7 @@
 //! accelerations a + y,   internal forces at q + τ² (y - x)
 //! ```
 //!
-//! Stiff parts are treated like constraints: their rates vanish but for what the motion around them asks for. The second solution
+//! Stiff parts are treated like constraints: their rates vanish except for what the motion around them asks for. The second solution
 //! of each pair changes vibrations that the step resolves by (h ω/2)⁴ instead of (h ω/2)² only. The last one is repeated
 //! until the forces are in equilibrium, also where friction depends on multipliers. Derivation: docs/theory/recovery.md.
 
