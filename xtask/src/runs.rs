@@ -142,7 +142,7 @@ fn modes(model: &Model, overrides: &[Override], document: &Document) -> Result<F
         violation: 0.0,
         wall: found.wall,
         grid: grid(document),
-        warnings: of_document.chain(found.warnings).collect(),
+        warnings: of_document.chain(found.warnings.iter().map(ToString::to_string)).collect(),
     })
 }
 

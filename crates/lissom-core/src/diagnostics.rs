@@ -71,6 +71,12 @@ pub trait Diagnose {
     fn diagnostic(&self) -> Diagnostic;
 }
 
+impl Diagnose for Diagnostic {
+    fn diagnostic(&self) -> Diagnostic {
+        self.clone()
+    }
+}
+
 impl Diagnostic {
     /// A diagnostic of an entry without values.
     pub fn of(entry: &Entry, cause: impl Into<String>, remedy: impl Into<String>) -> Self {

@@ -2,7 +2,6 @@
 
 use std::str::FromStr;
 
-use lissom::Summary;
 use lissom::buckling::BucklingRunError;
 use lissom::campbell::{CampbellError, CampbellRequest};
 use lissom::gradient::{GradientError, Target};
@@ -10,7 +9,7 @@ use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
 use lissom::response::{FrequencyError, ResponseRequest};
-use lissom::{Document, Record, Session};
+use lissom::{AnalysisWarning, Document, Record, Session, Summary, with_code};
 use pyo3::prelude::*;
 
 use crate::errors::{SolutionError, of_report, question, refused, solution};
@@ -21,9 +20,9 @@ use crate::watch::{Watch, interruptible};
 /// Names and texts of files, the summary as JSON, and warnings.
 pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
 
-fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[String]) -> Files {
+fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[AnalysisWarning]) -> Files {
     let owned = texts.into_iter().map(|(name, text)| (name.to_owned(), text));
-    (owned.collect(), json(summary), warnings.to_vec())
+    (owned.collect(), json(summary), warnings.iter().map(with_code).collect())
 }
 
 /// The state to linearise about.
@@ -65,7 +64,11 @@ fn of_linear(
     overrides: &[lissom::Override],
     document: &Document,
 ) -> Files {
-    (found.files.clone(), json(&found.summary(name, overrides, document)), found.warnings.clone())
+    (
+        found.files.clone(),
+        json(&found.summary(name, overrides, document)),
+        found.warnings.iter().map(with_code).collect(),
+    )
 }
 
 /// The linear model at the state of `session`, as files.

@@ -4,9 +4,8 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lissom::core::analysis::InputError;
-use lissom::core::judge::Warning;
 use lissom::core::stepping::SnapshotError;
-use lissom::{Document, Session, SessionSnapshot};
+use lissom::{Document, Session, SessionSnapshot, with_code};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -56,18 +55,13 @@ impl Inner {
     fn news(&mut self) -> Vec<String> {
         let count = self.session.warnings().count();
         let news = if count > self.reported {
-            self.session.warnings().skip(self.reported).map(words).collect()
+            self.session.warnings().skip(self.reported).map(with_code).collect()
         } else {
             Vec::new()
         };
         self.reported = count;
         news
     }
-}
-
-/// A warning as in `summary.json`.
-fn words(warning: &Warning) -> String {
-    format!("{}: {warning}", warning.code())
 }
 
 /// Issues these warnings.
@@ -160,7 +154,7 @@ impl Simulation {
     /// Warnings so far, as in `summary.json`. Each is also reported by a `ModelWarning` when it occurs.
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.lock().session.warnings().map(words).collect()
+        self.lock().session.warnings().map(with_code).collect()
     }
 
     /// Present time [s].

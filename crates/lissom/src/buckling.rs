@@ -13,6 +13,7 @@ use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::shapes_table;
 
@@ -58,7 +59,7 @@ pub struct BucklingReport {
     /// Largest rotation of a node under the loads [rad].
     pub turn: f64,
     /// Warnings.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<AnalysisWarning>,
     /// Wall-clock time.
     pub wall: Duration,
 }
@@ -104,32 +105,23 @@ pub fn buckling(
     let mut warnings = Vec::new();
     let turn = zero.largest_turn(&one);
     if turn > LARGE_TURN {
-        warnings.push(format!(
-            "nodes rotate by up to {turn:.2} rad under the loads: load factors far from 1 are extrapolated although the stiffness \
-             does not change in proportion to the loads; an analysis of kind `path` locates the critical points"
-        ));
+        warnings.push(AnalysisWarning::LargeRotation { angle: turn });
     }
     match buckling.completeness {
         Completeness::Missing(missing) => return Err(BucklingRunError::Missing(missing)),
         Completeness::Counted => {}
-        Completeness::Unknown | Completeness::NotCounted => warnings.push(
-            if buckling.modes.is_empty() {
-                "no load factor was found, and it is unknown whether there is one"
-            } else {
-                "it is unknown whether a lower load factor was missed"
-            }
-            .to_owned(),
-        ),
+        Completeness::Unknown | Completeness::NotCounted => warnings.push(if buckling.modes.is_empty() {
+            AnalysisWarning::NoLoadFactorFound
+        } else {
+            AnalysisWarning::LoadFactorUnknown
+        }),
     }
     if buckling.completeness == Completeness::Counted {
         let number = buckling.modes.len();
         if number == 0 {
-            warnings.push(
-                "no positive load factor makes the stiffness singular: these loads stiffen the model"
-                    .to_owned(),
-            );
+            warnings.push(AnalysisWarning::Stiffening);
         } else if number < asked && (count.is_some() || own != DEFAULT_BUCKLING_COUNT) {
-            warnings.push(format!("{asked} load factors were requested, and the model has only {number}"));
+            warnings.push(AnalysisWarning::FewerLoadFactors { wanted: asked, found: number });
         }
     }
     Ok(BucklingReport {
@@ -162,14 +154,13 @@ impl BucklingReport {
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
         insert("stopped", json!("end"));
         insert("asked", json!(self.asked));
         insert("found", json!(self.buckling.modes.len()));
         insert("completeness", json!(self.buckling.completeness.name()));
         insert("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
         insert("largest_turn", json!(self.turn));
-        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

@@ -9,8 +9,9 @@ use lissom_model::output::{CampbellPlot, Summary};
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
-use crate::modes::{AT_REST, ModesError, Reliable, reliable};
+use crate::modes::{ModesError, Reliable, reliable};
 use crate::operating_point::{LinearizationPoint, OperatingPoint};
 
 /// Modes with a smaller likeness of shapes do not belong to one line.
@@ -142,7 +143,7 @@ pub struct CampbellReport {
     /// The multiples of the rotation.
     pub rays: Vec<u32>,
     /// Warnings.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<AnalysisWarning>,
     /// Wall-clock time.
     pub wall: Duration,
 }
@@ -152,7 +153,7 @@ struct Search<'s> {
     model: &'s Model,
     overrides: &'s [Override],
     request: &'s CampbellRequest,
-    warnings: Vec<String>,
+    warnings: Vec<AnalysisWarning>,
 }
 
 /// Campbell diagram of `model` with `overrides`.
@@ -210,8 +211,15 @@ impl Search<'_> {
             let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
             let found = found.modes;
             let model = at_rest.as_ref().unwrap_or(reached.model);
-            let at_value = warnings.into_iter().filter(|words| words != AT_REST).chain(reached.warnings);
-            doubts.extend(at_value.map(|words| format!("at `{path}` = {value}: {words}")));
+            let at_value = warnings
+                .into_iter()
+                .filter(|own| *own != AnalysisWarning::AxesAtRest)
+                .chain(reached.warnings);
+            doubts.extend(at_value.map(|own| AnalysisWarning::At {
+                path: path.clone(),
+                value,
+                warning: Box::new(own),
+            }));
             if before.is_some_and(|before| different(before, &found)) {
                 return Ok(None);
             }
@@ -240,11 +248,12 @@ impl Search<'_> {
         self.warnings.extend(doubts);
         let point = point.ok_or_else(|| CampbellError::Unlike(path.clone()))?;
         for of in point.modes.iter().filter(|of| of.assurance.is_some_and(|alike| alike < DOUBTFUL)) {
-            self.warnings.push(format!(
-                "line {} is continued to `{path}` = {value} between shapes with a correlation of only {:.2}: use more values",
-                of.line + 1,
-                of.assurance.unwrap_or(0.0)
-            ));
+            self.warnings.push(AnalysisWarning::UnlikeShapes {
+                line: of.line + 1,
+                path: path.clone(),
+                value,
+                correlation: of.assurance.unwrap_or(0.0),
+            });
         }
         Ok(point)
     }
@@ -391,7 +400,6 @@ impl CampbellReport {
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("campbell", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
         insert("stopped", json!("end"));
         insert("vary", json!(self.path));
         insert("values", json!(self.points.len()));
@@ -407,7 +415,7 @@ impl CampbellReport {
             })
         };
         insert("critical_speeds", self.crossings.iter().map(crossing).collect());
-        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

@@ -3,13 +3,23 @@
 use lissom_core::diagnostics::{Diagnose, Entry, Value};
 use serde_json::json;
 
-use crate::{failures, gradient};
+use crate::{analysis_warning, failures, gradient};
 
 /// All codes of warnings and failures, with their meaning.
 pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
     let of_core = lissom_core::catalogue::entries();
     let of_model = lissom_model::failures::entries();
-    of_core.chain(gradient::ENTRIES).chain(of_model).chain(failures::entries())
+    of_core
+        .chain(gradient::ENTRIES)
+        .chain(analysis_warning::ENTRIES)
+        .chain(of_model)
+        .chain(failures::entries())
+}
+
+/// A warning with its code, as in `summary.json` and on the terminal.
+pub fn with_code(warning: &impl Diagnose) -> String {
+    let diagnostic = warning.diagnostic();
+    format!("{}: {diagnostic}", diagnostic.code)
 }
 
 /// A failure for `summary.json`, without the message.

@@ -116,6 +116,7 @@ pub mod buckling;
 pub mod builder;
 mod operating_point;
 
+mod analysis_warning;
 pub mod campbell;
 mod checkpoint;
 mod command_error;
@@ -152,9 +153,10 @@ pub mod telemetry;
 mod timings;
 pub mod view;
 
+pub use analysis_warning::AnalysisWarning;
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use command_error::CommandError;
-pub use diagnostic::catalogue;
+pub use diagnostic::{catalogue, with_code};
 pub use folder::{FolderError, ResultFolder, protect_results};
 pub use folder_page::RecordedRun;
 pub use lissom_core as core;

@@ -11,6 +11,7 @@ use lissom_model::Document;
 use lissom_model::output::{Summary, full_matrix, quoted, sparse_matrix};
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
 use crate::operating_point::{self, LinearizationPoint, OperatingPoint};
@@ -45,7 +46,7 @@ pub struct LinearizeReport {
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
     /// Warnings about it.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<AnalysisWarning>,
     /// Wall-clock time.
     pub wall: Duration,
 }
@@ -217,7 +218,6 @@ impl LinearizeReport {
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("linearize", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
         insert("stopped", json!("end"));
         insert("about", json!(self.about));
         insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
@@ -229,7 +229,7 @@ impl LinearizeReport {
             Err(reason) => insert("without_state_space", json!(reason.to_string())),
         }
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

@@ -16,6 +16,7 @@ use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::session::SessionError;
 
@@ -152,7 +153,7 @@ pub struct ModeReport {
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
     /// Warnings.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<AnalysisWarning>,
     /// Wall-clock time.
     pub wall: Duration,
 }
@@ -193,12 +194,9 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     })?;
     let number = report.modes.len();
     if is_asked && number < count {
-        let few = if report.completeness == Completeness::Counted {
-            "the model has only"
-        } else {
-            "the search found only"
-        };
-        report.warnings.push(format!("{count} modes were requested, and {few} {number}"));
+        let is_counted = report.completeness == Completeness::Counted;
+        let evidence = if is_counted { "the model has" } else { "the search found" };
+        report.warnings.push(AnalysisWarning::FewerModes { wanted: count, evidence, found: number });
     }
     report.about = about.name();
     report.wall = began.elapsed();
@@ -208,15 +206,6 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     Ok(report)
 }
 
-/// Note about modes in axes at rest.
-pub(crate) const AT_REST: &str = "the coefficients are constant only in axes at rest, with multi-blade coordinates: frequencies are \
-those in these \
-    axes, shapes those at this instant";
-
-/// Note about modes in axes of wheels.
-const ROLLING: &str = "the coefficients are constant only in axes that do not spin with the wheels: frequencies are those in these axes, \
-    shapes those at this instant";
-
 /// Modes whose coefficients are constant while the model rotates.
 pub(crate) struct Reliable<'a> {
     /// The modes.
@@ -224,7 +213,7 @@ pub(crate) struct Reliable<'a> {
     /// The model in axes at rest, if the modes are computed there.
     pub(crate) at_rest: Option<LinearModel<'a>>,
     /// The modes that are omitted, and the axes.
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<AnalysisWarning>,
 }
 
 /// A mode whose coefficients are not constant.
@@ -254,16 +243,24 @@ pub(crate) fn reliable<'a>(
     }
     let (mut chosen, mut left_out) = (Reliable { found, at_rest: None, warnings: Vec::new() }, inconstant);
     let (mut reason, warning, other) = if model.rolls_on() {
-        ("they also change in axes that do not spin with the wheels", ROLLING, Ok(model.in_rolling_axes()))
+        (
+            "they also change in axes that do not spin with the wheels",
+            AnalysisWarning::RollingAxes,
+            Ok(model.in_rolling_axes()),
+        )
     } else {
-        ("they also change in multi-blade coordinates of its rotor", AT_REST, model.in_axes_at_rest())
+        (
+            "they also change in multi-blade coordinates of its rotor",
+            AnalysisWarning::AxesAtRest,
+            model.in_axes_at_rest(),
+        )
     };
     match other {
         Err(no) => reason = no.words(),
         Ok(at_rest) => {
             let (found, inconstant) = divide(at_rest.modes(options)?, &at_rest, &later)?;
             if found.modes.len() > chosen.found.modes.len() {
-                let warnings = vec![warning.to_owned()];
+                let warnings = vec![warning];
                 chosen = Reliable { found, at_rest: Some(at_rest), warnings };
                 left_out = inconstant;
             }
@@ -275,13 +272,12 @@ pub(crate) fn reliable<'a>(
         return Err(ModesError::Periodic { number, frequency, departure, reason });
     }
     let names: Vec<String> = left_out.iter().map(|mode| format!("{:.4e} Hz", mode.frequency)).collect();
-    chosen.warnings.push(format!(
-        "{} of {} modes are omitted ({}): their coefficients change as the model rotates, because rotating and non-rotating parts \
-         are coupled across the axis, and {reason}; such modes require Floquet theory, which is not implemented",
-        left_out.len(),
-        left_out.len() + chosen.found.modes.len(),
-        names.join(", ")
-    ));
+    chosen.warnings.push(AnalysisWarning::ModesOmitted {
+        omitted: left_out.len(),
+        count: left_out.len() + chosen.found.modes.len(),
+        frequencies: names.join(", "),
+        reason,
+    });
     Ok(chosen)
 }
 
@@ -310,14 +306,10 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
     let mut warnings = Vec::new();
     let unstable = found.modes.iter().filter(|mode| mode.kind.is_unstable()).count();
     if unstable > 0 {
-        let words = if unstable == 1 { "1 mode grows".to_owned() } else { format!("{unstable} modes grow") };
-        warnings.push(format!("the state is unstable: {words}"));
+        warnings.push(AnalysisWarning::Unstable { modes: unstable });
     }
     match found.completeness {
-        Completeness::Unknown => warnings.push(
-            "it is unknown whether modes were missed: the matrices of the count could not be factored, or their counts are inconsistent"
-                .to_owned(),
-        ),
+        Completeness::Unknown => warnings.push(AnalysisWarning::ModeCountUnknown),
         Completeness::NotCounted | Completeness::Counted | Completeness::Missing(_) => {}
     }
     let layout = model.system().layout();
@@ -396,7 +388,6 @@ impl ModeReport {
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
         insert("stopped", json!("end"));
         insert("about", json!(self.about));
         insert("time", json!(self.time));
@@ -421,7 +412,7 @@ impl ModeReport {
             })
         };
         insert("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
-        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

@@ -11,6 +11,7 @@ use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
 use lissom_motion::rotation_part;
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::modes::ModesError;
 use crate::session::Session;
 
@@ -45,7 +46,7 @@ pub(crate) struct LinearizationPoint<'m, 'a> {
     /// Its outputs.
     pub(crate) channels: &'m [Channel],
     /// Warnings about the results of the linear model.
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<AnalysisWarning>,
 }
 
 impl std::str::FromStr for OperatingPoint {
@@ -110,14 +111,10 @@ impl OperatingPoint {
 }
 
 /// A warning if a force has a kink at the state.
-fn kink_warning(model: &LinearModel<'_>) -> Option<String> {
+fn kink_warning(model: &LinearModel<'_>) -> Option<AnalysisWarning> {
     let kink = model.kink()?;
     let quantity = if kink.is_of_rate { "damping" } else { "stiffness" };
-    Some(format!(
-        "the state is on a kink or a jump of a force ({}): the {quantity} differs on its two sides, and the linear model is that of \
-         one side; move the state off the kink, or make the law smooth there",
-        kink.name
-    ))
+    Some(AnalysisWarning::Kink { quantity, force: kink.name })
 }
 
 /// Receives the computed state.
@@ -161,7 +158,7 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
     let (system, mut state, doubts) = at_rest(system, state, &settings)?;
     // Instability is reported with the modes themselves.
     let relaxed = doubts.iter().filter(|doubt| matches!(doubt, Warning::Relaxed { .. }));
-    let warnings = relaxed.map(|doubt| format!("{}: {doubt}", doubt.code())).collect();
+    let warnings = relaxed.map(|doubt| AnalysisWarning::State(doubt.clone())).collect();
     stop(&mut state);
     let model = linear(&system, &state, &settings)?;
     let hint = "specify an analysis of kind `statics` with more load steps, and linearise at its end";
@@ -238,11 +235,7 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     }
     let mut warnings = Vec::new();
     if model.unsteadiness() > STEADY {
-        warnings.push(format!(
-            "the motion at t = {time} s is not steady (relative change of its twists {:.1e}): frequencies are those of \
-             coefficients frozen at that instant",
-            model.unsteadiness()
-        ));
+        warnings.push(AnalysisWarning::Unsteady { time, change: model.unsteadiness() });
     }
     hand(LinearizationPoint { model: &model, channels: session.observed().channels(), warnings });
     Ok(())

@@ -18,6 +18,7 @@ use lissom_model::toml_text::quoted;
 use lissom_motion::Vector3;
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::export::npy;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
@@ -65,7 +66,7 @@ pub struct ReduceReport {
     /// Whether the state has forces at the interfaces.
     pub is_preloaded: bool,
     /// Warnings.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<AnalysisWarning>,
     /// Wall-clock time.
     pub wall: Duration,
 }
@@ -116,16 +117,14 @@ pub fn reduce(
     let has_gravity = document.gravity.norm() > 0.0;
     document.gravity.fill(0.0);
     let names = lower(&document).map_err(ModesError::from)?;
-    let found: Result<(Kinematics, Layout, Vec<String>), ModesError> =
+    let found: Result<(Kinematics, Layout, Vec<AnalysisWarning>), ModesError> =
         request.about.linearized(&document, |reached| {
             let layout = reached.model.system().layout().clone();
             Ok((reached.model.kinematics().clone(), layout, reached.warnings))
         });
     let (at, layout, mut warnings) = found?;
     if has_gravity {
-        warnings.push(
-            "gravity is omitted: the weight is that in the model that uses the superelement".to_owned(),
-        );
+        warnings.push(AnalysisWarning::GravityOmitted);
     }
     let chosen = Chosen::of(&document, request, &names.names)?;
     let own = chosen.document(&document)?;
@@ -162,14 +161,10 @@ pub fn reduce(
         ));
     }
     if !found.is_counted && request.modes > 0 {
-        warnings.push("it is unknown whether modes with fixed interfaces were missed".to_owned());
+        warnings.push(AnalysisWarning::InterfaceModesUnknown);
     }
     if found.matrices.geometric.is_none() && inner > 0 {
-        warnings.push(
-            "the parts are connected by joints or relations: terms of second order in the deformation are not computed, so the \
-             superelement lacks the change of its stiffness by loads"
-                .to_owned(),
-        );
+        warnings.push(AnalysisWarning::FirstOrder);
     }
     let matrices = found.matrices.check(&found.places)?;
     let labels: Vec<String> = chosen.interfaces.iter().map(|name| label(name)).collect();
@@ -580,7 +575,6 @@ impl ReduceReport {
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("reduce", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
         insert("stopped", json!("end"));
         insert("interfaces", json!(self.interfaces));
         insert("unknowns", json!(self.unknowns[0]));
@@ -590,7 +584,7 @@ impl ReduceReport {
         insert("mass", json!(self.mass));
         insert("preloaded", json!(self.is_preloaded));
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

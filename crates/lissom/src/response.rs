@@ -11,6 +11,7 @@ use lissom_model::{Document, Report};
 use num_complex::Complex64;
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
 use crate::operating_point::{LinearizationPoint, OperatingPoint};
@@ -134,7 +135,7 @@ pub struct ResponseReport {
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
     /// Warnings about them.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<AnalysisWarning>,
     /// Wall-clock time.
     pub wall: Duration,
 }
@@ -173,9 +174,7 @@ fn of_state(
         return Err(FrequencyError::RollsOn);
     }
     if !model.is_at_rest() {
-        warnings.push(
-            "the model moves: outputs in global axes are those at the instant of linearisation".to_owned(),
-        );
+        warnings.push(AnalysisWarning::ResponseOfMotion);
     }
     let natural = natural_frequencies(model, request, &mut warnings);
     let mut table = Table::new(model, &inputs, &outputs);
@@ -184,9 +183,7 @@ fn of_state(
     first.dedup();
     table.fill(&first)?;
     if table.rows.len() >= MAX_FREQUENCIES {
-        warnings.push(format!(
-            "more than {MAX_FREQUENCIES} frequencies would be required to resolve every change"
-        ));
+        warnings.push(AnalysisWarning::TooManyFrequencies { limit: MAX_FREQUENCIES });
     }
     let layout = model.system().layout();
     let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
@@ -212,29 +209,22 @@ fn of_state(
 fn natural_frequencies(
     model: &LinearModel<'_>,
     request: &ResponseRequest,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<AnalysisWarning>,
 ) -> Vec<(f64, f64)> {
     let found = match model.modes(&ModeOptions { count: MODES, shift: None }) {
         Ok(found) => found.modes,
         Err(error) => {
-            warnings.push(format!(
-                "narrow peaks may be missed, because natural frequencies could not be computed: {error}"
-            ));
+            warnings.push(AnalysisWarning::PeaksUnknown { reason: error.to_string() });
             return Vec::new();
         }
     };
     let growing = found.iter().filter(|mode| mode.kind.is_unstable()).count();
     if growing > 0 {
-        warnings.push(format!(
-            "the state is unstable ({growing} modes grow): the response is that of the linear equations, but no motion converges to it"
-        ));
+        warnings.push(AnalysisWarning::UnstableResponse { modes: growing });
     }
     let last = found.last().map_or(0.0, |mode| mode.frequency);
     if found.len() >= MODES && last < request.to {
-        warnings.push(format!(
-            "natural frequencies were computed up to {last:.4e} Hz: above, peaks narrower than the spacing of frequencies may be \
-             missed"
-        ));
+        warnings.push(AnalysisWarning::PeaksAbove { frequency: last });
     }
     let inside = |mode: &&Mode| {
         matches!(mode.kind, ModeKind::Oscillation | ModeKind::Flutter)
@@ -244,9 +234,7 @@ fn natural_frequencies(
         found.iter().filter(inside).map(|mode| (mode.frequency, mode.damping)).collect();
     let undamped = natural.iter().filter(|(_, damping)| damping.abs() < UNDAMPED).count();
     if undamped > 0 {
-        warnings.push(format!(
-            "{undamped} natural frequencies in the range have no damping: the response there is unbounded"
-        ));
+        warnings.push(AnalysisWarning::Undamped { count: undamped });
     }
     natural
 }
@@ -388,7 +376,6 @@ impl ResponseReport {
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = crate::summary::of_request("response", name, overrides, document);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
         insert("stopped", json!("end"));
         insert("about", json!(self.about));
         insert("frequencies", json!(self.frequencies.len()));
@@ -409,7 +396,7 @@ impl ResponseReport {
             })
         };
         insert("transfers", self.transfers.iter().map(peak).collect());
-        insert("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

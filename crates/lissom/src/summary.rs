@@ -14,7 +14,9 @@ use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
+use crate::analysis_warning::AnalysisWarning;
 use crate::diagnostic;
+use crate::diagnostic::with_code;
 use crate::model::{Model, Override};
 use crate::report::RunReport;
 use crate::session::{Session, columns};
@@ -121,6 +123,12 @@ pub(crate) fn of_assembly(assembly: &Assembly) -> Value {
     })
 }
 
+/// Warnings of the model, then those of an analysis.
+pub(crate) fn warnings(document: &Document, of_analysis: &[AnalysisWarning]) -> Value {
+    let of_document = document.warnings.problems().map(|problem| json!(problem.message));
+    of_document.chain(of_analysis.iter().map(|warning| json!(with_code(warning)))).collect()
+}
+
 /// Records that a run has begun, which remains in the summary if it is killed.
 pub fn of_beginning(summary: &mut Summary) {
     insert(summary, "stopped", json!("running"));
@@ -131,7 +139,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let simulation = session.simulation();
     let totals = &report.totals;
     let known = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
-    let warnings = session.warnings().map(|warning| json!(format!("{}: {warning}", warning.code())));
+    let warnings = session.warnings().map(|warning| json!(with_code(warning)));
     insert(summary, "warnings", known.into_iter().chain(warnings).collect());
     let mut insert = |name: &str, fact: Value| insert(summary, name, fact);
     insert("stopped", json!(report.stopped.name()));

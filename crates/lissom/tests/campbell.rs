@@ -435,7 +435,7 @@ step = 1e-3
 "#;
     let ask = ModeRequest { count: Some(4), about: Some(OperatingPoint::Rotation), shift: None };
     let found = modes(&Model::from_text("model.toml", text), &[], &ask).expect("some modes are constant");
-    let words = found.warnings.join("\n");
+    let words = found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     for part in ["omitted", "coefficients change as the model rotates", "Floquet"] {
         assert!(words.contains(part), "{words}");
     }

@@ -320,7 +320,7 @@ fn check_counts_freedoms_and_names_redundant_constraints() {
     folder.write("twice.toml", &(text + twice));
     let run = lissom(&["check", "twice.toml"], folder.path());
     assert_eq!(run.code, 0);
-    assert_eq!(run.errors.matches("redundant constraint").count(), 3, "{}", run.errors);
+    assert_eq!(run.errors.matches("warning: redundant-constraint: ").count(), 3, "{}", run.errors);
     assert!(run.errors.contains("of joint `twin` follows from `pivot`"), "{}", run.errors);
     assert!(!folder.path().join("out").exists());
     // It runs, with the least forces that hold it, and says so.

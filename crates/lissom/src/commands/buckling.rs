@@ -8,7 +8,7 @@ use lissom::buckling::{BucklingReport, BucklingRunError, buckling, of_request};
 use lissom::{Document, Model, Override};
 
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Estimate the load factors at which a model buckles, from its stiffness with and without the loads.
@@ -66,7 +66,7 @@ pub(super) fn report(
     folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
     if !quiet {
         for warning in &found.warnings {
-            terminal::complain(&format!("warning: {warning}\n"));
+            warn(warning);
         }
         terminal::print(&render(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
     }

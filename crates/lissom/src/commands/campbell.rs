@@ -8,7 +8,7 @@ use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell}
 use lissom::summary;
 
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Compute natural frequencies and damping ratios over a parameter, such as the speed of a rotor.
@@ -86,7 +86,7 @@ impl Campbell {
         folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {
             for warning in &found.warnings {
-                terminal::complain(&format!("warning: {warning}\n"));
+                warn(warning);
             }
             terminal::print(&render(heading, &found, &path));
         }

@@ -4,14 +4,14 @@ use std::fmt::Write;
 
 use clap::Args;
 use lissom::path::varied_number;
-use lissom::{Document, Model, Report, Session};
+use lissom::{AnalysisWarning, Document, Model, Report, Session};
 use lissom_core::analysis::mobility::{Mobility, Redundant, mobility};
 use lissom_core::judge::Warning;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, check_run, lower};
 use serde_json::{Value, json};
 
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Check a model without simulating it: errors, size, degrees of freedom, redundant constraints.
@@ -45,12 +45,12 @@ impl Check {
         let freedom = mobility(&lowered.system, &lowered.state);
         terminal::print(&render(model.name(), &document, &lowered, &freedom));
         for redundant in &freedom.redundant {
-            terminal::complain(&warning(redundant));
+            warn(&warning(redundant));
         }
         // Errors of a run before its first step are reported here as well.
         let session = Session::start(lowered).map_err(|error| Failure::new(Exit::BadModel, &error))?;
         for warning in session.warnings() {
-            terminal::complain(&format!("warning: {warning}\n"));
+            warn(warning);
         }
         Ok(Exit::Done)
     }
@@ -233,10 +233,11 @@ fn outputs(lowered: &Lowered) -> String {
     format!("{outputs}, {}", count(columns, "column", "columns"))
 }
 
-fn warning(redundant: &Redundant) -> String {
+fn warning(redundant: &Redundant) -> AnalysisWarning {
     let Redundant { joint, equation, among, direction, .. } = redundant;
     let others: Vec<String> = among.iter().map(|name| format!("`{name}`")).collect();
     let others = if others.is_empty() { "its own other equations".to_owned() } else { others.join(", ") };
     let words = direction.as_ref().map_or(String::new(), |words| format!(": it repeats {words}"));
-    format!("warning: redundant constraint: {equation} of joint `{joint}` follows from {others}{words}\n")
+    let follows = format!("{others}{words}");
+    AnalysisWarning::Redundant { joint: joint.clone(), equation: equation.to_string(), follows }
 }

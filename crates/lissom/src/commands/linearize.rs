@@ -9,7 +9,7 @@ use lissom::summary;
 
 use super::linearization::{StateArgument, answered};
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Write the matrices of the model linearised about a state.
@@ -67,7 +67,7 @@ impl Linearize {
         folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {
             for warning in &found.warnings {
-                terminal::complain(&format!("warning: {warning}\n"));
+                warn(warning);
             }
             terminal::print(&render(document.title.as_deref().unwrap_or(model.name()), &found, &path));
         }

@@ -34,7 +34,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use lissom::{CommandError, Diagnose, Diagnostic, Document, Model, Override, Report};
+use lissom::{CommandError, Diagnose, Diagnostic, Document, Model, Override, Report, with_code};
 
 use crate::terminal;
 
@@ -227,6 +227,11 @@ fn parse_override(text: &str) -> Result<Override, String> {
         }
         _ => Err("it must be PATH=VALUE, such as `analysis.step=1e-4`".to_owned()),
     }
+}
+
+/// Shows a warning with its code on the terminal.
+fn warn(warning: &impl Diagnose) {
+    terminal::complain(&format!("warning: {}\n", with_code(warning)));
 }
 
 /// The warnings of a model, on the terminal.

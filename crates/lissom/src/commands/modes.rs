@@ -14,7 +14,7 @@ use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
 use super::results::{folder_for, unwritable, writing_failed};
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Maximum number of nodes of models whose shapes are drawn: for larger ones drawing would take longer than the modes.
@@ -102,7 +102,7 @@ pub(super) fn report(
     folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
     if !quiet {
         for warning in &found.warnings {
-            terminal::complain(&format!("warning: {warning}\n"));
+            warn(warning);
         }
         terminal::print(&render(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
     }

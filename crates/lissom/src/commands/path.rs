@@ -8,7 +8,7 @@ use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_reques
 use lissom::{Diagnose, Document, FolderError, Model, Override, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
 
-use super::{Exit, Failure, show_warnings};
+use super::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
 
 /// Options for the results.
@@ -43,7 +43,7 @@ pub(super) fn run(
         }
     };
     for warning in session.warnings() {
-        terminal::complain(&format!("warning: {}: {warning}\n", warning.code()));
+        warn(warning);
     }
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
     let mut session = if wanted.plots {
@@ -70,7 +70,7 @@ pub(super) fn run(
     }
     if wanted.plots {
         match folder.write_plots(&record, title) {
-            Err(error @ FolderError::Figure(_)) => terminal::complain(&format!("warning: {error}\n")),
+            Err(error @ FolderError::Figure(_)) => warn(&error),
             other => other.map_err(unwritable)?,
         }
     }

@@ -9,7 +9,7 @@ use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
 use lissom::summary;
 
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Maximum number of frequencies printed on the terminal.
@@ -102,7 +102,7 @@ impl Reduce {
         folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {
             for warning in &found.warnings {
-                terminal::complain(&format!("warning: {warning}\n"));
+                warn(warning);
             }
             let heading = document.title.as_deref().unwrap_or(model.name());
             terminal::print(&render(heading, &request.name, &found, &path));

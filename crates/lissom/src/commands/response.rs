@@ -9,7 +9,7 @@ use lissom::summary;
 
 use super::linearization::{StateArgument, answered};
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Compute the response of outputs to harmonic inputs, for the model linearised about a state.
@@ -84,7 +84,7 @@ impl Response {
         folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {
             for warning in &found.warnings {
-                terminal::complain(&format!("warning: {warning}\n"));
+                warn(warning);
             }
             terminal::print(&render(heading, &found, &path));
         }

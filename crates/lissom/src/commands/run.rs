@@ -20,7 +20,7 @@ use lissom_model::output::CurveRecord;
 use lissom_model::scene::Scene;
 
 use super::results::unwritable;
-use super::{Exit, Failure, show_warnings};
+use super::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Bar, Interrupt};
 
 /// Simulate a model as specified in its table `[analysis]`.
@@ -193,7 +193,7 @@ impl Run {
         summary::of_run(&mut summary, &session, &report);
         let noted = folder.write_telemetry(&session.telemetry().to_json());
         for warning in session.warnings() {
-            terminal::complain(&format!("warning: {warning}\n"));
+            warn(warning);
         }
         let kept = self.keep(&folder, (&summary, &session), (&record, task.plots), title);
         if !self.quiet {
@@ -250,7 +250,7 @@ impl Run {
             // Without plots or without the ability to draw, the tables are complete.
             Err(error @ FolderError::Figure(_)) => {
                 if !self.quiet {
-                    terminal::complain(&format!("warning: {error}\n"));
+                    warn(&error);
                 }
                 Ok(())
             }

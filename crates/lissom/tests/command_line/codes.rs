@@ -1,6 +1,6 @@
 //! Codes of failures and warnings on the terminal and in summaries.
 
-use super::support::{Folder, example, lissom};
+use super::support::{Folder, example, lissom, summary};
 
 /// Code in the last line of a message of failure.
 fn code_of(errors: &str) -> Option<&str> {
@@ -56,4 +56,19 @@ fn every_failure_of_a_command_has_its_code() {
         assert_eq!(code_of(&ended.errors), Some(code), "{args:?}: {}", ended.errors);
         assert_eq!(lissom(&["explain", code], folder.path()).code, 0, "{code}");
     }
+}
+
+#[test]
+fn warnings_of_analyses_have_their_codes() {
+    let folder = Folder::new("codes-of-warnings");
+    let model = example("pendulum");
+    let run = lissom(&["modes", &model, "--count", "50", "--out", "out"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let code = "fewer-modes: ";
+    assert!(run.errors.contains(&format!("warning: {code}")), "{}", run.errors);
+    let facts = summary(&folder.path().join("out"));
+    let warnings = facts["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|warning| warning.as_str().unwrap().starts_with(code)), "{facts}");
+    let explained = lissom(&["explain", "out"], folder.path());
+    assert!(explained.output.contains("fewer modes than requested"), "{}", explained.output);
 }

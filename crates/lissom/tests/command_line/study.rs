@@ -74,7 +74,7 @@ fn a_run_that_fails_is_reported_in_its_row() {
     arguments.extend(limits.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
     let run = lissom(&arguments, folder.path());
     assert_eq!(run.code, 3, "{}", run.errors);
-    assert!(run.errors.contains("warning: hht(-0.3), step_size 1: "), "{}", run.errors);
+    assert!(run.errors.contains(": hht(-0.3), step_size 1: "), "{}", run.errors);
     let csv = std::fs::read_to_string(folder.path().join("out/study-convergence/pendulum.csv")).unwrap();
     assert!(csv.contains("\nhht(-0.3),1,,\nhht(-0.3),1e-3,"), "{csv}");
 }

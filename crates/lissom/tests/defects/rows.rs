@@ -389,7 +389,7 @@ fn modes_missing() {
     for (found, expected) in frequencies.iter().zip(expected) {
         near("frequency", found * 2.0 * PI, expected, 1e-3 * expected);
     }
-    assert!(results.ended.errors.contains("2 modes grow"), "{}", results.ended.errors);
+    assert!(results.ended.errors.contains("growing modes: 2"), "{}", results.ended.errors);
 }
 
 #[test]

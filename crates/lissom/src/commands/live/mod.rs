@@ -12,7 +12,7 @@ use clap::Args;
 use lissom::{CommandError, Model, Override};
 
 use super::view::open;
-use super::{Exit, Failure};
+use super::{Exit, Failure, warn};
 use crate::terminal::{self, Interrupt};
 use simulation::Shared;
 
@@ -62,7 +62,7 @@ impl Live {
         simulation::start(self.model, self.set, &shared);
         terminal::print(&format!("{address}\n"));
         if self.open && !open(&address) {
-            terminal::complain("warning: no browser could be started: open the address in a browser\n");
+            warn(&CommandError::Browser(address.clone()));
         }
         while !interrupt.is_noted() {
             std::thread::sleep(PATIENCE);

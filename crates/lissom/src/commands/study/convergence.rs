@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::Model;
 use lissom::study::convergence::{Request, Table, study};
+use lissom::{AnalysisWarning, Diagnose, Model};
 
-use super::super::{Exit, Failure, ModelArguments, show_warnings};
+use super::super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
 
 /// Show the convergence of schemes: relative error and observed order over the step size.
@@ -84,12 +84,13 @@ impl Convergence {
         let mut exit = Exit::Done;
         for row in &table.rows {
             if let Err(error) = &row.outcome {
-                terminal::complain(&format!("warning: {}, step_size {}: {error}\n", row.scheme, row.step));
+                let member = format!("{}, step_size {}", row.scheme, row.step);
+                warn(&error.diagnostic().within(&member));
                 exit = Exit::Failed;
             }
         }
         if table.is_far_from_reference() {
-            terminal::complain("warning: no run is close to the reference, which may itself be inaccurate\n");
+            warn(&AnalysisWarning::FarFromReference);
         }
         let drawn = super::draw(&table.figure(&title), &path)?;
         terminal::print(&format!("results in {}{drawn}\n", path.display()));

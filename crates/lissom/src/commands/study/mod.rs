@@ -16,8 +16,8 @@ use lissom::study::{StudyError, Watch};
 use lissom_model::files;
 use lissom_model::output::LogFigure;
 
-use super::{Exit, Failure};
-use crate::terminal::{self, Interrupt};
+use super::{Exit, Failure, warn};
+use crate::terminal::Interrupt;
 
 /// Study the effects of scaling, scheme, step size and solver on a model.
 #[derive(Args)]
@@ -84,7 +84,7 @@ fn draw(figure: &LogFigure, table: &Path) -> Result<String, Failure> {
     let (svg, png) = match drawn {
         Ok(drawn) => drawn,
         Err(error) => {
-            terminal::complain(&format!("warning: {error}\n"));
+            warn(&error);
             return Ok(String::new());
         }
     };

@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::Model;
 use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
+use lissom::{Diagnose, Model};
 
-use super::super::{Exit, Failure, ModelArguments, show_warnings};
+use super::super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
 
 /// Show the round-off of an output, such as a reaction, at tiny steps.
@@ -65,7 +65,7 @@ impl Roundoff {
         let mut exit = Exit::Done;
         for row in &table.rows {
             if let Err(error) = &row.outcome {
-                terminal::complain(&format!("warning: step_size {}: {error}\n", row.step));
+                warn(&error.diagnostic().within(&format!("step_size {}", row.step)));
                 exit = Exit::Failed;
             }
         }
