@@ -143,10 +143,10 @@ def test_invalid_requests_have_codes_and_values() -> None:
     with pytest.raises(lissom.ModelError, match="cannot be linearised at t = 99") as late:
         model.modes(about=99.0)
     assert (late.value.code, late.value.time) == ("linearization-time", 99.0)
-    # An argument that cannot be read has no code.
+    # A request that cannot be read has the code of requests, and its reason.
     with pytest.raises(lissom.ModelError, match="`about`") as unknown:
         model.modes(about="somewhere")
-    assert (unknown.value.code, dict(unknown.value.values)) == (None, {})
+    assert unknown.value.code == "request" and "somewhere" in str(unknown.value.values["reason"])
     assert lissom.LissomError.code is None and dict(lissom.LissomError.values) == {}
 
 
