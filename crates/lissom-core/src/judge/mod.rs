@@ -128,12 +128,8 @@ impl Judge<'_> {
     }
 
     /// Violations relative to the representative length, or in radians.
-    fn violations(&self, end: &State) -> impl Iterator<Item = f64> {
-        let length = if self.representative.length > 0.0 { self.representative.length } else { 1.0 };
-        end.violations.iter().zip(self.quantities()).map(move |(violation, quantity)| match quantity {
-            Quantity::Length => violation.abs() / length,
-            Quantity::Angle | Quantity::State => violation.abs(),
-        })
+    fn violations<'e>(&'e self, end: &'e State) -> impl Iterator<Item = f64> + 'e {
+        self.system.layout().relative_violations(&end.violations, self.representative.length)
     }
 
     /// Of the constraints.

@@ -78,6 +78,20 @@ impl Layout {
         &self.quantities
     }
 
+    /// Violations of the constraints as fractions of a length `length` [m], or in radians.
+    pub fn relative_violations<'v>(
+        &'v self,
+        violations: &'v [f64],
+        length: f64,
+    ) -> impl Iterator<Item = f64> + 'v {
+        let length = if length > 0.0 { length } else { 1.0 };
+        let quantities = &self.quantities()[self.coordinate_count()..];
+        violations.iter().zip(quantities).map(move |(violation, quantity)| match quantity {
+            Quantity::Length => violation.abs() / length,
+            Quantity::Angle | Quantity::State => violation.abs(),
+        })
+    }
+
     /// Rows of the multipliers.
     pub fn multiplier_rows(&self) -> Range<usize> {
         self.coordinate_count..self.size()
