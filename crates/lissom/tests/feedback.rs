@@ -414,6 +414,18 @@ fn mistakes_are_reported_with_their_place() {
             assert!(reported.contains(words), "{tables}\n{reported}");
         }
     }
+    // A joint and an output of one name: components that only one of them has are no mistake.
+    let ambiguous = |source: &str| {
+        let output = "[outputs.arm]\nkind = \"relative\"\nof = \"arm\"\n";
+        let own = "[outputs.arm]\nkind = \"relative\"\nof = \"other\"\n\
+                   [joints.other]\nkind = \"generalized_coordinates\"\nstart = [0]\n\
+                   [springs.other]\nkind = \"coordinate_dynamics\"\ncoordinates = [\"other\"]\nmass = 1\n";
+        let text = arm(&load(source), analysis);
+        assert!(text.contains(output));
+        text.replace(output, own)
+    };
+    assert!(refused(&ambiguous("arm.rotation")).contains("may mean the joint or the output `arm`"));
+    assert!(lissom::Model::from_text("arm.toml", &ambiguous("arm.displacement1")).session(&[]).is_ok());
     let statics = arm("[states]\na = { derivative = \"1\" }\n", "").replace("\"dynamics\"", "\"statics\"");
     assert!(refused(&statics).contains("has no rates"));
 }

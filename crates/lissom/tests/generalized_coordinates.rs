@@ -239,4 +239,31 @@ fn what_makes_no_sense_is_refused() {
     refused("[\"x\"]", "[\"x\", \"x.displacement1\"]", "twice");
     refused("[\"x\"]", "[\"x.velocity1\"]", "has no coordinate `velocity1`");
     refused("[\"x\"]", "[\"y\"]", "names joint `y`, which does not exist");
+    // An entry with a circulatory part consists of two elements, none of which has its power.
+    let power = "[outputs.power]\nkind = \"power\"\nof = \"matrices\"\n[analysis]";
+    refused("[analysis]", power, "`matrices` has no power to record");
+    let symmetric = oscillator("0.1").replace("-14", "-10").replace("[analysis]", power);
+    let power = run(&symmetric, &[]);
+    assert!(column(&power, "power", "power").iter().any(|value| value.abs() > 1e-3));
+}
+
+#[test]
+fn an_entry_acts_on_a_hundred_coordinates_at_most() {
+    let model = |count: usize| {
+        let names: Vec<String> = (0..count).map(|k| format!("\"x.displacement{}\"", k + 1)).collect();
+        let zeros = vec![0; count];
+        format!(
+            "lissom = 1\n[joints.x]\nkind = \"generalized_coordinates\"\nstart = {zeros:?}\n\
+             [springs.all]\nkind = \"coordinate_dynamics\"\ncoordinates = [{}]\nmass = 1\nstiffness = 2\n\
+             [analysis]\nkind = \"dynamics\"\nend = 0.1\nstep = 0.01\n",
+            names.join(", ")
+        )
+    };
+    assert!(Model::from_text("model.toml", &model(100)).session(&[]).is_ok());
+    let started = Model::from_text("model.toml", &model(101)).session(&[]).map(|_| ());
+    let message = match started {
+        Err(SessionError::Model(report)) => report.render(false),
+        _ => panic!("accepted"),
+    };
+    assert!(message.contains("names 101 coordinates; an entry has at most 100"), "{message}");
 }

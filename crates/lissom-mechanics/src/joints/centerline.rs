@@ -222,6 +222,25 @@ mod tests {
         }
     }
 
+    /// The line turns twice, so that several of its points are nearest within their surroundings: samples of every interval decide.
+    #[test]
+    fn the_nearest_position_of_a_winding_line_is_found_in_every_interval() {
+        let knots: Vec<f64> = [0.0, 0.5, 1.1, 1.5, 2.2, 2.9, 3.3, 4.0].to_vec();
+        let line = Centerline::new(knots.clone()).expect("ascending");
+        let place = |node: usize| {
+            let s: f64 = knots[node];
+            Vector3::new((1.6 * s).sin(), 0.2 * s, 0.1 * (1.6 * s).cos())
+        };
+        for k in 0..=80 {
+            let s = 0.05 * f64::from(k);
+            let support = line.at(s);
+            let [on_line, tangent] = [0, 1].map(|derivative| support.sum(derivative, place));
+            let beside = tangent.cross(&Vector3::z()).normalize();
+            let found = line.nearest(&(on_line + 0.01 * beside), place);
+            assert!((found - s).abs() < 1e-9, "{found}, not {s}");
+        }
+    }
+
     /// A straight line is reproduced by two or more nodes, with its arc length and its tangent.
     #[test]
     fn straight_lines_of_two_and_more_nodes_are_met_exactly() {
