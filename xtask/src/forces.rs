@@ -28,6 +28,9 @@ pub(crate) struct ForcesArguments {
     /// Scheme that is tried; default that of the program
     #[arg(long)]
     scheme: Option<String>,
+    /// Errors that determine the steps that are tried (`forces`, for example); default that of the program
+    #[arg(long)]
+    control: Option<String>,
     /// Largest median, 95th percentile and maximum of the errors of a quantity, relative to its largest value
     #[arg(long, num_args = 3, default_values_t = [1e-6, 1e-5, 1e-3])]
     within: Vec<f64>,
@@ -72,6 +75,9 @@ pub(crate) fn forces(arguments: &ForcesArguments) -> bool {
     }
     if let Some(scheme) = &arguments.scheme {
         settings.push(("analysis.scheme".to_owned(), format!("\"{scheme}\"")));
+    }
+    if let Some(control) = &arguments.control {
+        settings.push(("analysis.control".to_owned(), format!("\"{control}\"")));
     }
     let reference: Vec<Override> =
         REFERENCE.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();

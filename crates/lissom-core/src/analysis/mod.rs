@@ -41,7 +41,7 @@ pub use mobility::{Mobility, Redundant};
 pub use phase::{Phase, Stopwatch, Unwatched};
 pub use recovery::{Recovered, Recovery};
 pub(crate) use settings::Problem;
-pub use settings::{Settings, StepControl};
+pub use settings::{Controlled, Settings, StepControl};
 pub use simulation::Simulation;
 pub use step_error::StepError;
 pub use totals::{StepReport, Totals};

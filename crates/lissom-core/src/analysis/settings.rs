@@ -37,6 +37,19 @@ pub struct StepControl {
     pub relative_tolerance: f64,
     /// Largest step [s].
     pub max_step: f64,
+    /// What the tolerance applies to.
+    pub of: Controlled,
+}
+
+/// Whose errors determine adaptive steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Controlled {
+    /// Those of positions, velocities and states.
+    #[default]
+    Positions,
+    /// Those of accelerations and forces too, relative to the largest acceleration: steps resolve every vibration that
+    /// contributes to them.
+    Forces,
 }
 
 /// A model with the settings of its solution.

@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::interface::{Control, Review};
-use crate::analysis::{Problem, StepControl};
+use crate::analysis::{Controlled, Problem, StepControl};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::instants::SAME;
 use crate::integrator::Attempt;
@@ -39,8 +39,8 @@ const ORDER: f64 = 3.0;
 pub(crate) struct Adaptive {
     control: StepControl,
     controller: Controller,
-    /// Largest displacement of a node since the start, at most 1 [-].
-    farthest: f64,
+    /// Of the motion since the start.
+    farthest: Extent,
     /// Defect that was evaluated last, over the allowed one.
     defect: f64,
     /// Duration to the target of the present step, and the longest step on the way [s].
@@ -48,9 +48,27 @@ pub(crate) struct Adaptive {
     bound: f64,
     /// Estimated error of the attempt reviewed last, over the tolerance.
     error: f64,
-    /// Its size [s], and the largest displacement of a node at its end.
+    /// Its size [s], and the extent of its motion.
     reviewed: f64,
-    reached: f64,
+    reached: Extent,
+}
+
+/// What errors are related to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Extent {
+    /// Largest displacement of a node, at most 1 [-].
+    displacement: f64,
+    /// Largest scaled acceleration [1/s²]; zero if forces are not controlled.
+    acceleration: f64,
+}
+
+impl Extent {
+    fn or(self, other: Self) -> Self {
+        Self {
+            displacement: self.displacement.max(other.displacement),
+            acceleration: self.acceleration.max(other.acceleration),
+        }
+    }
 }
 
 impl Adaptive {
@@ -61,25 +79,26 @@ impl Adaptive {
         Self {
             control,
             controller,
-            farthest: 0.0,
+            farthest: Extent::default(),
             defect: 0.0,
             distance,
             bound,
             error: 1.0,
             reviewed: 0.0,
-            reached: 0.0,
+            reached: Extent::default(),
         }
     }
 
     /// Estimated error of an attempt over the allowed error, converted to third order in the step size: raised to the
     /// power of three over the order of the estimate.
     fn estimated_error(&mut self, review: Review<'_>) -> f64 {
-        let StepControl { relative_tolerance: tolerance, max_step } = self.control;
+        let StepControl { relative_tolerance: tolerance, max_step, of: controlled } = self.control;
         let Problem { system, settings } = review.problem;
         let integrator = review.integrator;
         let (end, length) = (&review.attempt.end.kinematics, integrator.representative.length);
-        self.reached = excursion(system, (review.origin, end), length);
-        let mut reference = self.farthest.max(self.reached).max(MIN_REFERENCE);
+        let displacement = excursion(system, (review.origin, end), length);
+        self.reached = Extent { displacement, acceleration: 0.0 };
+        let mut reference = self.farthest.displacement.max(displacement).max(MIN_REFERENCE);
         if reference < 1.0 {
             reference = reference.max(driven(system, (review.origin.time, end.time + max_step), length));
         }
@@ -110,7 +129,14 @@ impl Adaptive {
         let states =
             states.fold(0.0_f64, |most, error| if error <= most || most.is_nan() { most } else { error });
         let states = states / allowed;
-        let error = if states <= positions || positions.is_nan() { positions } else { states };
+        let mut error = if states <= positions || positions.is_nan() { positions } else { states };
+        if controlled == Controlled::Forces {
+            let (error_of_forces, acceleration) = integrator.error_of_forces(review.problem, end);
+            self.reached.acceleration = acceleration;
+            let largest = self.farthest.or(self.reached).acceleration;
+            let forces = error_of_forces / (largest * tolerance).max(f64::MIN_POSITIVE);
+            error = if forces <= error || error.is_nan() { error } else { forces };
+        }
         let error = error.powf(power);
         // A tangent that remains valid over the step shows that the equations change little within it, unless the last defect was
         // considerable. A step that is rejected needs no second reason.
@@ -173,7 +199,7 @@ impl Control for Adaptive {
         self.controller.accept(attempt.size, self.error, self.control.max_step, tuning);
         // An event may have ended the step before the time at which it was reviewed.
         if attempt.size == self.reviewed {
-            self.farthest = self.farthest.max(self.reached);
+            self.farthest = self.farthest.or(self.reached);
         }
         attempt.size == self.distance
     }

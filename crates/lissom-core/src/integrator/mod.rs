@@ -4,6 +4,7 @@
 mod attempt;
 mod defect;
 pub(crate) mod error_estimate;
+mod error_of_forces;
 mod history;
 
 pub(crate) use attempt::Attempt;
@@ -41,6 +42,8 @@ pub(crate) struct Integrator {
     pub(crate) work: Box<Workspace>,
     /// The middle of a step, where its defect is evaluated.
     middle: Box<defect::Middle>,
+    /// The estimated error of an attempt, filtered twice, by row.
+    refiltered: Vec<f64>,
     pub(crate) jacobian_state: JacobianState,
     /// For schemes whose memory depends on the step size.
     pub(crate) history: Option<IntegratorHistory>,
@@ -82,6 +85,7 @@ impl Integrator {
             scaled,
             work: Box::new(work),
             middle: Box::new(defect::Middle::new(state)),
+            refiltered: vec![0.0; system.layout().size()],
             jacobian_state: JacobianState::default(),
             history,
             projection,

@@ -114,6 +114,15 @@ impl Coupling {
         let alone = [1.0, 0.0, 0.0];
         Self { systems: vec![StageSystem::Real(Decoupled { weights, left: alone, right: alone })] }
     }
+
+    /// Re(1/∂q''/∂z) of the first system: for vibrations with h ω ≪ 1, what its matrix adds to the mass over the stiffness.
+    pub(crate) fn inertial_share(&self) -> f64 {
+        match self.systems.first() {
+            Some(StageSystem::Real(of)) => 1.0 / of.weights.curvature,
+            Some(StageSystem::Complex(of)) => of.weights.curvature.re / of.weights.curvature.norm_sqr(),
+            None => 1.0,
+        }
+    }
 }
 
 /// Coefficients of a Runge-Kutta method that integrates velocities, strains and violations from their rates at the

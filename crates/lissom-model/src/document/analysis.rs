@@ -1,5 +1,6 @@
 //! The analysis that a model file requests, with its settings.
 
+use lissom_core::analysis::Controlled;
 use lissom_core::registry::{Parameter, Parameters};
 use lissom_core::solver_features::DisabledFeatures;
 
@@ -88,6 +89,8 @@ pub struct StepChoice {
     pub max_step: f64,
     /// Time from record to record, if not every step is recorded [s].
     pub output_step: Option<f64>,
+    /// Whose errors the tolerance limits.
+    pub of: Controlled,
 }
 
 /// Tolerance of the local error if a model specifies neither step nor tolerance.
@@ -96,6 +99,8 @@ const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-5;
 /// of 1e-3 have eight times the error; with a ten-thousandth, iterations increase by a quarter.
 const DEFAULT_TOLERANCE: f64 = 1e-8;
 const NEWTON_PART: f64 = 1e-2;
+/// Word of `control` by which tolerances apply to forces, too.
+const FORCES: &str = "forces";
 /// Scheme where steps are chosen and none is named.
 const CONTROLLED_SCHEME: &str = "radau-iia";
 /// Part of the whole duration that the longest step and the first step are where they are not given.
@@ -323,10 +328,11 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     let (max_step, output_step) = (given("max_step")?, given("output_step")?);
     if tolerance.is_none()
         && step.is_some()
-        && let Some(stray) = max_step.or(output_step)
+        && let Some(stray) =
+            max_step.or(output_step).map(|value| value.span).or(reader.node("control").map(|node| node.span))
     {
         return reader.context.fail(
-            stray.span,
+            stray,
             "this is for adaptive steps, but only `step` is specified".to_owned(),
             "add `relative_tolerance`, or remove this; `output_every` is for steps of equal size",
         );
@@ -340,9 +346,13 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     let step = step.unwrap_or(Located::new((FIRST_PART * duration).min(max_step), reader.name));
     let relative_tolerance = tolerance.map_or(DEFAULT_RELATIVE_TOLERANCE, |tolerance| tolerance.value);
     let output_step = output_step.map(|step| step.value);
+    let of = match reader.choice("control") {
+        Some(word) if word.value == FORCES => Controlled::Forces,
+        _ => Controlled::Positions,
+    };
     Some(AnalysisKind::Dynamics {
         step,
-        control: Some(StepChoice { relative_tolerance, max_step, output_step }),
+        control: Some(StepChoice { relative_tolerance, max_step, output_step, of }),
     })
 }
 

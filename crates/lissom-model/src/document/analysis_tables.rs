@@ -65,8 +65,18 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
             ),
         ]
     };
-    let mut dynamics = common();
-    dynamics.push(optional("scheme", words(&registry.schemes), "", "time integration scheme"));
+    let mut variants = vec![
+        Variant { word: "dynamics", summary: "Motion in time.", keys: motion(common(), registry) },
+        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: load_steps(common()) },
+    ];
+    variants.extend(analyses_without_records(common()));
+    variants
+}
+
+/// Keys of motions in time, with those that all runs have.
+fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
+    let words = registry.schemes.iter().map(|entry| entry.name).collect();
+    dynamics.push(optional("scheme", Shape::Choice(words), "", "time integration scheme"));
     dynamics.push(required("end", Shape::Number, "s", "last time"));
     dynamics.extend([
         optional("step", Shape::Positive, "s", "time step; with `relative_tolerance` the first step"),
@@ -75,6 +85,12 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
             Shape::Between(1e-12, 0.1),
             "",
             "tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`",
+        ),
+        optional(
+            "control",
+            choice(&["positions", "forces"]),
+            "",
+            "errors that determine adaptive steps: those of `positions` (and velocities and states, the default), or those of `forces` (and accelerations), too",
         ),
         optional("max_step", Shape::Positive, "s", "maximum adaptive step, default a twentieth of the whole time"),
         optional(
@@ -98,12 +114,7 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
             dynamics.push(key);
         }
     }
-    let mut variants = vec![
-        Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
-        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: load_steps(common()) },
-    ];
-    variants.extend(analyses_without_records(common()));
-    variants
+    dynamics
 }
 
 /// Keys of load steps, with those that all runs have.

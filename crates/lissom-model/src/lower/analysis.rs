@@ -1,7 +1,7 @@
 //! Scheme, step size, scaling and limits from the table `[analysis]`.
 
 use lissom_core::analysis::Settings;
-use lissom_core::analysis::StepControl;
+use lissom_core::analysis::{Controlled, StepControl};
 use lissom_core::newton::Limits;
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
 use lissom_core::schemes::{self, Scheme, SchemeParameters, statics};
@@ -46,15 +46,23 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         }
         AnalysisKind::Statics { steps: None, relative_tolerance } => {
             let max_step = LONGEST_LOAD_STEP * duration;
-            let choice = StepChoice { relative_tolerance: *relative_tolerance, max_step, output_step: None };
+            let choice = StepChoice {
+                relative_tolerance: *relative_tolerance,
+                max_step,
+                output_step: None,
+                of: Controlled::Positions,
+            };
             (statics::statics(), FIRST_LOAD_STEP * duration, 1, Some(choice))
         }
         AnalysisKind::Modes { .. } | AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. } => {
             (statics::statics(), duration, 1, None)
         }
     };
-    let control = choice
-        .map(|StepChoice { relative_tolerance, max_step, .. }| StepControl { relative_tolerance, max_step });
+    let control = choice.map(|choice| StepControl {
+        relative_tolerance: choice.relative_tolerance,
+        max_step: choice.max_step,
+        of: choice.of,
+    });
     let solver = analysis.solver.as_ref().map_or("sparse", |solver| solver.value.as_str());
     let Some(solver) = lissom_core::solvers::kind(solver) else {
         return Err(Problem::error(analysis.span, format!("unknown solver `{solver}`")));

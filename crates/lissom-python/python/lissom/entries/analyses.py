@@ -37,6 +37,7 @@ class Dynamics(Analysis):
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
         relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`; a number from 0.0000 to 0.1, or nothing.
+        control: errors that determine adaptive steps: those of `positions` (and velocities and states, the default), or those of `forces` (and accelerations), too; `"positions"`, `"forces"`, or nothing.
         max_step: maximum adaptive step, default a twentieth of the whole time [s]; a number > 0, or nothing.
         output_step: interval between records of adaptive steps; default every step [s]; a number > 0, or nothing.
         energy_check: whether a spurious increase of energy is a failure, default true; `true` or `false`, or nothing.
@@ -61,6 +62,7 @@ class Dynamics(Analysis):
     end: Number
     step: Number | None = None
     relative_tolerance: Number | None = None
+    control: Literal["positions", "forces"] | None = None
     max_step: Number | None = None
     output_step: Number | None = None
     energy_check: bool | None = None

@@ -18,6 +18,8 @@ entry! {
     step: f64 = "step";
     /// Tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`.
     relative_tolerance: f64 = "relative_tolerance";
+    /// Errors that determine adaptive steps: those of `positions` (and velocities and states, the default), or those of `forces` (and accelerations), too.
+    control: words::Control = "control";
     /// Maximum adaptive step, default a twentieth of the whole time \[s\].
     max_step: f64 = "max_step";
     /// Interval between records of adaptive steps; default every step \[s\].

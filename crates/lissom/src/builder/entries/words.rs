@@ -19,6 +19,13 @@ words! {
 }
 
 words! {
+    /// One of `positions`, `forces`.
+    Control;
+    Positions = "positions";
+    Forces = "forces";
+}
+
+words! {
     /// One of `both`, `rising`, `falling`.
     Direction;
     Both = "both";
