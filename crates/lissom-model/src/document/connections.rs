@@ -60,9 +60,9 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     under_sliders(context, document);
 }
 
-/// The force of a slider acts on the nodes around it, so sections between them do not depend on its position. Within one element
-/// the shear force lacks up to half of the slider's force, and the moment a fraction of force times element length that depends
-/// on `order`; farther away both are correct.
+/// The force of a slider acts on the six nodes around it. Within the elements of these nodes the shear force errs by up to 0.6 of the
+/// slider's force, and the moment by a fraction of force times element length that depends on `order`; farther away both are
+/// correct.
 fn under_sliders(context: &Context<'_>, document: &Document) {
     for output in &document.outputs {
         let OutputSource::Node { node, .. } = &output.source else { continue };
@@ -75,15 +75,14 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
         let (Some(slider), Some(beam)) = (slider.filter(|_| is_of_section), document.beam(name)) else {
             continue;
         };
-        let share = match beam.order {
-            1 => 30,
-            2 => 13,
-            _ => 7,
+        let (reach, share) = match beam.order {
+            1 => ("three", 30),
+            2 => ("two", 13),
+            _ => ("two", 7),
         };
         let message = format!(
-            "section forces of `{name}` do not know where within an element slider `{}` is: up to one element from it \
-             the shear force errs by up to half of its force, the moment by up to {share} % of its force times the length \
-             of an element",
+            "the force of slider `{}` acts on the nodes of `{name}` around it: up to {reach} elements from it the shear force \
+             errs by up to 60 % of its force, the moment by up to {share} % of its force times the length of an element",
             slider.name.value
         );
         let problem = Problem::warning(node.span, message).also(slider.name.span, "the slider");
