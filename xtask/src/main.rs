@@ -19,6 +19,7 @@ mod laws;
 mod mutants;
 mod outcome;
 mod peers;
+mod precision;
 mod random;
 mod reference;
 mod refine;
@@ -70,6 +71,8 @@ enum Chore {
     Ablate(AblateArguments),
     /// Run scenes, examples and random mechanisms with every scheme and tolerance, and print errors and costs
     Defaults(defaults::DefaultsArguments),
+    /// Print work and error of adaptive steps, by scheme and tolerance
+    Precision(precision::PrecisionArguments),
     /// Write the reference of the model file, and the types of its entries for models built in Rust and Python
     Reference {
         /// Write nothing; report whether it is out of date
@@ -218,6 +221,7 @@ fn main() -> ExitCode {
         Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
         Chore::Ablate(arguments) => ablate::ablate(&arguments).map_err(|error| error.to_string()),
+        Chore::Precision(arguments) => Ok(precision::precision(&arguments)),
         Chore::Defaults(arguments) => defaults::defaults(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),

@@ -20,7 +20,7 @@ use pulp::{Simd, WithSimd};
 use crate::kinematics::lanes::{
     Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for,
 };
-use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, NodeMotion};
 use crate::schemes::MAX_STAGES;
 
 /// Parametrization of the increments.
@@ -300,6 +300,28 @@ fn stage_kinematics<R: Real>(
     Reached { change, frame, twist: carried + gained, acceleration }
 }
 
+/// Motion of one node that departs from extrapolation over `ahead` [s] by `place`, with these rate and curvature.
+pub(crate) fn depart(
+    from: &NodeMotion,
+    ahead: f64,
+    place: &Vector6,
+    [rate, curvature]: [&Vector6; 2],
+) -> NodeMotion {
+    let table = StageTable {
+        meaning: Meaning::Departure,
+        ahead,
+        rate: [0.0; MAX_STAGES],
+        curvature: [0.0; MAX_STAGES],
+        gain: 0.0,
+    };
+    let twist = Screw::from(&from.twist);
+    let straight = twist.scaled(ahead);
+    let start = Start { frame: Pose::from(&from.frame), ahead: Pose::exponential(straight), straight, twist };
+    let Reached { frame, twist, acceleration, .. } =
+        stage_kinematics::<f64>(&table, &start, place.into(), [rate.into(), curvature.into()]);
+    NodeMotion { frame: frame.into(), twist: twist.into(), acceleration: acceleration.into() }
+}
+
 /// Result for one part of a block, lane by lane.
 struct Places {
     frame: Frames,
@@ -363,7 +385,6 @@ mod tests {
     use lissom_motion::{lie_bracket, tangent_rate_times, tangent_times};
 
     use super::*;
-    use crate::kinematics::NodeMotion;
 
     /// Pseudo-random numbers between -1 and 1.
     fn numbers(seed: u64) -> impl FnMut() -> f64 {
@@ -456,8 +477,8 @@ mod tests {
         let table = StageTable {
             meaning,
             ahead: 0.1,
-            rate: [0.7, -1.5, 0.3],
-            curvature: [-3.0, 0.2, 1.1],
+            rate: [0.7, -1.5, 0.3, 0.0, 0.0, 0.0, 0.0],
+            curvature: [-3.0, 0.2, 1.1, 0.0, 0.0, 0.0, 0.0],
             gain: 4.0,
         };
         let mut moving = Nodes::new(&layout, MAX_STAGES);

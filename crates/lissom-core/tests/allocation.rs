@@ -10,7 +10,7 @@ use lissom_core::joints;
 use lissom_core::newton::Limits;
 use lissom_core::registry::Parameters;
 use lissom_core::scaling::ScalingChoice;
-use lissom_core::schemes::{energy_decaying, generalized_alpha, radau_iia, radau_iia_5};
+use lissom_core::schemes::{energy_decaying, generalized_alpha, radau_iia};
 use lissom_core::system::{Builder, Placement};
 use lissom_motion::{Matrix6, Motion, Vector3};
 
@@ -42,7 +42,7 @@ fn a_step_allocates_nothing() {
     for scheme in [
         generalized_alpha::hht(-0.1).expect("valid"),
         radau_iia::two_stages(),
-        radau_iia_5::three_stages(),
+        radau_iia::three_stages(),
         decaying,
     ] {
         let mut builder = Builder::new();

@@ -10,7 +10,7 @@ use lissom_core::kinematics::Freedoms;
 use lissom_core::newton::Limits;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::scaling::ScalingChoice;
-use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, radau_iia_5, statics};
+use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, statics};
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6};
 
@@ -100,12 +100,13 @@ fn top_at(scheme: Scheme, steps: usize) -> [Vector3; 3] {
 
 #[test]
 fn schemes_have_their_orders_for_position_velocity_and_multiplier() {
-    let reference = top_at(radau_iia_5::three_stages(), 1024);
-    let schemes: [(&str, Scheme, [f64; 3], usize); 7] = [
+    let reference = top_at(radau_iia::three_stages(), 1024);
+    let schemes: [(&str, Scheme, [f64; 3], usize); 8] = [
         ("generalized-alpha", generalized_alpha::with_spectral_radius(0.8).expect("valid"), [2.0; 3], 512),
         ("hht", generalized_alpha::hht(-0.3).expect("valid"), [2.0; 3], 512),
         ("radau", radau_iia::two_stages(), [3.0, 2.0, 1.0], 64),
-        ("radau with three stages", radau_iia_5::three_stages(), [5.0, 3.0, 2.0], 16),
+        ("radau with three stages", radau_iia::three_stages(), [5.0, 3.0, 2.0], 16),
+        ("radau with five stages", radau_iia::five_stages(), [9.0, 5.0, 4.0], 8),
         ("decaying", energy_decaying::with_spectral_radius(0.0).expect("valid"), [3.0, 3.0, 2.0], 256),
         ("mixed", energy_decaying::with_spectral_radius(0.5).expect("valid"), [2.0, 2.0, 1.0], 128),
         ("preserving", energy_decaying::with_spectral_radius(1.0).expect("valid"), [2.0, 2.0, 1.0], 256),
@@ -120,6 +121,35 @@ fn schemes_have_their_orders_for_position_velocity_and_multiplier() {
             println!("{name} {i}: errors {:e} {:e}, order {order:.2}", errors[0][i], errors[1][i]);
             assert!(order > orders[i] - 0.15, "{name}: order {order} of quantity {i}");
         }
+    }
+}
+
+/// Within a step the motion has an error of the order of the polynomial through the stages, or of the cubic between the ends.
+#[test]
+fn schemes_have_their_order_between_the_ends_of_a_step() {
+    let schemes: [(&str, Scheme, f64, usize); 5] = [
+        ("generalized-alpha", generalized_alpha::with_spectral_radius(0.8).expect("valid"), 2.0, 256),
+        ("radau", radau_iia::two_stages(), 3.0, 64),
+        ("radau with three stages", radau_iia::three_stages(), 4.0, 16),
+        ("radau with five stages", radau_iia::five_stages(), 6.0, 8),
+        ("radau with seven stages", radau_iia::seven_stages(), 8.0, 8),
+    ];
+    for (name, scheme, order, steps) in schemes {
+        let [coarse, fine] = [steps, 2 * steps].map(|steps| {
+            let step = 0.05 / steps as f64;
+            let mut stepped = simulation(top(), scheme.clone(), step);
+            run(&mut stepped, steps);
+            let time = 0.05 - 0.63 * step;
+            let mut within = stepped.state().clone();
+            stepped.interpolate(time, &mut within);
+            let mut reference = simulation(top(), radau_iia::five_stages(), time / 128.0);
+            run(&mut reference, 128);
+            let place = |state: &State| state.kinematics.nodes[1].frame.position;
+            (place(&within) - place(reference.state())).norm()
+        });
+        let found = (coarse / fine).log2();
+        println!("{name}: errors {coarse:e} {fine:e}, order {found:.2}");
+        assert!(found > order - 0.3, "{name}: order {found}");
     }
 }
 
@@ -272,7 +302,7 @@ fn free_flexible_pendulum_keeps_its_energy_as_the_scheme_promises() {
 fn turned_models_give_turned_results() {
     let turn = Motion::exponential(&Vector6::new(3.0, -2.0, 1.0, 0.7, -1.1, 2.0));
     for scheme in
-        [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages(), radau_iia_5::three_stages()]
+        [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages(), radau_iia::three_stages()]
     {
         let [straight, turned] = [Motion::identity(), turn].map(|turn| {
             let mut simulation = simulation(rope(&turn, 3), scheme.clone(), 2e-3);

@@ -389,6 +389,10 @@ impl AnyBatch for DrivenBatch {
         (0..self.driven.len()).map(|item| AnyBatch::work(self, item, from, to)).sum()
     }
 
+    fn power_of_loads(&self, at: &Kinematics) -> f64 {
+        (0..self.driven.len()).map(|item| AnyBatch::power(self, item, at)).sum()
+    }
+
     fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
         let size = |driven: &Driven, at: &Kinematics| {
             self.graph.evaluate(at, |values| values[driven.signal.index()])

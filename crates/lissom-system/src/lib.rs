@@ -201,6 +201,19 @@ impl System {
         self.batches.iter().map(|batch| batch.work_of_loads(from, to)).sum()
     }
 
+    /// Power of loads [W].
+    pub fn power_of_loads(&self, at: &Kinematics) -> f64 {
+        self.batches.iter().map(|batch| batch.power_of_loads(at)).sum()
+    }
+
+    /// Power of prescribed motions, with all multipliers [W].
+    pub fn power_of_drives(&self, at: &Kinematics, multipliers: &[f64]) -> f64 {
+        if self.placed.is_empty() {
+            return 0.0;
+        }
+        self.constraints.others().map(|constraint| constraint.power(at, multipliers)).sum()
+    }
+
     /// Work of prescribed motions between two configurations with their multipliers, likewise [J].
     pub fn work_of_drives(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
         if self.placed.is_empty() {

@@ -7,11 +7,10 @@ use super::recovery::Recovery;
 use super::settings::Problem;
 use super::simulation::Simulation;
 use crate::elements::quadrature::gauss_legendre;
-use crate::integrator::Attempt;
+use crate::integrator::{Attempt, Integrator};
 use crate::joints::Constraint as _;
 use crate::judge::Warning;
 use crate::judge::warn;
-use crate::stepping::dense::interpolate;
 use crate::system::{ElementId, State, System};
 
 /// A number that grows from step to step; zero at the start.
@@ -102,11 +101,13 @@ impl Accumulation {
     /// Takes a step into account that is being accepted.
     pub(crate) fn follow(
         &mut self,
-        Problem { system, settings }: Problem<'_>,
+        problem: Problem<'_>,
+        integrator: &Integrator,
         attempt: &mut Attempt,
         state: &State,
         warnings: &mut Vec<Warning>,
     ) {
+        let Problem { system, settings } = problem;
         let Self { numbers, within, rates, after } = self;
         let Some(within) = within else { return };
         let is_motion = settings.scheme.dynamic;
@@ -115,8 +116,9 @@ impl Accumulation {
         let mut has_consistent_rates = is_motion && rates.is_some();
         if is_motion {
             let duration = time - start.kinematics.time;
+            let step = integrator.dense(problem, (start, end));
             for (state, (xi, _)) in within.iter_mut().zip(gauss_legendre(2)) {
-                interpolate(start, end, start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
+                step.interpolate(start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
                 let recovered = rates.as_mut().and_then(|rates| rates.recover(system, state, duration));
                 match recovered {
                     Some(recovered) => *state = recovered.rates,

@@ -15,10 +15,11 @@ use super::simulation::{Origin, Simulation};
 use super::singular_positions::SingularPositions;
 use super::step_error::{StepError, describe};
 use super::totals::{StepReport, Totals};
+use super::workspace::Workspace;
 use crate::analysis::Problem;
 use crate::control;
 use crate::integrator::{Attempt, Integrator, Start, pivoting_unless_augmented};
-use crate::judge::{self, EnergyBalance, Judge, Warning};
+use crate::judge::{self, EnergyBalance, Judge, StepWork, Warning};
 use crate::monitors::{Accepted, Beginning, Monitors};
 use crate::newton::Failure;
 use crate::saddle_point::TangentValues;
@@ -142,7 +143,16 @@ impl Simulation {
     pub(crate) fn judge_attempt(&mut self) -> Result<(), StepError> {
         let judge = Judge::new(self.problem(), &self.integrator.representative);
         let start = self.attempt.start(&self.state);
-        let (after, violation) = judge.examine(start, &self.attempt.end, &self.energy_balance)?;
+        let (scheme, end) = (&self.settings.scheme, &self.attempt.end);
+        let Workspace { motions, multipliers, .. } = &*self.integrator.work;
+        let work = match scheme.quadrature[..] {
+            [] => StepWork::between(&self.system, start, end),
+            ref weights => {
+                let size = end.kinematics.time - start.kinematics.time;
+                StepWork::of_stages(&self.system, (weights, size), motions, multipliers)
+            }
+        };
+        let (after, violation) = judge.examine((start, end), work, &self.energy_balance)?;
         (self.attempt.energy_balance, self.attempt.violation) = (after, violation);
         Ok(())
     }
@@ -155,7 +165,6 @@ impl Simulation {
             origin: &self.origin.kinematics,
             start: self.attempt.start(&self.state),
             end: &self.attempt.end,
-            last_size: self.state.kinematics.time - self.previous.kinematics.time,
             energy_balance: [&self.energy_balance, &self.attempt.energy_balance],
             violation: self.attempt.violation,
             fraction: self.control.fraction(&self.attempt),
@@ -168,7 +177,13 @@ impl Simulation {
     /// Makes the end of the last attempt the state.
     pub(crate) fn commit_attempt(&mut self) {
         let problem = Problem { system: &self.system, settings: &self.settings };
-        self.accumulation.follow(problem, &mut self.attempt, &self.state, &mut self.warnings);
+        self.accumulation.follow(
+            problem,
+            &self.integrator,
+            &mut self.attempt,
+            &self.state,
+            &mut self.warnings,
+        );
         self.energy_balance = self.attempt.energy_balance;
         let multipliers = &self.attempt.start(&self.state).multipliers;
         self.integrator.learn(&self.settings, multipliers);

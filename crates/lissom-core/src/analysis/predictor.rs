@@ -122,12 +122,6 @@ impl Predictor {
         self.is_used = true;
     }
 
-    /// What was missed at the last step, of one of `stages` stages.
-    pub(crate) fn last_missed(&self, stage: usize, stages: usize) -> impl Iterator<Item = f64> {
-        let (blocks, last) = (self.missed.len() / stages, self.place(0));
-        self.missed[stage * blocks..][..blocks].iter().flat_map(move |missed| missed[last])
-    }
-
     /// Takes over what another one has learned.
     pub(crate) fn restore(&mut self, from: &Self) {
         self.clone_from(from);
@@ -396,8 +390,6 @@ mod tests {
         for next in [1.0, 1.0, 0.5, 0.3, 1.5, 1.0] {
             let found = miss(time, size);
             guess.learn(&[vec![found; 9], vec![8.0 * found; 9]], |_| &[0.0; 9], &Tuning::default());
-            let missed: Vec<f64> = guess.last_missed(1, 2).take(9).collect();
-            assert!(missed.iter().all(|value| (value - 8.0 * found).abs() < 1e-12 * found), "{missed:?}");
             time += size;
             guess.rescale(next / size, 3);
             size = next;

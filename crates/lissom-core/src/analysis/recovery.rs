@@ -71,7 +71,7 @@ impl Recovery {
         if step <= 0.0 {
             return None;
         }
-        let time = 0.5 * step;
+        let time = 0.5 * step / self.stages.saturating_sub(1).max(1) as f64;
         let mut rates = state.clone();
         hold_sides(system, &mut rates.kinematics);
         self.initial.factor(system, &rates, Inertias::Within(time)).ok()?;

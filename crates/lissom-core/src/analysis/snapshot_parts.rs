@@ -13,7 +13,6 @@ use crate::system::System;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Learned {
     predictors: [Predictor; 2],
-    is_miss_known: bool,
     anderson: Anderson,
     effort: Effort,
     backed_off: bool,
@@ -25,7 +24,6 @@ impl Workspace {
     pub(crate) fn learned(&self) -> Learned {
         Learned {
             predictors: self.predictors.clone(),
-            is_miss_known: self.is_miss_known,
             anderson: self.anderson.clone(),
             effort: self.effort,
             backed_off: self.backed_off,
@@ -42,7 +40,6 @@ impl Workspace {
         for (guess, learned) in self.predictors.iter_mut().zip(&from.predictors) {
             guess.restore(learned);
         }
-        self.is_miss_known = from.is_miss_known;
         self.anderson.restore(&from.anderson);
         self.effort = from.effort;
         self.backed_off = from.backed_off;

@@ -32,8 +32,6 @@ pub(crate) struct Workspace {
     pub(crate) predicted: Vec<Vec<f64>>,
     /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
     pub(super) predictors: [Predictor; 2],
-    /// Whether they know the last step.
-    pub(super) is_miss_known: bool,
     /// Whether the next first guess is to make use of them.
     pub(crate) extrapolates: bool,
     /// Departures from going straight on since the start of the step, by stage and coordinate row.
@@ -111,7 +109,6 @@ impl Workspace {
                 Predictor::new(stages, &sizes),
                 Predictor::new(stages, &vec![1.0; layout.multiplier_count]),
             ],
-            is_miss_known: false,
             extrapolates: false,
             increments: vec![vec![0.0; count]; stages],
             node_tangents: match scheme.increments {
@@ -156,7 +153,6 @@ impl Workspace {
         let [of_increments, of_multipliers] = &mut self.predictors;
         of_increments.learn(&self.increments, |stage| &self.predicted[stage], &self.tuning);
         of_multipliers.learn(&self.multipliers, |_| multipliers, &self.tuning);
-        self.is_miss_known = true;
     }
 
     /// Records how residuals are to be scaled for the tangent in use.
@@ -178,7 +174,6 @@ impl Workspace {
     /// Makes the next first guess from the scheme alone.
     pub(crate) fn forget_predictions(&mut self) {
         self.predictors.iter_mut().for_each(Predictor::forget);
-        self.is_miss_known = false;
     }
 
     /// Goes over to steps that are `ratio` times as long: what is missed of places is of third order in the step, the
@@ -187,17 +182,6 @@ impl Workspace {
         let [of_increments, of_multipliers] = &mut self.predictors;
         of_increments.rescale(ratio, 3);
         of_multipliers.rescale(ratio, 1);
-    }
-
-    /// Whether it is known what the last step has missed.
-    pub(crate) fn is_miss_known(&self) -> bool {
-        self.is_miss_known
-    }
-
-    /// What the prediction of the last stage has missed at the last step, brought to the present step size.
-    pub(crate) fn last_miss(&self) -> impl Iterator<Item = f64> {
-        let stages = self.increments.len();
-        self.predictors[0].last_missed(stages - 1, stages)
     }
 }
 

@@ -1,10 +1,11 @@
 //! Steps as long as their estimated error allows: the size of the next one follows from the error of the last one.
 //!
 //! ```text
-//! factor = 0.8 ε^(-1/3)        for estimates of order h³ [Hairer, Nørsett and Wanner 1993, II.4]
+//! h_{n+1} = 0.8 a_n min(1, a_n/a_{n-1}),      a_n = h_n/ε_n        [Gustafsson 1994]
 //! ```
 //!
-//! ε is the estimated error over the tolerance. The size is kept if it would change only slightly.
+//! Legend: ε size of the step over that of a step with the largest allowed error, a size of the latter: if it becomes smaller from step to
+//! step it is expected to do so again. The size is kept if it would change only slightly.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,14 +14,14 @@ use crate::analysis::{Controlled, Problem, StepControl};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::instants::SAME;
 use crate::integrator::Attempt;
-use crate::integrator::error_estimate::{ErrorOrder, MIN_ERROR, MIN_REFERENCE, driven, excursion};
+use crate::integrator::error_estimate::{MIN_ERROR, MIN_REFERENCE, driven, excursion};
 use crate::kinematics::CoordinateId;
 use crate::tuning::{Tuning, TuningParameter};
 
 /// Largest growth of a step.
-const MAX_GROWTH: f64 = 5.0;
-/// Fraction of the tolerance allowed for a step whose estimate is of lower order than its scheme: such steps are few.
-const FIRST: f64 = 0.1;
+const MAX_GROWTH: f64 = 2.5;
+/// Smallest ratio of the allowed sizes of two steps that is expected to continue.
+const MIN_TREND: f64 = 0.5;
 /// Largest defect in the middle of a step, as a fraction of the reference, if the tolerance is not smaller: a tolerance coarser
 /// than the distance of two branches does not distinguish them. Of a four-bar whose links pass through one line, generalized-α,
 /// HHT and Radau IIA find the branch with seven times this limit.
@@ -30,9 +31,6 @@ const MAX_DEFECT: f64 = 1e-3;
 const NEGLIGIBLE_DEFECT: f64 = 0.02;
 /// Steps shorter than this fraction of the largest one are not tried [-].
 const SHORTEST: f64 = 1e-12;
-
-/// Order of the estimate in the step size.
-const ORDER: f64 = 3.0;
 
 /// Control of adaptive steps.
 #[derive(Clone, Copy, Debug)]
@@ -46,8 +44,8 @@ pub(crate) struct Adaptive {
     /// Duration to the target of the present step, and the longest step on the way [s].
     distance: f64,
     bound: f64,
-    /// Estimated error of the attempt reviewed last, over the tolerance.
-    error: f64,
+    /// Size of the attempt reviewed last over that of a step with the largest allowed error.
+    excess: f64,
     /// Its size [s], and the extent of its motion.
     reviewed: f64,
     reached: Extent,
@@ -83,15 +81,14 @@ impl Adaptive {
             defect: 0.0,
             distance,
             bound,
-            error: 1.0,
+            excess: 1.0,
             reviewed: 0.0,
             reached: Extent::default(),
         }
     }
 
-    /// Estimated error of an attempt over the allowed error, converted to third order in the step size: raised to the
-    /// power of three over the order of the estimate.
-    fn estimated_error(&mut self, review: Review<'_>) -> f64 {
+    /// The size of an attempt over that of a step with the largest allowed error.
+    fn excess_of(&mut self, review: Review<'_>) -> f64 {
         let StepControl { relative_tolerance: tolerance, max_step, of: controlled } = self.control;
         let Problem { system, settings } = review.problem;
         let integrator = review.integrator;
@@ -102,52 +99,54 @@ impl Adaptive {
         if reference < 1.0 {
             reference = reference.max(driven(system, (review.origin.time, end.time + max_step), length));
         }
-        let scheme_order = f64::from(settings.scheme.controlled_order);
-        let is_third_order = scheme_order > 2.0;
-        let is_fourth = is_third_order && integrator.work.is_miss_known();
-        let order = if is_fourth { ErrorOrder::Fourth } else { ErrorOrder::Third };
-        integrator.estimate_error(review.problem, end, review.last_size, order, review.has_switched);
-        let work = &*integrator.work;
-        let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
-            if (error * size).abs() <= most { most } else { (error * size).abs() }
-        });
-        let tuning = &settings.limits.tuning;
-        let share = tuning.of(TuningParameter::ShareOfStep);
-        let (allowed, power) = match order {
-            ErrorOrder::Third if is_third_order => (FIRST * tolerance, 1.0),
-            ErrorOrder::Third => (share * tolerance.powf(3.0 / 2.0), 1.0),
-            ErrorOrder::Fourth => (share * tolerance.powf(4.0 / scheme_order), 3.0 / 4.0),
-        };
-        let positions = largest / (reference * allowed).max(MIN_ERROR);
-        // First-order states, each relative to its magnitude, unfiltered.
-        let of = |(row, coordinate, magnitude): (usize, CoordinateId, f64)| {
-            let value = review.start.kinematics.coordinates[coordinate].value;
-            (work.error[row] / magnitude.max(value.abs())).abs()
-        };
-        // A NaN counts as the largest.
-        let states = system.layout().states().map(of);
-        let states =
-            states.fold(0.0_f64, |most, error| if error <= most || most.is_nan() { most } else { error });
-        let states = states / allowed;
-        let mut error = if states <= positions || positions.is_nan() { positions } else { states };
-        if controlled == Controlled::Forces {
-            let (error_of_forces, acceleration) = integrator.error_of_forces(review.problem, end);
-            self.reached.acceleration = acceleration;
-            let largest = self.farthest.or(self.reached).acceleration;
-            let forces = error_of_forces / (largest * tolerance).max(f64::MIN_POSITIVE);
-            error = if forces <= error || error.is_nan() { error } else { forces };
+        let scheme = &settings.scheme;
+        let share = settings.limits.tuning.of(TuningParameter::ShareOfStep);
+        let root = |ratio: f64, order: i32| ratio.powf(1.0 / f64::from(order));
+        let mut excess = 0.0;
+        for estimate in &scheme.errors {
+            let order = estimate.order;
+            let allowed = share * tolerance.powf(f64::from(order) / f64::from(scheme.order));
+            integrator.estimate_error(review.problem, estimate, end, review.has_switched);
+            let work = &*integrator.work;
+            let errors = work.filtered.iter().zip(&work.sizes).map(|(error, size)| (error * size).abs());
+            let positions = largest(errors) / (reference * allowed).max(MIN_ERROR);
+            // First-order states, each relative to its magnitude, unfiltered.
+            let of = |(row, coordinate, magnitude): (usize, CoordinateId, f64)| {
+                let value = review.start.kinematics.coordinates[coordinate].value;
+                (work.error[row] / magnitude.max(value.abs())).abs()
+            };
+            let states = largest(system.layout().states().map(of)) / allowed;
+            excess = larger(excess, root(larger(positions, states), order));
+            if controlled == Controlled::Forces {
+                let (error, acceleration) = integrator.error_of_forces(review.problem, end);
+                self.reached.acceleration = acceleration;
+                let largest = self.farthest.or(self.reached).acceleration;
+                let forces = error / (largest * tolerance).max(f64::MIN_POSITIVE);
+                excess = larger(excess, root(forces, order));
+            }
         }
-        let error = error.powf(power);
         // A tangent that remains valid over the step shows that the equations change little within it, unless the last defect was
         // considerable. A step that is rejected needs no second reason.
         let is_due = review.attempt.outcome.factorizations > 0 || self.defect > NEGLIGIBLE_DEFECT;
-        if !(is_due && error <= 1.0) {
-            return error;
+        if !(is_due && excess <= 1.0) {
+            return excess;
         }
-        let defect = integrator.defect(review.problem, (review.start, &review.attempt.end));
-        self.defect = defect / (tolerance.min(MAX_DEFECT) * reference).max(MIN_ERROR);
-        if self.defect <= error { error } else { self.defect }
+        let ends = (review.start, &review.attempt.end);
+        let order = integrator.dense(review.problem, ends).order();
+        let defect = integrator.defect(review.problem, ends);
+        let allowed = tolerance.powf((f64::from(order) / f64::from(scheme.order)).min(1.0)).min(MAX_DEFECT);
+        self.defect = defect / (allowed * reference).max(MIN_ERROR);
+        larger(excess, root(self.defect, order))
     }
+}
+
+/// The larger of two numbers; a NaN counts as the largest.
+fn larger(a: f64, b: f64) -> f64 {
+    if b <= a || a.is_nan() { a } else { b }
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, larger)
 }
 
 impl Control for Adaptive {
@@ -180,10 +179,10 @@ impl Control for Adaptive {
     fn review(&mut self, review: Review<'_>) -> bool {
         let (size, tuning) = (review.attempt.size, review.problem.settings.limits.tuning);
         self.reviewed = size;
-        self.error = self.estimated_error(review);
-        let is_accurate = self.error <= 1.0;
+        self.excess = self.excess_of(review);
+        let is_accurate = self.excess <= 1.0;
         if !is_accurate {
-            self.controller.reject(size, self.error, &tuning);
+            self.controller.reject(size, self.excess, &tuning);
         }
         is_accurate
     }
@@ -196,7 +195,7 @@ impl Control for Adaptive {
     }
 
     fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool {
-        self.controller.accept(attempt.size, self.error, self.control.max_step, tuning);
+        self.controller.accept(attempt.size, self.excess, self.control.max_step, tuning);
         // An event may have ended the step before the time at which it was reviewed.
         if attempt.size == self.reviewed {
             self.farthest = self.farthest.or(self.reached);
@@ -209,7 +208,7 @@ impl Control for Adaptive {
     }
 
     fn error(&self) -> Option<f64> {
-        Some(self.error)
+        Some(self.excess)
     }
 
     fn save(&self) -> Vec<u8> {
@@ -231,12 +230,14 @@ struct Controller {
     size: f64,
     /// Whether the last attempt failed: the step then does not grow at once.
     has_failed: bool,
+    /// Largest allowed size of the last accepted step [s]; zero before the first.
+    allowed: f64,
 }
 
 impl Controller {
     /// At the start, with a first step of `size` [s].
     fn new(size: f64) -> Self {
-        Self { size, has_failed: false }
+        Self { size, has_failed: false, allowed: 0.0 }
     }
 
     /// Size of the next step [s].
@@ -256,10 +257,14 @@ impl Controller {
         }
     }
 
-    /// A step of `taken` [s] is accepted with an estimated error of `error` times the tolerance.
-    fn accept(&mut self, taken: f64, error: f64, max_step: f64, tuning: &Tuning) {
+    /// A step of `taken` [s] is accepted, which is `excess` times as long as one with the largest allowed error.
+    fn accept(&mut self, taken: f64, excess: f64, max_step: f64, tuning: &Tuning) {
         let largest = if self.has_failed { 1.0 } else { MAX_GROWTH };
-        let factor = (tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER)).min(largest);
+        let allowed = taken / excess;
+        let trend = (allowed / std::mem::replace(&mut self.allowed, allowed)).sqrt().clamp(MIN_TREND, 1.0);
+        // After a step without any error there is no trend.
+        let trend = if trend.is_nan() { 1.0 } else { trend };
+        let factor = (tuning.of(TuningParameter::Safety) * trend / excess).min(largest);
         self.has_failed = false;
         let kept = tuning.of(TuningParameter::Kept);
         let wanted = taken * if (1.0 / kept..kept).contains(&factor) { 1.0 } else { factor };
@@ -268,10 +273,10 @@ impl Controller {
         self.size = self.size.min(max_step);
     }
 
-    /// A step of `taken` [s] is rejected: its estimated error is `error` times the tolerance, above 1.
-    fn reject(&mut self, taken: f64, error: f64, tuning: &Tuning) {
-        if error.is_finite() {
-            self.size = taken * tuning.of(TuningParameter::Safety) * error.powf(-1.0 / ORDER);
+    /// A step of `taken` [s] is rejected, which is `excess` times as long, more than 1.
+    fn reject(&mut self, taken: f64, excess: f64, tuning: &Tuning) {
+        if excess.is_finite() {
+            self.size = taken * tuning.of(TuningParameter::Safety) / excess;
             self.has_failed = true;
         } else {
             self.fail(taken);
@@ -289,18 +294,18 @@ impl Controller {
 mod tests {
     use super::*;
 
-    /// Steps over an interval where the error of a step h is (h/h₀(t))³.
+    /// Steps over an interval where the longest allowed step is h₀(t).
     fn sizes(of: impl Fn(f64) -> f64, end: f64) -> (Vec<f64>, usize) {
         let mut controller = Controller::new(1.0);
         let (mut time, mut rejected, mut taken) = (0.0, 0, Vec::new());
         while time < end {
             let size = controller.propose(end - time);
-            let error = (size / of(time)).powi(3);
-            if error > 1.0 {
-                controller.reject(size, error, &Tuning::default());
+            let excess = size / of(time);
+            if excess > 1.0 {
+                controller.reject(size, excess, &Tuning::default());
                 rejected += 1;
             } else {
-                controller.accept(size, error, 10.0, &Tuning::default());
+                controller.accept(size, excess, 10.0, &Tuning::default());
                 time += size;
                 taken.push(size);
             }

@@ -15,8 +15,6 @@ pub(crate) struct Review<'r> {
     /// Configuration at the beginning of the first step.
     pub(crate) origin: &'r Kinematics,
     pub(crate) start: &'r State,
-    /// Duration of the previous step [s].
-    pub(crate) last_size: f64,
     /// Energy and work up to the start.
     pub(crate) energy_balance: &'r EnergyBalance,
     /// Whether forces have switched at the start.

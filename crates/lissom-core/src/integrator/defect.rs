@@ -1,27 +1,24 @@
-//! Defect of the equations between the ends of a step: Newton's correction in the middle of the dense output.
+//! Defect of the equations between the ends of a step: Newton's correction within the dense output.
 //!
-//! Legend: q(½) dense output, its accelerations and multipliers interpolated linearly, r residual of the equations of motion, C
-//! violation of the constraints, J tangent of the step with its constraints, δ defect as a displacement.
+//! Legend: x step fraction in the middle of the widest gap between stages, or of the step, q(x) dense output with its accelerations
+//! and multipliers, r residual of the equations of motion, C violation of the constraints, J tangent of the step with its
+//! constraints, δ defect as a displacement.
 //!
 //! ```text
-//! J [δ; ·] = [M a + f(q, v, t) + Bᵀ λ; C(q(½)) - (C_start + C_end)/2]
+//! J [δ; ·] = [M a + f(q, v, t) + Bᵀ λ; C(q(x)) - (C_start + C_end)/2]
 //! ```
 //!
 //! A solution satisfies the equations at the stages only. A long step can lead from one branch of equilibria to another where
 //! branches come close, for example where the links of a loop are in line: residual and error estimate at its ends are
 //! correct, and a path between them does not exist. The motion in between violates the equations. For a smooth motion δ is
-//! the error of the dense output, O(h⁴). Violations at the ends are no defect of the step, and neither is the correction of
+//! the error of the dense output, with S stages O(h^(S+1)), of the cubic O(h⁴). Violations at the ends are no defect of the step, and neither is the correction of
 //! those at its start, which does not become smaller with the step: up to its size nothing is reported.
 
-use super::Integrator;
+use super::{Integrator, dense_output};
 use crate::analysis::Problem;
 use crate::joints::evaluation_point::{Increments, Point};
 use crate::kinematics::MotionChange;
-use crate::stepping::dense;
 use crate::system::State;
-
-/// The middle of the step: the cubic through both ends errs most there.
-const MIDDLE: f64 = 0.5;
 
 /// Defects below this multiple of the relative violation at the start are its correction: with its accelerations the dense output
 /// overshoots by a fraction of it, and one constraint moves a few coordinates.
@@ -56,7 +53,8 @@ impl Integrator {
     ) -> f64 {
         let Self { middle, work, scaled, .. } = self;
         let Middle { state, unmoved, unchanged } = &mut **middle;
-        dense::at_share(from, to, MIDDLE, state);
+        let dense = dense_output(work, Problem { system, settings }, (from, to));
+        dense.at(dense.least_determined(), state);
         system.violations(&state.kinematics, &mut state.violations);
         let ends = from.violations.iter().zip(&to.violations);
         for (violation, (start, end)) in state.violations.iter_mut().zip(ends) {

@@ -1,38 +1,25 @@
-//! The error of a step: the error at its end of the scheme's prediction from its start, filtered once through the
-//! tangent, so that motions faster than the step are damped as by the scheme itself.
+//! The estimated error of a step, filtered once through the tangent, so that motions faster than the step are damped as by the scheme
+//! itself.
 //!
-//! Legend: z departure from extrapolation at the end of the step, z_predicted = ½ h² times the acceleration (or the
-//! scheme's memory of it) at the start, r ratio of the step to the previous one, κ the scheme's constant, J tangent in
-//! use with its constraints, so that constrained directions have no error, w₂ M its inertial part, τ relative tolerance.
+//! Legend: e linear combination of the increments and the start of the step that the scheme declares (`ErrorEstimate`), k its
+//! order, p order of the scheme, J tangent in use with its constraints, so that constrained directions have no error, w₂ M its
+//! inertial part, τ relative tolerance.
 //!
 //! ```text
-//! m_n = z - z_predicted = O(h³)     or, where it is larger,     m_v = (q'_end - q'_start - q''_start)/3
-//! third order:   e = κ m_n,                             ε = |J⁻¹ w₂ M e| / (reference · τ^(3/2)/2)
-//! fourth order:  e = (m_n - r³ m_{n-1}) 4/(1 + 3/r),    ε = (|J⁻¹ w₂ M e| / (reference · τ^(4/3)/2))^(3/4)
+//! ε = (|J⁻¹ w₂ M e| / (reference · τ^(k/p)/2))^(1/k)
 //! ```
 //!
-//! The local error of second-order schemes is of third order, that of third-order schemes of fourth. The latter is estimated
-//! by the part of a step's prediction error that the previous step does not predict, scaled to a constant step size by its
-//! last factor. If N steps of size h = 1/N have errors of h³ or h⁴ each, positions at the end have errors of h² or h³, and
-//! so of τ, with every scheme. The first step of a third-order scheme, and one after a breakpoint or a switch, has only the
-//! third-order estimate; it may be a tenth of τ. The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the
-//! largest entry, with lengths relative to ℓ_r. The reference is the largest displacement or rotation of a node since the
-//! start, or that of a drive within the longest step, at most 1.
+//! If N steps of size h = 1/N have errors of h^(p+1) each, positions at the end have errors of h^p, and so of τ, with every scheme.
+//! ε is the size of the step over that of a step with the largest allowed error. The filter is that of [Hairer and Wanner 1996,
+//! IV.8]. A scheme of several stages has two estimates, of which the larger ε counts. The norm is the largest entry, with lengths relative to ℓ_r. The reference is the largest displacement or rotation of
+//! a node since the start, or that of a drive within the longest step, at most 1.
 
 use super::Integrator;
 use crate::analysis::Problem;
 use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity, Subject};
-use crate::scaling::UnitStepState;
-use crate::schemes::Stage;
+use crate::schemes::ErrorEstimate;
 use crate::system::{Drive, System};
-
-/// Order of an estimate in the step size.
-#[derive(Clone, Copy)]
-pub(crate) enum ErrorOrder {
-    Third,
-    Fourth,
-}
 
 /// Motions smaller than this fraction of the model's size are not resolved individually.
 pub(crate) const MIN_REFERENCE: f64 = 1e-6;
@@ -106,84 +93,41 @@ pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out
     }
 }
 
-/// Error of the velocity prediction at the end of a step, expressed as a position error: both are equal if the
-/// acceleration changes linearly.
-///
-/// ```text
-/// v_end - v_start - a_start = a'/2,   z_end - a_start/2 = a'/6      (step of unit length)
-/// ```
-///
-/// In two-stage Radau IIA the force of the last stage has no weight in the position at the end, (A²)₂₂ = 0: a force that
-/// begins late in a step changes only the velocity.
-fn velocity_miss(stage: &Stage, unit: &UnitStepState, increments: &[Vec<f64>], row: usize) -> f64 {
-    (unit.combine(&stage.rate, increments, row) - unit.curvature[row]) / 3.0
-}
-
 impl Integrator {
-    /// Stores the estimated error of the last attempt, which ended at `end` after a step of `last_size` [s], in the workspace,
-    /// unfiltered and filtered. Forces may have switched at its start.
+    /// Stores an estimated error of the last attempt, which ended at `end`, in the workspace, unfiltered and filtered. Forces may have
+    /// switched at its start.
     pub(crate) fn estimate_error(
         &mut self,
         problem: Problem<'_>,
+        estimate: &ErrorEstimate,
         end: &Kinematics,
-        last_size: f64,
-        order: ErrorOrder,
         has_switched: bool,
     ) {
-        self.miss_of_attempt(problem, last_size, order, has_switched);
+        let Problem { system, settings } = problem;
+        let scheme = &settings.scheme;
         let work = &mut *self.work;
+        let is_of_states = scheme.errors.last() == Some(estimate);
+        let quantities = system.layout().quantities();
+        for (row, error) in work.error.iter_mut().enumerate() {
+            let is_defined = is_of_states || quantities[row] != Quantity::State;
+            *error = if is_defined {
+                work.unit.combine(&estimate.combination, &work.increments, row)
+            } else {
+                0.0
+            };
+        }
         let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
         if has_switched {
             // The filter would hide a motion that the switch has just started, such as an impact on a stiff stop.
             motion.copy_from_slice(&work.error);
-            problem.system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
+            system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
             return;
         }
-        inertial_part(problem.system, end, &work.error, motion);
+        inertial_part(system, end, &work.error, motion);
         constraints.fill(0.0);
         work.tangent.scale(&mut work.filtered);
-        work.tangent.matrices.solve_inertial(&problem.settings.scheme.coupling, &mut work.filtered);
+        work.tangent.matrices.solve_inertial(&scheme.coupling, &mut work.filtered);
         work.tangent.scale(&mut work.filtered);
-    }
-
-    /// The prediction error from which the error of the last attempt is estimated, by row: that of the position or of
-    /// the velocity, whichever is larger, times the scheme's constant, or the part by which it exceeds that of the
-    /// previous step.
-    fn miss_of_attempt(
-        &mut self,
-        Problem { system, settings }: Problem<'_>,
-        last_size: f64,
-        order: ErrorOrder,
-        has_switched: bool,
-    ) {
-        let scheme = &settings.scheme;
-        let work = &mut *self.work;
-        let Some((stage, predicted)) = scheme.stages.iter().zip(&mut work.predicted).last() else {
-            unreachable!("every scheme has a stage")
-        };
-        work.unit.predict(&stage.prediction, predicted);
-        let unit = &work.unit;
-        let (Some(found), Some(predicted)) = (work.increments.last(), work.predicted.last()) else { return };
-        let weight = 4.0 / (1.0 + 3.0 * last_size / self.scaled.step_size());
-        // After a switch the motion is not smooth, and constants that assume smoothness do not apply.
-        let constant = if has_switched { 1.0 } else { scheme.error_constant };
-        let mut error = std::mem::take(&mut work.error);
-        let quantities = system.layout().quantities();
-        for ((row, error), last) in error.iter_mut().enumerate().zip(work.last_miss()) {
-            let judge = |miss: f64| match order {
-                ErrorOrder::Third => constant * miss,
-                ErrorOrder::Fourth => weight * (miss - last),
-            };
-            *error = judge(found[row] - predicted[row]);
-            // A state has no acceleration from which its rate could be predicted.
-            if quantities[row] != Quantity::State {
-                let velocity = judge(velocity_miss(stage, unit, &work.increments, row));
-                if velocity.abs() > error.abs() {
-                    *error = velocity;
-                }
-            }
-        }
-        work.error = error;
     }
 
     /// The unknown with the largest estimated error of the last attempt.

@@ -16,6 +16,9 @@ use super::error_estimate::{MIN_ERROR, inertial_part};
 use crate::analysis::Problem;
 use crate::kinematics::Kinematics;
 
+/// Round-off of these errors, relative to that of positions: vibrations of which forces consist are small and their steps short.
+const ROUND_OFF: f64 = 0.03;
+
 impl Integrator {
     /// The largest scaled error of an acceleration at the end of the last attempt, whose error has been estimated, and the largest
     /// scaled acceleration at its ends [1/s²].
@@ -44,6 +47,6 @@ impl Integrator {
             largest = largest.max((work.unit.curvature[row] * size).abs()).max((end * size).abs());
         }
         let share = coupling.inertial_share();
-        ((error - MIN_ERROR).max(0.0) / (share * square), largest / square)
+        ((error - ROUND_OFF * MIN_ERROR).max(0.0) / (share * square), largest / square)
     }
 }

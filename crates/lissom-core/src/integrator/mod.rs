@@ -21,6 +21,7 @@ use crate::kinematics::{Kinematics, MotionChange};
 use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
 use crate::scaling::{Representative, ScaleBy, Scaled};
 use crate::schemes::StageSystem;
+use crate::stepping::dense::{DenseOutput, SolvedStages};
 use crate::system::{State, Threads};
 
 /// If round-off prevents schemes that integrate velocities from reaching the tolerance, a last correction below this is
@@ -197,6 +198,11 @@ impl Integrator {
         system.signals().check(&end.kinematics).map_err(StepError::Signal)
     }
 
+    /// The motion of the last attempt, which led from one of these states to the other.
+    pub(crate) fn dense<'s>(&'s self, problem: Problem<'s>, ends: (&'s State, &'s State)) -> DenseOutput<'s> {
+        dense_output(&self.work, problem, ends)
+    }
+
     /// Updates the retained data after an accepted attempt, which began with these multipliers.
     pub(crate) fn learn(&mut self, settings: &Settings, multipliers: &[f64]) {
         if settings.scheme.dynamic {
@@ -240,6 +246,22 @@ impl Integrator {
         equations.assemble_tangent(&mut values.receiver(&scaled, of, &mut []));
         values
     }
+}
+
+/// The motion of the last attempt, which led from one of these states to the other.
+fn dense_output<'s>(
+    work: &'s Workspace,
+    Problem { system, settings }: Problem<'s>,
+    (from, to): (&'s State, &'s State),
+) -> DenseOutput<'s> {
+    let stages = settings.scheme.dense.as_ref().map(|polynomial| SolvedStages {
+        polynomial,
+        table: &settings.scheme.stages,
+        layout: system.layout(),
+        increments: &work.increments,
+        multipliers: &work.multipliers,
+    });
+    DenseOutput { from, to, stages }
 }
 
 /// The equations of a step from `start`.

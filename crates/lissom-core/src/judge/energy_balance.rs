@@ -18,7 +18,7 @@ use crate::analysis::StepError;
 use crate::elements::Energy;
 use crate::kinematics::Kinematics;
 use crate::round_off;
-use crate::scaling::Representative;
+use crate::scaling::{Representative, StageMotion};
 use crate::system::{State, System};
 
 /// A surplus of this fraction of the energy exchanged is reported.
@@ -40,6 +40,38 @@ pub(crate) struct Entry<'a> {
 impl<'a> From<&'a State> for Entry<'a> {
     fn from(state: &'a State) -> Self {
         Self { at: &state.kinematics, multipliers: &state.multipliers, violations: &state.violations }
+    }
+}
+
+/// Work of loads and drives in a step [J].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StepWork {
+    loads: f64,
+    drives: f64,
+}
+
+impl StepWork {
+    /// From the ends of a step, for forces that change linearly in time.
+    pub(crate) fn between(system: &System, start: &State, end: &State) -> Self {
+        let [from, to] = [start, end].map(|state| (&state.kinematics, &state.multipliers[..]));
+        Self { loads: system.work_of_loads(from.0, to.0), drives: system.work_of_drives(from, to) }
+    }
+
+    /// By the quadrature of a scheme over its stages, in a step of `size` [s]: to the order of the scheme, and so that what an
+    /// algebraically stable scheme dissipates is never negative.
+    pub(crate) fn of_stages(
+        system: &System,
+        (weights, size): (&[f64], f64),
+        stages: &[StageMotion],
+        multipliers: &[Vec<f64>],
+    ) -> Self {
+        let mut work = Self::default();
+        for ((weight, stage), multipliers) in weights.iter().zip(stages).zip(multipliers) {
+            let duration = weight * size;
+            work.loads += duration * system.power_of_loads(&stage.at);
+            work.drives += duration * system.power_of_drives(&stage.at, multipliers);
+        }
+        work
     }
 }
 
@@ -125,15 +157,15 @@ impl EnergyBalance {
         energy - self.loads - self.drives
     }
 
-    /// After a step. The energy of every element costs a tenth of a step: without `weighs` only work is summed.
+    /// After a step in which loads and drives did this work. The energy of every element costs a tenth of a step: without `weighs`
+    /// only work is summed.
     pub(crate) fn after(
         &self,
         system: &System,
         (start, end): (&Entry<'_>, &Entry<'_>),
+        StepWork { loads, drives }: StepWork,
         (weighs, is_motion): (bool, bool),
     ) -> Self {
-        let loads = system.work_of_loads(start.at, end.at);
-        let drives = system.work_of_drives((start.at, start.multipliers), (end.at, end.multipliers));
         let held = end.multipliers.iter().zip(end.violations);
         let constraint_energy = held.map(|(force, violation)| (force * violation).abs()).sum::<f64>();
         let mut after = Self {

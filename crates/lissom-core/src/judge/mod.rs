@@ -12,6 +12,7 @@ pub(crate) mod start;
 mod warning;
 
 pub use energy_balance::EnergyBalance;
+pub(crate) use energy_balance::StepWork;
 pub(crate) use reports::{report, warn};
 pub use warning::Warning;
 
@@ -59,15 +60,15 @@ impl<'a> Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Checks the step from `start` to `end`. Returns the energy balance after it, and the largest violation of a constraint,
+    /// Checks the step from `start` to `end`, in which loads and drives did this `work`. Returns the energy balance after it, and the largest violation of a constraint,
     /// relative to the representative length, or in radians.
     ///
     /// # Errors
     /// If the end of the step is invalid.
     pub(crate) fn examine(
         &self,
-        start: &State,
-        end: &State,
+        (start, end): (&State, &State),
+        work: StepWork,
         energy_balance: &EnergyBalance,
     ) -> Result<(EnergyBalance, f64), StepError> {
         let violation = self.constraints(end)?;
@@ -86,7 +87,8 @@ impl Judge<'_> {
         if weighs {
             relative_turns(self.system, &end.kinematics)?;
         }
-        let after = energy_balance.after(self.system, (&start.into(), &end.into()), (weighs, self.is_motion));
+        let after =
+            energy_balance.after(self.system, (&start.into(), &end.into()), work, (weighs, self.is_motion));
         if self.checks_energy && self.is_motion {
             after.refuse_gain(energy_balance, end.kinematics.time, || self.most_restless(start, end))?;
         }

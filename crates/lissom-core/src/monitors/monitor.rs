@@ -35,8 +35,6 @@ pub(crate) struct Accepted<'s> {
     pub(crate) origin: &'s Kinematics,
     pub(crate) start: &'s State,
     pub(crate) end: &'s State,
-    /// Duration of the previous step [s].
-    pub(crate) last_size: f64,
     /// Before and after the step.
     pub(crate) energy_balance: [&'s EnergyBalance; 2],
     /// Largest violation of a constraint at the end, relative to the representative length, or in radians.

@@ -12,7 +12,7 @@
 //! time-discontinuous schemes [Bauchau and Theron 1996; Bauchau, Bottasso and Trainelli 2003]. The proof that the
 //! energy never grows is in `docs/theory/energy-decaying.md`.
 
-use super::radau_iia::two_stage_collocation;
+use super::collocation::collocation;
 use super::scheme::{Scheme, SchemeError, SchemeKind, Tableau, within};
 
 /// The energy is bounded for the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step
@@ -34,10 +34,10 @@ pub const KIND: SchemeKind = SchemeKind {
 pub fn with_spectral_radius(rho: f64) -> Result<Scheme, SchemeError> {
     let rho = within("spectral_radius", rho, (0.0, 1.0))?;
     let tableau = tableau((1.0 - rho) / (1.0 + rho));
-    let mut scheme =
-        two_stage_collocation(format!("energy-decaying (spectral radius {rho})"), tableau.inverse);
-    scheme.tableau = Some(tableau);
-    Ok(scheme)
+    let name = format!("energy-decaying (spectral radius {rho})");
+    let quadrature = Vec::new();
+    let of_stages = collocation(name, [1.0 / 3.0, 1.0], tableau.inverse);
+    Ok(Scheme { tableau: Some(tableau), quadrature, dense: None, ..of_stages })
 }
 
 /// The coefficients for dissipation α. det A = (1 + α)/12.

@@ -11,8 +11,8 @@
 //! Equilibrium and constraints hold at the end of the step.
 
 use super::scheme::{
-    Combination, Coupling, Increments, Scheme, SchemeError, SchemeKind, SchemeParameters, Stage, Weights,
-    within,
+    Combination, Coupling, ErrorEstimate, Increments, Scheme, SchemeError, SchemeKind, SchemeParameters,
+    Stage, Weights, within,
 };
 
 /// Registry entry of generalized-α.
@@ -58,11 +58,8 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let gamma = 0.5 + alpha_f - alpha_m;
     let beta = 0.25 * (gamma + 0.5).powi(2);
     // a_{n+1} = (z - (½ - β) a_n) / β with the departure z = ψ - v_n
-    let memory = Combination {
-        increments: [1.0 / beta, 0.0, 0.0],
-        algorithmic: -(0.5 - beta) / beta,
-        ..Combination::default()
-    };
+    let memory =
+        Combination { algorithmic: -(0.5 - beta) / beta, ..Combination::of_increments(&[1.0 / beta]) };
     let old = Combination { algorithmic: 1.0, ..Combination::default() };
     let rate = old.times(1.0 - gamma).plus(&memory.times(gamma));
     let curvature = memory
@@ -70,6 +67,11 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
         .plus(&old.times(alpha_m / (1.0 - alpha_f)))
         .plus(&Combination { curvature: -alpha_f / (1.0 - alpha_f), ..Combination::default() });
     let prediction = Combination { algorithmic: 0.5, ..Combination::default() };
+    // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The error of the prediction is β j, that of the scheme
+    // (β - 1/6 + (α_m - α_f)/2) j.
+    let of_oscillation = beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f);
+    let missed = Combination::of_increments(&[1.0]).plus(&prediction.times(-1.0));
+    let error = ErrorEstimate { combination: missed.times(of_oscillation / beta), order: 3, of_oscillation };
     Scheme {
         name,
         coupling: Coupling::single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),
@@ -78,11 +80,11 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
         algorithmic: memory,
         increments: Increments::FromStart,
         memory_delay: alpha_m - alpha_f,
-        // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The error of the prediction is β j, that
-        // of the scheme (β - 1/6 + (α_m - α_f)/2) j.
-        error_constant: (beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f)) / beta,
-        controlled_order: 2,
+        order: 2,
+        errors: vec![error],
         planned_share: 0.8,
+        quadrature: Vec::new(),
+        dense: None,
         dynamic: true,
     }
 }

@@ -4,16 +4,17 @@
 //! increments since the start of the step (the unknowns) and of the state at the start.
 
 pub(crate) mod collocation;
+pub(crate) mod dense_polynomial;
 pub mod energy_decaying;
 pub mod generalized_alpha;
 pub mod radau_iia;
-pub mod radau_iia_5;
 pub(crate) mod relaxation;
 mod scheme;
 pub mod statics;
 
+pub use dense_polynomial::DensePolynomial;
 pub use scheme::{
-    Combination, Coupling, Decoupled, Increments, MAX_STAGES, Scheme, SchemeError, SchemeKind,
+    Combination, Coupling, Decoupled, ErrorEstimate, Increments, MAX_STAGES, Scheme, SchemeError, SchemeKind,
     SchemeParameters, Stage, StageSystem, Tableau, Weights,
 };
 
@@ -22,7 +23,9 @@ pub static KINDS: &[SchemeKind] = &[
     generalized_alpha::KIND,
     generalized_alpha::HHT_KIND,
     radau_iia::KIND,
-    radau_iia_5::KIND,
+    radau_iia::FIFTH_ORDER_KIND,
+    radau_iia::NINTH_ORDER_KIND,
+    radau_iia::THIRTEENTH_ORDER_KIND,
     energy_decaying::KIND,
 ];
 

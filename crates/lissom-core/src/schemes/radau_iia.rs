@@ -1,27 +1,20 @@
-//! Radau IIA with two stages, third order, stiffly accurate [Hairer and Wanner 1996, sections IV.5, IV.8].
+//! Radau IIA with two, three, five or seven stages, stiffly accurate [Hairer and Wanner 1996, sections IV.5, IV.8; 1999].
 //!
-//! Legend: D_i increment at stage i, relative to extrapolation with the velocity at the start, so that q' = Σ
-//! (A⁻¹)_ij D_j and q'' = Σ (A⁻²)_ij D_j without terms of the start.
+//! Legend: S number of stages, c_i abscissae, P Legendre polynomial, D_i increment at stage i, relative to extrapolation with the
+//! velocity at the start, so that q' = Σ (A⁻¹)_ij D_j and q'' = Σ (A⁻²)_ij D_j without terms of the start.
 //!
 //! ```text
-//! A = [5/12 -1/12; 3/4 1/4],   c = (1/3, 1),   A⁻¹ = [3/2 1/2; -9/2 5/2],   A⁻² = [0 2; -18 4]
+//! P_S(2 c_i - 1) = P_(S-1)(2 c_i - 1),      (A⁻¹)_ij = ℓ_j'(c_i),      ℓ_j(c_k) = δ_jk,   ℓ_j(0) = 0
+//! S = 2:   A = [5/12 -1/12; 3/4 1/4],   c = (1/3, 1),   A⁻¹ = [3/2 1/2; -9/2 5/2],   A⁻² = [0 2; -18 4]
 //! ```
 //!
-//! A⁻¹ = T diag(μ, μ̄) T⁻¹ with μ = 2 + i√2: with one tangent for both stages the linear systems decouple into one
-//! complex system of the size of a single stage. Its real form must not be eliminated stage by stage without
-//! pivoting, because (A⁻²)₁₁ = 0.
+//! Positions are of order 2 S - 1, in constrained motion velocities of order S and multipliers of order S - 1 [Hairer, Lubich and
+//! Roche 1989]; what is recorded follows from the positions. For even S all eigenvalues of A are complex.
 
 use super::collocation::collocation;
 use super::scheme::{Scheme, SchemeKind};
 
-/// The error of the prediction is a sixth of the third derivative; the scheme's own error is of fourth order. With
-/// this fraction of the prediction error, errors at the end of a run are near the tolerance.
-const ERROR_CONSTANT: f64 = 0.5;
-/// With a constant step size the scheme's error is one order smaller than that fraction: measured, a quarter of the sum if
-/// it is some per cent.
-const PLANNED_SHARE: f64 = 0.25;
-
-/// Registry entry.
+/// Registry entry of two stages.
 pub const KIND: SchemeKind = SchemeKind {
     name: "radau-iia",
     summary: "Two-stage Radau IIA: third order, strongly damping.",
@@ -29,19 +22,101 @@ pub const KIND: SchemeKind = SchemeKind {
     build: |_| Ok(two_stages()),
 };
 
-/// The scheme.
+/// Registry entry of three stages.
+pub const FIFTH_ORDER_KIND: SchemeKind = SchemeKind {
+    name: "radau-iia-5",
+    summary: "Three-stage Radau IIA: fifth order, strongly damping; the default of adaptive steps.",
+    tolerance: None,
+    build: |_| Ok(three_stages()),
+};
+
+/// Registry entry of five stages.
+pub const NINTH_ORDER_KIND: SchemeKind = SchemeKind {
+    name: "radau-iia-9",
+    summary: "Five-stage Radau IIA: ninth order, strongly damping; for smooth motions with small errors.",
+    tolerance: None,
+    build: |_| Ok(five_stages()),
+};
+
+/// Registry entry of seven stages.
+pub const THIRTEENTH_ORDER_KIND: SchemeKind = SchemeKind {
+    name: "radau-iia-13",
+    summary: "Seven-stage Radau IIA: thirteenth order, strongly damping; for smooth motions with errors near round-off.",
+    tolerance: None,
+    build: |_| Ok(seven_stages()),
+};
+
+/// Third order.
 pub fn two_stages() -> Scheme {
-    two_stage_collocation("radau-iia".to_owned(), [[1.5, 0.5], [-4.5, 2.5]])
+    radau::<2>("radau-iia")
 }
 
-/// A scheme of two stages at 1/3 and 1 from A⁻¹, whose eigenvalues are complex.
-pub(super) fn two_stage_collocation(name: String, rate: [[f64; 2]; 2]) -> Scheme {
-    Scheme {
-        error_constant: ERROR_CONSTANT,
-        planned_share: PLANNED_SHARE,
-        controlled_order: 3,
-        ..collocation(name, [1.0 / 3.0, 1.0], rate)
+/// Fifth order.
+pub fn three_stages() -> Scheme {
+    radau::<3>("radau-iia-5")
+}
+
+/// Ninth order.
+pub fn five_stages() -> Scheme {
+    radau::<5>("radau-iia-9")
+}
+
+/// Thirteenth order.
+pub fn seven_stages() -> Scheme {
+    radau::<7>("radau-iia-13")
+}
+
+fn radau<const S: usize>(name: &str) -> Scheme {
+    let abscissae = abscissae::<S>();
+    collocation(name.to_owned(), abscissae, differentiation(&abscissae))
+}
+
+/// Zeros of P_S - P_(S-1) over 0 … 1, ascending, by Newton's method from those of the Chebyshev-Radau polynomial.
+fn abscissae<const S: usize>() -> [f64; S] {
+    /// Iterations; each doubles the number of digits.
+    const ITERATIONS: usize = 8;
+    let count = S as f64;
+    std::array::from_fn(|i| {
+        if i + 1 == S {
+            return 1.0;
+        }
+        let mut x = -(2.0 * std::f64::consts::PI * (i + 1) as f64 / (2.0 * count - 1.0)
+            - std::f64::consts::PI / (2.0 * count - 1.0))
+            .cos();
+        for _ in 0..ITERATIONS {
+            let [(before, slope_before), (last, slope_last)] = legendre(S, x);
+            x -= (last - before) / (slope_last - slope_before);
+        }
+        0.5 * (1.0 + x)
+    })
+}
+
+/// Values and derivatives of P_(n-1) and P_n at x, n ≥ 1.
+fn legendre(n: usize, x: f64) -> [(f64, f64); 2] {
+    let (mut before, mut last) = ((1.0, 0.0), (x, 1.0));
+    for k in 1..n {
+        let k = k as f64;
+        let value = ((2.0 * k + 1.0) * x * last.0 - k * before.0) / (k + 1.0);
+        let slope = ((2.0 * k + 1.0) * (last.0 + x * last.1) - k * before.1) / (k + 1.0);
+        (before, last) = (last, (value, slope));
     }
+    [before, last]
+}
+
+/// A⁻¹: derivatives at the abscissae of the polynomials that are one at an abscissa, and zero at the others and at the start.
+fn differentiation<const S: usize>(abscissae: &[f64; S]) -> [[f64; S]; S] {
+    let c = abscissae;
+    // Products over all other knots, the start included.
+    let weight = |i: usize| c[i] * (0..S).filter(|&k| k != i).map(|k| c[i] - c[k]).product::<f64>();
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            if i == j {
+                1.0 / c[i] + (0..S).filter(|&k| k != i).map(|k| 1.0 / (c[i] - c[k])).sum::<f64>()
+            } else {
+                weight(i) / (weight(j) * (c[i] - c[j]))
+            }
+        })
+    })
 }
 
 #[cfg(test)]
@@ -49,17 +124,51 @@ mod tests {
     use super::*;
     use crate::schemes::Combination;
 
-    /// Velocities and accelerations of quadratics are exact.
     #[test]
-    fn quadratic_motion_is_reproduced() {
-        let scheme = two_stages();
-        let acceleration = -1.7;
-        let place = |t: f64| 0.5 * acceleration * t * t;
-        let increments = [place(1.0 / 3.0), place(1.0)];
-        for stage in &scheme.stages {
-            let combine = |c: &Combination| c.increments[0] * increments[0] + c.increments[1] * increments[1];
-            assert!((combine(&stage.rate) - acceleration * stage.abscissa).abs() < 1e-14);
-            assert!((combine(&stage.curvature) - acceleration).abs() < 1e-13);
+    fn coefficients_are_those_of_the_literature() {
+        let two = differentiation(&abscissae::<2>());
+        let three = abscissae::<3>();
+        let root = 6.0_f64.sqrt();
+        for (found, wanted) in two.iter().flatten().zip([1.5, 0.5, -4.5, 2.5]) {
+            assert!((found - wanted).abs() < 1e-14, "{two:?}");
+        }
+        for (found, wanted) in three.iter().zip([(4.0 - root) / 10.0, (4.0 + root) / 10.0, 1.0]) {
+            assert!((found - wanted).abs() < 1e-15, "{three:?}");
+        }
+        // [Hairer and Wanner 1999, table of abscissae].
+        for (found, wanted) in abscissae::<5>().iter().zip([
+            0.057_104_196_114_517_68,
+            0.276_843_013_638_123_8,
+            0.583_590_432_368_916_8,
+            0.860_240_135_656_219_4,
+            1.0,
+        ]) {
+            assert!((found - wanted).abs() < 1e-15, "{found}");
+        }
+    }
+
+    /// Powers up to the number of stages have exact derivatives at the stages.
+    #[test]
+    fn powers_have_exact_derivatives() {
+        for scheme in [two_stages(), three_stages(), five_stages(), seven_stages()] {
+            let count = scheme.stages.len();
+            for power in 2..=count as i32 {
+                let increments: Vec<f64> =
+                    scheme.stages.iter().map(|stage| stage.abscissa.powi(power)).collect();
+                let combine = |c: &Combination| -> f64 {
+                    c.increments.iter().zip(&increments).map(|(weight, value)| weight * value).sum()
+                };
+                for stage in &scheme.stages {
+                    let n = f64::from(power);
+                    let rate = n * stage.abscissa.powi(power - 1);
+                    assert!((combine(&stage.rate) - rate).abs() < 1e-11, "{} {power}", scheme.name);
+                    if power < count as i32 {
+                        let curvature = n * (n - 1.0) * stage.abscissa.powi(power - 2);
+                        let found = combine(&stage.curvature);
+                        assert!((found - curvature).abs() < 1e-9, "{} {power}: {found}", scheme.name);
+                    }
+                }
+            }
         }
     }
 }

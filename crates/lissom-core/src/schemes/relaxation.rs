@@ -13,7 +13,7 @@ pub(crate) fn relaxation() -> Scheme {
         stages: vec![Stage {
             abscissa: 1.0,
             rate: Combination::default(),
-            curvature: Combination { increments: [1.0, 0.0, 0.0], ..Combination::default() },
+            curvature: Combination::of_increments(&[1.0]),
             prediction: Combination::default(),
         }],
         algorithmic: Combination::default(),
@@ -21,9 +21,11 @@ pub(crate) fn relaxation() -> Scheme {
         coupling: Coupling::single(Weights { rate: 0.0, curvature: 1.0 }),
         tableau: None,
         memory_delay: 0.0,
-        error_constant: 0.0,
-        controlled_order: 2,
+        order: 1,
+        errors: Vec::new(),
         planned_share: 0.0,
+        quadrature: Vec::new(),
+        dense: None,
         dynamic: false,
     }
 }

@@ -3,10 +3,11 @@
 
 use num_complex::Complex64;
 
+use super::dense_polynomial::DensePolynomial;
 use crate::kinematics::step_stages::STAGES;
 
 /// Maximum number of stages of a scheme.
-pub const MAX_STAGES: usize = 3;
+pub const MAX_STAGES: usize = 7;
 
 /// Coefficients of a linear combination.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,6 +23,13 @@ pub struct Combination {
 }
 
 impl Combination {
+    /// Of the increments alone, with these coefficients.
+    pub(crate) fn of_increments(coefficients: &[f64]) -> Self {
+        let mut increments = [0.0; MAX_STAGES];
+        increments[..coefficients.len()].copy_from_slice(coefficients);
+        Self { increments, ..Self::default() }
+    }
+
     /// `factor` times this.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
@@ -111,7 +119,7 @@ pub struct Coupling {
 impl Coupling {
     /// One stage with these weights.
     pub(crate) fn single(weights: Weights<f64>) -> Self {
-        let alone = [1.0, 0.0, 0.0];
+        let alone = Combination::of_increments(&[1.0]).increments;
         Self { systems: vec![StageSystem::Real(Decoupled { weights, left: alone, right: alone })] }
     }
 
@@ -148,6 +156,18 @@ impl Tableau {
     }
 }
 
+/// Estimate of the error of a step, a linear combination of its increments and its start. It is scaled so that errors at the end of
+/// a run are of the size of τ, if those of all steps are half of τ to the power of `order` over the order of the scheme.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ErrorEstimate {
+    /// The estimate.
+    pub combination: Combination,
+    /// Its order in the step size.
+    pub order: i32,
+    /// The estimate for an oscillation of unit amplitude, over the power `order` of its phase per step.
+    pub of_oscillation: f64,
+}
+
 /// A time-integration scheme for unit steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheme {
@@ -166,12 +186,16 @@ pub struct Scheme {
     pub tableau: Option<Tableau>,
     /// Time after the start of the first step whose acceleration initialises the memory, in steps.
     pub memory_delay: f64,
-    /// Local error at the end of a step over the prediction error of the last stage, both of third order.
-    pub error_constant: f64,
-    /// Order of the errors that step control limits: those of positions, unless velocities are of lower order.
-    pub controlled_order: i32,
-    /// Error at the end of a run with constant step size, as a fraction of the sum of the local errors.
+    /// Order of the positions at the end of a run.
+    pub order: i32,
+    /// Estimated errors of a step, of positions. The last is also that of first-order states, which have no acceleration.
+    pub errors: Vec<ErrorEstimate>,
+    /// Error at the end of a run with constant step size, as a fraction of the sum of the estimated errors.
     pub planned_share: f64,
+    /// Weights of the stages for integrals over the step; none if these are interpolated between the ends.
+    pub quadrature: Vec<f64>,
+    /// The motion within a step; none if it is interpolated between the ends.
+    pub dense: Option<DensePolynomial>,
     /// Whether inertia is included.
     pub dynamic: bool,
 }

@@ -17,9 +17,11 @@ pub fn statics() -> Scheme {
         coupling: Coupling::single(Weights { rate: 0.0, curvature: 0.0 }),
         tableau: None,
         memory_delay: 0.0,
-        error_constant: 0.0,
-        controlled_order: 2,
+        order: 1,
+        errors: Vec::new(),
         planned_share: 0.0,
+        quadrature: Vec::new(),
+        dense: None,
         dynamic: false,
     }
 }

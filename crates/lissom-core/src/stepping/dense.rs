@@ -1,26 +1,134 @@
-//! Values between the ends of a step, to the order of the scheme: poses by the cubic Hermite interpolation of both
-//! poses and twists.
+//! Values within a step. The motion of collocation schemes follows from their stages, to the order of the scheme
+//! (`schemes/dense_polynomial.rs`). Other schemes have poses by the cubic Hermite interpolation of the poses and twists at both ends:
 //!
 //! ```text
-//! H(x) = H₀ exp ψ(x),   ψ(0) = 0,  ψ'(0) = h V₀,  ψ(1) = log(H₀⁻¹ H₁),  ψ'(1) = T(ψ(1))⁻¹ h V₁
+//! stages:  H(x) = H₀ exp(x h V₀) exp D(x),      D(x), q', q'' linear combinations of the increments
+//! cubic:   H(x) = H₀ exp ψ(x),   ψ(0) = 0,  ψ'(0) = h V₀,  ψ(1) = log(H₀⁻¹ H₁),  ψ'(1) = T(ψ(1))⁻¹ h V₁
 //! ```
 //!
-//! x = 0 … 1 over the step. The error is of order h⁴. Multipliers and accelerations are interpolated linearly.
+//! x = 0 … 1 over the step. The error of the cubic is of order h⁴; its multipliers and accelerations are interpolated linearly.
 
 use lissom_motion::{Motion, Vector6, inverse_tangent_times, tangent_times};
 
+use crate::kinematics::{LOCKED, Layout};
+use crate::node_motion::depart;
+use crate::schemes::{Combination, DensePolynomial, Stage};
 use crate::system::State;
 
-/// Writes the state at `time` [s] between two states of one motion to `out`.
-pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) {
-    let (start, end) = (&from.kinematics, &to.kinematics);
-    let duration = end.time - start.time;
-    let x = if duration > 0.0 { ((time - start.time) / duration).clamp(0.0, 1.0) } else { 1.0 };
-    at_share(from, to, x, out);
-    out.kinematics.time = time;
+/// Order of the cubic.
+const CUBIC: i32 = 4;
+
+/// The motion of a step between two states.
+#[derive(Clone, Copy)]
+pub(crate) struct DenseOutput<'s> {
+    /// The start.
+    pub(crate) from: &'s State,
+    /// The end.
+    pub(crate) to: &'s State,
+    /// The stages, if the motion follows from them.
+    pub(crate) stages: Option<SolvedStages<'s>>,
 }
 
-/// The state at the step fraction `x` between two states, 1 at its end, or beyond it by extrapolation.
+/// Stages of a step of a collocation scheme.
+#[derive(Clone, Copy)]
+pub(crate) struct SolvedStages<'s> {
+    pub(crate) polynomial: &'s DensePolynomial,
+    pub(crate) table: &'s [Stage],
+    pub(crate) layout: &'s Layout,
+    /// By stage, then by row.
+    pub(crate) increments: &'s [Vec<f64>],
+    /// The same of the multipliers [N, N m].
+    pub(crate) multipliers: &'s [Vec<f64>],
+}
+
+impl DenseOutput<'_> {
+    /// The step fraction farthest from instants at which the equations are satisfied.
+    pub(crate) fn least_determined(&self) -> f64 {
+        let Some(stages) = &self.stages else { return 0.5 };
+        let ends = stages.table.iter().map(|stage| stage.abscissa);
+        let gaps = std::iter::once(0.0).chain(ends.clone()).zip(ends);
+        let widest = gaps.reduce(|one, other| if one.1 - one.0 < other.1 - other.0 { other } else { one });
+        widest.map_or(0.5, |(from, to)| 0.5 * (from + to))
+    }
+
+    /// Order of the defect of the equations in the step size.
+    pub(crate) fn order(&self) -> i32 {
+        self.stages.as_ref().map_or(CUBIC, |stages| stages.table.len() as i32 + 1)
+    }
+
+    /// Writes the state at `time` [s], limited to the step, to `out`.
+    pub(crate) fn interpolate(&self, time: f64, out: &mut State) {
+        let (start, end) = (&self.from.kinematics, &self.to.kinematics);
+        let duration = end.time - start.time;
+        let x = if duration > 0.0 { ((time - start.time) / duration).clamp(0.0, 1.0) } else { 1.0 };
+        self.at(x, out);
+        out.kinematics.time = time;
+    }
+
+    /// Writes the state at the step fraction `x`, 1 at the end, to `out`. Beyond the end it is extrapolated.
+    pub(crate) fn at(&self, x: f64, out: &mut State) {
+        match &self.stages {
+            Some(stages) => stages.at(self.from, self.to, x, out),
+            None => at_share(self.from, self.to, x, out),
+        }
+    }
+}
+
+impl SolvedStages<'_> {
+    fn at(&self, from: &State, to: &State, x: f64, out: &mut State) {
+        let Self { polynomial, table, layout, increments, multipliers } = *self;
+        let (start, end) = (&from.kinematics, &to.kinematics);
+        let duration = end.time - start.time;
+        let ahead = x * duration;
+        let weights = polynomial.at(x, table);
+        let combine = |combination: &Combination, row: usize| {
+            let terms = combination.increments.iter().zip(increments);
+            terms.map(|(weight, stage)| weight * stage[row]).sum::<f64>()
+        };
+        let (per_time, per_square) = (1.0 / duration, 1.0 / (duration * duration));
+        out.kinematics.held.clone_from(&start.held);
+        (out.kinematics.time, out.kinematics.elapsed) = (start.time + ahead, 0.0);
+        let nodes = out.kinematics.nodes.iter_mut().zip(&start.nodes).zip(&layout.node_rows);
+        for ((node, from), rows) in nodes {
+            if rows.iter().all(|&row| row == LOCKED) {
+                *node = *from;
+                continue;
+            }
+            let of_rows = |combination: &Combination, factor: f64| {
+                Vector6::from_fn(|k, _| {
+                    if rows[k] == LOCKED { 0.0 } else { factor * combine(combination, rows[k] as usize) }
+                })
+            };
+            let acceleration =
+                weights.curvature.curvature * from.acceleration + of_rows(&weights.curvature, per_square);
+            *node = depart(
+                from,
+                ahead,
+                &of_rows(&weights.place, 1.0),
+                [&of_rows(&weights.rate, per_time), &acceleration],
+            );
+        }
+        let coordinates = out.kinematics.coordinates.iter_mut().zip(&start.coordinates);
+        for ((own, from), &row) in coordinates.zip(&layout.coordinate_rows) {
+            let row = row as usize;
+            own.value = from.value + ahead * from.rate + combine(&weights.place, row);
+            own.rate = from.rate + per_time * combine(&weights.rate, row);
+            own.acceleration = weights.curvature.curvature * from.acceleration
+                + per_square * combine(&weights.curvature, row);
+        }
+        out.accumulated.clear();
+        let accumulated = from.accumulated.iter().zip(&to.accumulated);
+        out.accumulated.extend(accumulated.map(|(a, b)| a + x * (b - a)));
+        let [of_start, of_stages @ ..] = &weights.multipliers;
+        for (k, own) in out.multipliers.iter_mut().enumerate() {
+            let stages = of_stages.iter().zip(multipliers).map(|(weight, stage)| weight * stage[k]);
+            *own = of_start * from.multipliers[k] + stages.sum::<f64>();
+        }
+        out.kinematics.show_multipliers(&out.multipliers);
+    }
+}
+
+/// The state at the step fraction `x` of the cubic between two states, 1 at its end, or beyond it by extrapolation.
 pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;

@@ -19,7 +19,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::dense;
+use super::dense::DenseOutput;
 use crate::kinematics::{Kinematics, Switch};
 use crate::law::hull;
 use crate::round_off;
@@ -183,15 +183,15 @@ impl EventDetector {
         (0..self.values.len()).any(|k| self.has_passed(events, k))
     }
 
-    fn at(&mut self, system: &System, (from, to): (&State, &State), share: f64) {
-        let (start, end) = (from.kinematics.time, to.kinematics.time);
+    fn at(&mut self, system: &System, step: DenseOutput<'_>, share: f64) {
+        let (start, end) = (step.from.kinematics.time, step.to.kinematics.time);
         if share == 0.0 || share == 1.0 {
-            let end = if share == 0.0 { from } else { to };
+            let end = if share == 0.0 { step.from } else { step.to };
             return values_at(system, end, self.has_switches, &mut self.values);
         } else if share < 1.0 {
-            dense::interpolate(from, to, start + share * (end - start), &mut self.between);
+            step.interpolate(start + share * (end - start), &mut self.between);
         } else {
-            dense::at_share(from, to, share, &mut self.between);
+            step.at(share, &mut self.between);
         }
         values_at(system, &self.between, self.has_switches, &mut self.values);
     }
@@ -200,7 +200,7 @@ impl EventDetector {
     pub(crate) fn crossing(
         &mut self,
         system: &System,
-        step: (&State, &State),
+        step: DenseOutput<'_>,
         size: f64,
     ) -> Option<LocatedRoot> {
         let events = system.signals().events();
@@ -273,7 +273,7 @@ impl EventDetector {
 
     /// An event whose root is at the end of the step of `size` [s], or so shortly before it that its sign is not clear
     /// there. The values at the end are those known.
-    fn root_at_end(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<LocatedRoot> {
+    fn root_at_end(&mut self, system: &System, step: DenseOutput<'_>, size: f64) -> Option<LocatedRoot> {
         let events = system.signals().events();
         let is_doubtful = |detector: &Self, k: usize| {
             let side = detector.known.sides[k];
@@ -324,7 +324,7 @@ impl EventDetector {
     pub(crate) fn is_met(
         &mut self,
         system: &System,
-        step: (&State, &State),
+        step: DenseOutput<'_>,
         located: &mut LocatedRoot,
     ) -> bool {
         let first = located.indices[0];
@@ -354,7 +354,7 @@ impl EventDetector {
 
     /// Step fraction at which function `which` jumps near the end of a step: 1 if it does so within the accuracy before the
     /// end.
-    fn jump(&mut self, system: &System, step: (&State, &State), which: usize, located: &LocatedRoot) -> f64 {
+    fn jump(&mut self, system: &System, step: DenseOutput<'_>, which: usize, located: &LocatedRoot) -> f64 {
         let events = system.signals().events();
         let unit = located.whole / located.size;
         let (accuracy, most) = (2.0 * ACCURACY * unit, unit - 1.0);

@@ -1,7 +1,7 @@
 //! Steps that end at events and where forces switch.
 
 use super::event_detector::LocatedRoot;
-use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
+use crate::analysis::{Problem, Simulation, StepError, StepReport, Stopwatch};
 use crate::kinematics::Subject;
 use crate::signals::event::Occurrence;
 
@@ -45,7 +45,8 @@ impl Simulation {
         if self.events.is_empty() {
             return Ok(Verdict::Accept(None));
         }
-        let step = (&self.state, &self.attempt.end);
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let step = self.integrator.dense(problem, (&self.state, &self.attempt.end));
         let Some(mut located) = self.events.crossing(&self.system, step, size) else {
             return Ok(Verdict::Accept(None));
         };
@@ -63,7 +64,9 @@ impl Simulation {
             report.rejected += 1;
             solved = located.size;
             self.attempt(solved, watch)?;
-            if self.events.is_met(&self.system, (&self.state, &self.attempt.end), &mut located) {
+            let problem = Problem { system: &self.system, settings: &self.settings };
+            let step = self.integrator.dense(problem, (&self.state, &self.attempt.end));
+            if self.events.is_met(&self.system, step, &mut located) {
                 break;
             }
         }

@@ -102,7 +102,9 @@ impl Simulation {
 
     /// The state at `time` [s] within the last step, to the order of the scheme; `out` must be a state of this system.
     pub fn interpolate(&self, time: f64, out: &mut State) {
-        dense::interpolate(&self.previous, &self.state, time, out);
+        let mut step = self.integrator.dense(self.problem(), (&self.previous, &self.state));
+        step.stages = step.stages.filter(|_| self.is_last_step_known);
+        step.interpolate(time, out);
     }
 
     /// The sequence of a step: a planned one is solved to its end, through all stops within it; an adaptive one ends with the
@@ -246,7 +248,6 @@ impl Simulation {
             attempt: &self.attempt,
             origin: &self.origin.kinematics,
             start: self.attempt.start(&self.state),
-            last_size: self.state.kinematics.time - self.previous.kinematics.time,
             energy_balance: &self.energy_balance,
             has_switched: self.events.known.has_switched,
         };

@@ -22,7 +22,7 @@ use crate::scaling::Scaled;
 use crate::system::State;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 18;
+const VERSION: u32 = 19;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -70,6 +70,8 @@ pub trait AnyBatch: Send + Sync {
     fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>);
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
+    /// Power of loads [W].
+    fn power_of_loads(&self, at: &Kinematics) -> f64;
     /// Angular momentum of items in addition to that of the masses, inertial axes [N m s].
     fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
         Vector3::zeros()
@@ -416,6 +418,10 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
         let loads = self.items.iter().filter(|item| item.is_load());
         loads.map(|load| work(load, (from, to), [1.0; 2])).sum()
+    }
+
+    fn power_of_loads(&self, at: &Kinematics) -> f64 {
+        self.items.iter().filter(|item| item.is_load()).map(|load| power(load, at)).sum()
     }
 
     fn angular_momentum(&self, at: &Kinematics) -> Vector3 {

@@ -132,6 +132,11 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
         0.0
     }
 
+    /// Power due to its explicit dependence on time, with all multipliers [W].
+    fn power(&self, _at: &Kinematics, _multipliers: &[f64]) -> f64 {
+        0.0
+    }
+
     /// Passes its scalar laws with their arguments to `visit`, always in the same order. Default: it has none.
     fn laws(&self, _at: &Kinematics, _visit: &mut VisitLaw<'_>) {}
 

@@ -191,12 +191,13 @@ impl Constraint for Coupling {
         self.by_time(at) != 0.0
     }
 
-    /// The power is μ ∂c/∂t.
     fn work(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
-        let elapsed = to.0.time - from.0.time;
-        let power =
-            |(at, multipliers): (&Kinematics, &[f64])| multipliers[self.multiplier] * self.by_time(at);
-        0.5 * elapsed * (power(from) + power(to))
+        0.5 * (to.0.time - from.0.time) * (self.power(from.0, from.1) + self.power(to.0, to.1))
+    }
+
+    /// μ ∂c/∂t.
+    fn power(&self, at: &Kinematics, multipliers: &[f64]) -> f64 {
+        multipliers[self.multiplier] * self.by_time(at)
     }
 
     /// As for joints: forces do no work except that of ∂c/∂t.

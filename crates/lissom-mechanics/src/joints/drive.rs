@@ -82,6 +82,10 @@ impl Constraint for Drive {
         along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
     }
 
+    fn power(&self, at: &Kinematics, multipliers: &[f64]) -> f64 {
+        -multipliers[self.multiplier] * at.coordinates[self.prescribed.coordinate].rate
+    }
+
     fn breakpoints(&self) -> Vec<f64> {
         self.prescribed.value.breakpoints()
     }
