@@ -8,6 +8,49 @@ pub type Interval = [f64; 2];
 /// Every number.
 pub const EVERYTHING: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
+/// Bounds of a function of a parameter σ, and of its first and second derivative, over an interval of σ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Enclosure {
+    /// Of the value.
+    pub value: Interval,
+    /// Of the first derivative.
+    pub first: Interval,
+    /// Of the second derivative; every number where there may be a kink or a jump.
+    pub second: Interval,
+}
+
+impl Enclosure {
+    /// A constant, which is within these bounds.
+    pub fn of_constant(value: Interval) -> Self {
+        Self { value, first: [0.0; 2], second: [0.0; 2] }
+    }
+
+    /// A straight line between two values, with its slope.
+    pub fn of_line(ends: Interval, slope: f64) -> Self {
+        Self { value: hull(&ends), first: [slope; 2], second: [0.0; 2] }
+    }
+
+    /// Whether it is constant over the interval.
+    pub fn is_constant(&self) -> bool {
+        self.first == [0.0; 2] && self.second == [0.0; 2]
+    }
+
+    /// c u.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let Self { value, first, second } = *self;
+        Self { value: scaled(factor, value), first: scaled(factor, first), second: scaled(factor, second) }
+    }
+
+    /// u + v.
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            value: sum(self.value, other.value),
+            first: sum(self.first, other.first),
+            second: sum(self.second, other.second),
+        }
+    }
+}
+
 /// A scalar law of time and of arguments.
 pub trait ScalarLaw {
     /// Value at `time` [s], on the side of each of its switches that the arguments determine.
@@ -20,6 +63,11 @@ pub trait ScalarLaw {
 
     /// Bounds of the value over intervals of time [s] and of the arguments; none if none are known.
     fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval>;
+
+    /// The same with bounds of its derivatives along a path, given those of time and of the arguments. Default: none are known.
+    fn enclosure(&self, _time: &Enclosure, _arguments: &[Enclosure]) -> Option<Enclosure> {
+        None
+    }
 }
 
 /// Receives a law with its arguments at a configuration.

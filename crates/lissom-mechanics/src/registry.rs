@@ -9,7 +9,7 @@ use lissom_motion::{Matrix6, Vector3};
 use nalgebra::DMatrix;
 
 use crate::kinematics::{HeldId, Switch};
-use crate::law::Interval;
+use crate::law::{Enclosure, Interval};
 use crate::relation::Relation;
 
 /// A function of time with exact first and second derivatives.
@@ -31,6 +31,11 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     }
     /// Bounds of the value between two times [s]. Default: none are known.
     fn bounds(&self, _from: f64, _to: f64) -> Option<Interval> {
+        None
+    }
+    /// Bounds of the second derivative between two times [s]; every number where there may be a kink or a jump. Default: none are
+    /// known.
+    fn curvature(&self, _from: f64, _to: f64) -> Option<Interval> {
         None
     }
     /// Whether the value is constant. Default: it is not.
@@ -69,6 +74,10 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     fn bounds(&self, _first: Interval, _second: Interval) -> Option<Interval> {
         None
     }
+    /// Bounds of the force and of its derivatives along a path, given those of both quantities. Default: none are known.
+    fn enclosure(&self, _first: &Enclosure, _second: &Enclosure) -> Option<Enclosure> {
+        None
+    }
     /// Whether it depends on the second quantity. Default: it does not.
     fn depends_on_second(&self) -> bool {
         false
@@ -105,6 +114,9 @@ impl ForceFunction for Constant {
     }
     fn bounds(&self, _: Interval, _: Interval) -> Option<Interval> {
         Some([self.0; 2])
+    }
+    fn enclosure(&self, _: &Enclosure, _: &Enclosure) -> Option<Enclosure> {
+        Some(Enclosure::of_constant([self.0; 2]))
     }
 }
 

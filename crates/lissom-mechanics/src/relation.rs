@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use crate::law::{Interval, ScalarLaw};
+use crate::law::{Enclosure, Interval, ScalarLaw};
 
 /// Maximum number of coordinates of a relation.
 pub const MAX_COUPLED: usize = 16;
@@ -21,6 +21,11 @@ pub trait Relation: Send + Sync + Debug {
     /// Bounds of the value over intervals of time [s] and of the coordinates. Default: none are known, and no features are
     /// searched for.
     fn bounds(&self, _time: Interval, _coordinates: &[Interval]) -> Option<Interval> {
+        None
+    }
+
+    /// Bounds of the value and of its derivatives along a path, given those of time and of the coordinates. Default: none are known.
+    fn enclosure(&self, _time: &Enclosure, _coordinates: &[Enclosure]) -> Option<Enclosure> {
         None
     }
 
@@ -63,5 +68,9 @@ impl ScalarLaw for &(dyn Relation + '_) {
 
     fn bounds(&self, time: Interval, coordinates: &[Interval]) -> Option<Interval> {
         Relation::bounds(*self, time, coordinates)
+    }
+
+    fn enclosure(&self, time: &Enclosure, coordinates: &[Enclosure]) -> Option<Enclosure> {
+        Relation::enclosure(*self, time, coordinates)
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::kinematics::Switch;
-use lissom_core::law::Interval;
+use lissom_core::law::{Enclosure, Interval};
 use lissom_core::registry::{Constant, Force, ForceFunction};
 use lissom_core::signals::SignalFunction;
 
@@ -25,8 +25,9 @@ struct Expressed {
 
 impl Expressed {
     /// The arguments of the expression, of which the first [`count`](Self::count) are used.
-    fn arguments(&self, first: f64, second: f64) -> [f64; 2] {
-        let mut arguments = [0.0; 2];
+    fn arguments<T: Copy>(&self, first: T, second: T) -> [T; 2] {
+        // A place that no argument takes is not read.
+        let mut arguments = [first; 2];
         for (place, value) in self.places.iter().zip([first, second]) {
             if let Some(place) = place {
                 arguments[*place] = value;
@@ -46,13 +47,12 @@ impl ForceFunction for Expressed {
     }
 
     fn bounds(&self, first: Interval, second: Interval) -> Option<Interval> {
-        let mut arguments = [[0.0; 2]; 2];
-        for (place, interval) in self.places.iter().zip([first, second]) {
-            if let Some(place) = place {
-                arguments[*place] = interval;
-            }
-        }
-        self.formula.bounds([0.0; 2], &arguments[..self.count()])
+        self.formula.bounds([0.0; 2], &self.arguments(first, second)[..self.count()])
+    }
+
+    fn enclosure(&self, first: &Enclosure, second: &Enclosure) -> Option<Enclosure> {
+        let time = Enclosure::of_constant([0.0; 2]);
+        self.formula.enclosure(&time, &self.arguments(*first, *second)[..self.count()])
     }
 
     fn depends_on_second(&self) -> bool {

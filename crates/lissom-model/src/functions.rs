@@ -9,7 +9,7 @@ use crate::expression::Expression;
 
 impl TimeFunction for Expression {
     fn value(&self, time: f64) -> f64 {
-        self.jet(time).value
+        Self::value(self, time)
     }
     fn first_derivative(&self, time: f64) -> f64 {
         self.jet(time).first
@@ -25,6 +25,9 @@ impl TimeFunction for Expression {
     }
     fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         Some(Self::bounds(self, from, to))
+    }
+    fn curvature(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        Some(self.enclosure(from, to).second)
     }
 }
 
@@ -60,6 +63,9 @@ impl TimeFunction for Ramp {
     fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         let [one, other] = [from, to].map(|time| self.value(time));
         Some([one.min(other), one.max(other)])
+    }
+    fn curvature(&self, _: f64, _: f64) -> Option<[f64; 2]> {
+        Some([0.0; 2])
     }
 }
 

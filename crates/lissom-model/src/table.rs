@@ -1,6 +1,6 @@
 //! Tables of rows (argument, value), interpolated: functions of time, and forces over an elongation.
 
-use lissom_core::law::Interval;
+use lissom_core::law::{EVERYTHING, Interval, hull};
 use lissom_core::registry::{ForceFunction, TimeFunction};
 
 /// How a table is read between its rows.
@@ -166,6 +166,12 @@ impl Table {
         bounds
     }
 
+    /// Bounds of the second derivative between two arguments, if no row is between them: it is a straight line there.
+    fn curvature(&self, ends: Interval) -> Interval {
+        let [first, last] = ends.map(|end| self.arguments.partition_point(|row| *row <= end));
+        if first == last { hull(&ends.map(|end| self.evaluate(end)[2])) } else { EVERYTHING }
+    }
+
     /// Inner rows, and the end rows beyond which the slope is another.
     fn breakpoint_rows(&self) -> Vec<f64> {
         if self.between != Between::Lines {
@@ -196,6 +202,9 @@ impl TimeFunction for Table {
     }
     fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         Some(self.bounds(from, to))
+    }
+    fn curvature(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        Some(self.curvature([from, to]))
     }
 }
 

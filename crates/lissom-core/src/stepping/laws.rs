@@ -8,14 +8,21 @@
 //! f(σ) = f(t(σ), x(σ)),      x(σ) cubic on the dense output,      |f - H| ≤ part · max |f|
 //! ```
 //!
-//! The law is sampled by bisection of the step, as long as the bounds of its values over the range of its arguments allow more
-//! than the samples show. A feature that the ends of no interval determine, however short, is a jump. Functions of time are
-//! laws without arguments: they are examined before a step, which ends at their jumps; laws of the motion afterwards.
+//! The law is sampled by bisection of the step, as long as the bounds of its values over the range of its arguments, and those of
+//! its second derivative, allow more than the samples show:
+//!
+//! ```text
+//! |f - line through its ends| ≤ max |f''(σ)| (σ₁ - σ₀)²/8
+//! ```
+//!
+//! A feature that the ends of no interval determine, however short, is a jump. Functions of time are laws without arguments: they
+//! are examined before a step, which ends at their jumps; laws of the motion afterwards. The second derivative of a function of time
+//! is bounded over many steps at once.
 
 use serde::{Deserialize, Serialize};
 
 use super::dense;
-use crate::law::{EVERYTHING, Interval, ScalarLaw, hull};
+use crate::law::{EVERYTHING, Enclosure, Interval, ScalarLaw, hull};
 use crate::registry::{Function, TimeFunction};
 use crate::round_off;
 use crate::signals::MAX_ARGUMENTS;
@@ -41,6 +48,8 @@ const EXCESS: f64 = 0.2;
 const NEAR_END: f64 = 0.9;
 /// Arguments that depart by more than this fraction of their range from a cubic are not smooth.
 const ARGUMENT_DEPARTURE: f64 = 0.05;
+/// Number of steps over which the second derivative of a function of time is bounded at once.
+const SPAN: f64 = 32.0;
 /// Number of steps ahead whose times count for the magnitude of a law that is not bounded.
 const STEPS_AHEAD: u32 = 64;
 /// Step fractions at which arguments are evaluated.
@@ -60,6 +69,13 @@ impl ScalarLaw for OfTime<'_> {
 
     fn bounds(&self, [from, to]: Interval, _: &[Interval]) -> Option<Interval> {
         self.0.bounds(from, to)
+    }
+
+    fn enclosure(&self, time: &Enclosure, _: &[Enclosure]) -> Option<Enclosure> {
+        let [from, to] = time.value;
+        // The parameter is the time.
+        let second = self.0.curvature(from, to)?;
+        Some(Enclosure { value: EVERYTHING, first: EVERYTHING, second })
     }
 }
 
@@ -111,25 +127,28 @@ impl<'l> Course<'l> {
         self.law.bounds([self.time(from), self.time(to)], &arguments[..self.arguments.len()])
     }
 
-    /// The largest magnitude at the ends, or anywhere if the law is bounded: for all times and arguments, or where the time or one
-    /// argument takes all values and the others those of the interval. Times of the next steps are included: the values of a law
-    /// that starts smoothly may be round-off.
+    /// The largest magnitude for all times and arguments, or that at the ends.
+    fn everywhere(&self) -> Magnitude {
+        let count = self.arguments.len();
+        let bounds = self.law.bounds(EVERYTHING, &[EVERYTHING; MAX_ARGUMENTS][..count]);
+        let everywhere = bounds.map_or(0.0, largest);
+        let ends = largest([self.value(0.0), self.value(1.0)]);
+        Magnitude { value: ends.max(everywhere), is_bounded: everywhere > 0.0 }
+    }
+
+    /// The largest magnitude of a law that is not bounded, where the time or one argument takes all values and the others those of
+    /// the interval. Times of the next steps are included: the values of a law that starts smoothly may be round-off.
     fn magnitude(&self) -> f64 {
         let count = self.arguments.len();
-        let ends = largest([self.value(0.0), self.value(1.0)]);
         let of =
             |time: Interval, arguments: &[Interval]| self.law.bounds(time, arguments).map_or(0.0, largest);
-        let everywhere = of(EVERYTHING, &[EVERYTHING; MAX_ARGUMENTS][..count]);
-        if everywhere > 0.0 {
-            return ends.max(everywhere);
-        }
         let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
         for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
             *argument = range(cubic, [0.0, 1.0]);
         }
         let time = [self.time(0.0), self.time(1.0)];
         let ahead = [time[0], self.time(f64::from(STEPS_AHEAD))];
-        let mut magnitude = ends;
+        let mut magnitude = 0.0_f64;
         for times in [EVERYTHING, ahead] {
             magnitude = magnitude.max(of(times, &arguments[..count]));
         }
@@ -147,6 +166,26 @@ impl<'l> Course<'l> {
         self.bounds([from + inside, to - inside]).map(|[low, high]| high - low)
     }
 
+    /// Largest distance within an interval from the straight line between its ends, if a bound is known.
+    fn bend(&self, [from, to]: Interval) -> Option<f64> {
+        let inside = INSIDE * (to - from);
+        let [from, to] = [from + inside, to - inside];
+        let mut arguments = [Enclosure::of_constant([0.0; 2]); MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = enclosure(cubic, [from, to]);
+        }
+        let time = Enclosure::of_line([self.time(from), self.time(to)], self.time[1]);
+        let enclosure = self.law.enclosure(&time, &arguments[..self.arguments.len()])?;
+        Some(bend(enclosure.second, to - from))
+    }
+
+    /// Whether values within an interval may differ from those at its ends and between them by more than [`NARROW`] of the
+    /// `magnitude`.
+    fn may_hide(&self, within: Interval, magnitude: f64) -> bool {
+        let is_wide = |width: f64| width > NARROW * magnitude;
+        self.width(within).is_some_and(is_wide) && self.bend(within).is_none_or(is_wide)
+    }
+
     /// Whether values within an interval are beyond those at its ends by more than [`EXCESS`] of the `magnitude`, as far as bounds
     /// and samples show.
     fn exceeds_its_ends(&self, whole: Interval, magnitude: f64) -> bool {
@@ -160,6 +199,7 @@ impl<'l> Course<'l> {
         let may_be = |within: Interval| {
             let [from, to] = within.map(|share| share.clamp(whole[0] + inside, whole[1] - inside));
             self.bounds([from, to]).is_some_and(|bounds| bounds.into_iter().any(is_beyond))
+                && self.may_hide(within, magnitude)
         };
         search(whole, is_found, may_be)
     }
@@ -172,7 +212,7 @@ impl<'l> Course<'l> {
         }
         let expected = self.interpolated(whole);
         let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
-        let may_be = |within: Interval| self.width(within).is_some_and(|width| width > NARROW * magnitude);
+        let may_be = |within: Interval| self.may_hide(within, magnitude);
         if search(whole, is_found, may_be) {
             self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump)
         } else {
@@ -264,11 +304,27 @@ fn search(whole: Interval, is_found: impl Fn(Interval) -> bool, may_be: impl Fn(
     false
 }
 
-/// Largest magnitudes of laws so far, or possible ones if they are bounded.
+/// What is known of laws from the steps so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Magnitudes {
-    functions: Vec<f64>,
-    laws: Vec<f64>,
+    functions: Vec<FunctionMagnitude>,
+    laws: Vec<Magnitude>,
+}
+
+/// Largest magnitude so far, or the possible one if it is bounded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Magnitude {
+    value: f64,
+    is_bounded: bool,
+}
+
+/// A function of time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct FunctionMagnitude {
+    magnitude: f64,
+    /// Times between which its second derivative is bounded [s], and the largest one there; infinite if it is not known.
+    span: Interval,
+    curvature: f64,
 }
 
 /// The scalar laws of a system along its steps.
@@ -286,7 +342,7 @@ impl Laws {
     /// the first values of a function that starts smoothly may be round-off.
     pub(super) fn new(system: &System, start: &State, longest: f64) -> Self {
         let now = start.kinematics.time;
-        let functions = system.functions.iter().map(|(_, function)| {
+        let magnitude = |function: &Function| {
             if function.is_constant() {
                 return 0.0;
             }
@@ -297,6 +353,11 @@ impl Laws {
             } else {
                 ahead.map(|value| largest([value; 2])).fold(0.0, f64::max)
             }
+        };
+        let functions = system.functions.iter().map(|(_, function)| FunctionMagnitude {
+            magnitude: magnitude(function),
+            span: [f64::INFINITY; 2],
+            curvature: f64::INFINITY,
         });
         let magnitudes = Magnitudes { functions: functions.collect(), laws: Vec::new() };
         let (between, arguments, middle, cubics) = (start.clone(), Vec::new(), Vec::new(), Vec::new());
@@ -305,9 +366,32 @@ impl Laws {
 
     /// The magnitude of a function of time, including its values at the ends of a step [s].
     pub(super) fn magnitude_of_function(&mut self, index: usize, function: &Function, ends: Interval) -> f64 {
-        let magnitude = &mut self.magnitudes.functions[index];
+        let magnitude = &mut self.magnitudes.functions[index].magnitude;
         *magnitude = magnitude.max(largest(ends.map(|time| function.value(time))));
         *magnitude
+    }
+
+    /// Whether a function of time is a straight line over a step [s], to `part` of its magnitude.
+    pub(super) fn is_straight(
+        &mut self,
+        index: usize,
+        function: &Function,
+        step @ [from, to]: Interval,
+        part: f64,
+    ) -> bool {
+        let bound = |[from, to]: Interval| {
+            function.curvature(from, to).map_or(f64::INFINITY, |bounds| bend(bounds, 1.0))
+        };
+        let known = self.magnitudes.functions[index];
+        if !(known.span[0] <= from && to <= known.span[1]) {
+            let span = [from, from + SPAN * (to - from)];
+            self.magnitude_of_function(index, function, span);
+            let known = &mut self.magnitudes.functions[index];
+            (known.span, known.curvature) = (span, bound(span));
+        }
+        let FunctionMagnitude { magnitude, curvature, .. } = self.magnitudes.functions[index];
+        let is_small = |bend: f64| bend * (to - from) * (to - from) <= part * magnitude;
+        is_small(curvature) || is_small(bound(step))
     }
 
     /// The longest part of a solved step in which its ends determine all laws of the motion, as a step fraction: 1, or less by
@@ -399,11 +483,22 @@ impl Laws {
             let course = Course { law, time, arguments: &cubics[own.clone()] };
             (next, index) = (own.end, index + 1);
             if magnitudes.laws.len() < index {
-                magnitudes.laws.push(0.0);
+                magnitudes.laws.push(course.everywhere());
             }
             let magnitude = &mut magnitudes.laws[index - 1];
-            *magnitude = magnitude.max(course.magnitude());
-            let Some(share) = find(&course, *magnitude) else { return };
+            let is_bounded = magnitude.is_bounded;
+            if !is_bounded {
+                magnitude.value = magnitude.value.max(largest([course.value(1.0); 2]));
+            }
+            let mut found = None;
+            if magnitude.value > 0.0 {
+                found = find(&course, magnitude.value);
+            }
+            if !is_bounded && (found.is_some() || magnitude.value == 0.0) {
+                magnitude.value = magnitude.value.max(course.magnitude());
+                found = find(&course, magnitude.value);
+            }
+            let Some(share) = found else { return };
             if middle.is_empty() {
                 dense::at_share(from, to, 0.5, between);
                 system.laws(&between.kinematics, &mut |_, values| middle.extend_from_slice(values));
@@ -443,6 +538,25 @@ fn range(cubic: &Cubic, [from, to]: Interval) -> Interval {
     let third = |x: f64| (b + x * (2.0 * c + x * 3.0 * d)) * (to - from) / 3.0;
     let (start, end) = (at(cubic, from), at(cubic, to));
     hull(&[start, start + third(from), end - third(to), end])
+}
+
+/// Bounds of a cubic and of its derivatives over an interval.
+fn enclosure(cubic: &Cubic, [from, to]: Interval) -> Enclosure {
+    let [_, b, c, d] = cubic;
+    let slope = |x: f64| b + x * (2.0 * c + x * 3.0 * d);
+    let bend = |x: f64| 2.0 * c + 6.0 * d * x;
+    let (start, end) = (slope(from), slope(to));
+    Enclosure {
+        value: range(cubic, [from, to]),
+        // The Bézier points of a parabola.
+        first: hull(&[start, start + 0.5 * (to - from) * bend(from), end]),
+        second: hull(&[bend(from), bend(to)]),
+    }
+}
+
+/// Largest distance of a function from the straight line between its ends over a length, given bounds of its second derivative.
+fn bend(second: Interval, length: f64) -> f64 {
+    second[0].abs().max(second[1].abs()) * length * length / 8.0
 }
 
 /// The cubic through values at the [`SAMPLES`].
@@ -496,7 +610,7 @@ mod tests {
         // x = 2 σ: the peak is at σ = 0.5.
         let moving = [[0.0, 2.0, 0.0, 0.0]];
         let by_motion = course(&BY_MOTION, &moving);
-        assert_eq!(by_motion.magnitude(), 1.0);
+        assert_eq!(by_motion.everywhere().value, 1.0);
         assert_eq!(by_motion.found([0.0, 1.0], 1.0, DEPARTURE), Found::Hidden);
         assert_eq!(by_motion.found([0.0, 0.4995], 1.0, DEPARTURE), Found::Nothing);
         assert_eq!(by_motion.found([0.499_99, 0.500_005], 1.0, DEPARTURE), Found::Nothing);

@@ -53,6 +53,9 @@ impl Stops {
         let step = [now + SAME * longest, now + (1.0 + BEYOND) * size];
         let mut jumps = Vec::new();
         for (index, (_, function)) in system.functions.iter().enumerate() {
+            if function.is_constant() || self.laws.is_straight(index, function, [now, step[1]], DEPARTURE) {
+                continue;
+            }
             let magnitude = self.laws.magnitude_of_function(index, function, step);
             let mut scan = Scan::default();
             scan.function(function, &self.breakpoints, step, magnitude);
@@ -97,7 +100,8 @@ impl Stops {
         let part = allowed_departure(problem.settings);
         let mut longest = size;
         for (index, (_, function)) in problem.system.functions.iter().enumerate() {
-            if !function.is_constant() {
+            let is_straight = |laws: &mut Laws| laws.is_straight(index, function, [now, now + longest], part);
+            if !(function.is_constant() || is_straight(&mut self.laws)) {
                 let magnitude = self.laws.magnitude_of_function(index, function, [now, now + size]);
                 let of_time = OfTime(&**function);
                 longest = Course::of_time(&of_time).longest([now, longest], magnitude, part);
@@ -138,9 +142,6 @@ impl Scan {
         [from, to]: [f64; 2],
         magnitude: f64,
     ) {
-        if function.is_constant() {
-            return;
-        }
         let first = breakpoints.partition_point(|breakpoint| breakpoint.time <= from);
         let inside =
             breakpoints[first..].iter().map(|breakpoint| breakpoint.time).take_while(|time| *time < to);

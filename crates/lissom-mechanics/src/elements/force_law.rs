@@ -13,7 +13,7 @@
 
 use super::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
-use crate::law::{Interval, ScalarLaw, hull, scaled, sum};
+use crate::law::{Enclosure, Interval, ScalarLaw, hull, scaled, sum};
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -280,6 +280,30 @@ impl ScalarLaw for ForceLaw {
         // It is zero within the free play and on the other side.
         let is_partly_free = has_ends && past[0] <= 0.0 && past[1] >= 0.0;
         Some(if is_partly_free { hull(&[low, 0.0, high]) } else { hull(&[low, high]) })
+    }
+
+    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        let (elongation, rate) = (arguments[0], arguments[1]);
+        let ends = elongation.value.map(|elongation| self.past(elongation));
+        if self.has_ends().contains(&true) {
+            if ends == [0.0; 2] {
+                return Some(Enclosure::of_constant([0.0; 2]));
+            }
+            // It begins to act within the interval, or is within its play at one end.
+            if ends[0] <= 0.0 && ends[1] >= 0.0 {
+                return None;
+            }
+        }
+        let past = Enclosure { value: ends, ..elongation };
+        let of = |law: &Option<Force>, one: &Enclosure, other: &Enclosure| match law {
+            Some(law) => law.enclosure(one, other),
+            None => Some(Enclosure::of_constant([0.0; 2])),
+        };
+        let functions = of(&self.elastic, &past, &rate)?.plus(&of(&self.damper, &rate, &past)?);
+        let force = past.scaled(self.stiffness).plus(&rate.scaled(self.damping)).plus(&functions);
+        // Beyond its limits it is constant.
+        let is_within = self.limits[0] < force.value[0] && force.value[1] < self.limits[1];
+        is_within.then_some(force)
     }
 }
 

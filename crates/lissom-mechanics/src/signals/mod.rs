@@ -22,7 +22,7 @@ use std::sync::Arc;
 
 use crate::instants;
 use crate::kinematics::{Kinematics, Subject, Switch, indexed_by};
-use crate::law::{Interval, ScalarLaw, VisitLaw};
+use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw};
 use measurement::Component;
 
 pub use moving_frame::MovingFrame;
@@ -56,6 +56,10 @@ pub trait SignalFunction: Send + Sync + fmt::Debug {
     fn bounds(&self, _time: Interval, _arguments: &[Interval]) -> Option<Interval> {
         None
     }
+    /// Bounds of the value and of its derivatives along a path, given those of time and of the arguments. Default: none are known.
+    fn enclosure(&self, _time: &Enclosure, _arguments: &[Enclosure]) -> Option<Enclosure> {
+        None
+    }
     /// Known breakpoints [s], for all arguments. Default: none.
     fn breakpoints(&self) -> &[f64] {
         &[]
@@ -73,6 +77,10 @@ impl ScalarLaw for &(dyn SignalFunction + '_) {
 
     fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
         SignalFunction::bounds(*self, time, arguments)
+    }
+
+    fn enclosure(&self, time: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        SignalFunction::enclosure(*self, time, arguments)
     }
 }
 

@@ -5,42 +5,61 @@ use std::f64::consts::{PI, TAU};
 
 use lissom_core::law::{EVERYTHING, Interval, hull};
 
-use super::{Function, Jet, STACK, Step};
+use super::Function;
+use super::number::Number;
 
 const TRUTH: Interval = [0.0, 1.0];
 
-/// Bounds of the value that steps leave over intervals of the variable and of the arguments.
-pub(super) fn of(steps: &[Step], variable: Interval, arguments: &[Interval]) -> Interval {
-    let mut stack = [EVERYTHING; STACK];
-    let mut top = 0;
-    for step in steps {
-        let first = top - step.operands().min(top);
-        let [u, v, w] = [0, 1, 2].map(|k| stack[(first + k).min(STACK - 1)]);
-        let found = match *step {
-            Step::Constant(value) => [value; 2],
-            Step::Variable => variable,
-            Step::Argument(index) => arguments.get(index).copied().unwrap_or(EVERYTHING),
-            Step::Negate => [-u[1], -u[0]],
-            Step::Add => [u[0] + v[0], u[1] + v[1]],
-            Step::Subtract => [u[0] - v[1], u[1] - v[0]],
-            Step::Multiply => product(u, v),
-            Step::Divide => product(u, inverse(v)),
-            Step::Power => power(u, v),
-            Step::Call(function) => of_one(function, u),
-            Step::Call2(function) => of_two(function, u, v),
-            Step::Call3(Function::If) if u == [0.0; 2] => w,
-            Step::Call3(Function::If) if u[0] > 0.0 || u[1] < 0.0 => v,
-            Step::Call3(Function::If) => [v[0].min(w[0]), v[1].max(w[1])],
-            Step::Call3(_) => {
-                let larger = of_two(Function::Max, u, v);
-                of_two(Function::Min, larger, w)
-            }
-        };
-        // What is not a number bounds nothing.
-        stack[first] = if found[0] <= found[1] { found } else { EVERYTHING };
-        top = first + 1;
+impl Number for Interval {
+    fn constant(value: f64) -> Self {
+        [value; 2]
     }
-    stack[0]
+
+    fn plus(self, other: Self) -> Self {
+        valid([self[0] + other[0], self[1] + other[1]])
+    }
+
+    fn minus(self, other: Self) -> Self {
+        valid([self[0] - other[1], self[1] - other[0]])
+    }
+
+    fn times(self, other: Self) -> Self {
+        product(self, other)
+    }
+
+    fn over(self, other: Self) -> Self {
+        product(self, inverse(other))
+    }
+
+    fn to_the(self, exponent: Self) -> Self {
+        power(self, exponent)
+    }
+
+    fn square(self) -> Self {
+        let [low, high] = self.map(|value| value * value);
+        if self[0] < 0.0 && self[1] > 0.0 { [0.0, low.max(high)] } else { hull(&[low, high]) }
+    }
+
+    fn of(self, function: Function) -> Self {
+        valid(of_one(function, self))
+    }
+
+    fn of_two(self, function: Function, other: Self) -> Self {
+        valid(of_two(function, self, other))
+    }
+
+    fn choose(self, one: Self, other: Self) -> Self {
+        match self {
+            [0.0, 0.0] => other,
+            [low, high] if low > 0.0 || high < 0.0 => one,
+            _ => [one[0].min(other[0]), one[1].max(other[1])],
+        }
+    }
+}
+
+/// What is not a number bounds nothing.
+fn valid(bounds: Interval) -> Interval {
+    if bounds[0] <= bounds[1] { bounds } else { EVERYTHING }
 }
 
 fn product(u: Interval, v: Interval) -> Interval {
@@ -71,21 +90,14 @@ fn power(base: Interval, exponent: Interval) -> Interval {
     }
 }
 
-/// The value of a function of one number.
-fn at(function: Function, value: f64) -> f64 {
-    function.of(Jet::constant(value)).value
-}
-
 fn of_one(function: Function, [low, high]: Interval) -> Interval {
-    let ends = [at(function, low), at(function, high)];
+    let ends = [low.of(function), high.of(function)];
     match function {
         Function::Sin => wave([low, high]),
         Function::Cos => wave([low + 0.5 * PI, high + 0.5 * PI]),
         // Between two poles it ascends.
         Function::Tan if ((low / PI + 0.5).floor() - (high / PI + 0.5).floor()).abs() > 0.0 => EVERYTHING,
-        Function::Abs | Function::Cosh if low < 0.0 && high > 0.0 => {
-            [at(function, 0.0), ends[0].max(ends[1])]
-        }
+        Function::Abs | Function::Cosh if low < 0.0 && high > 0.0 => [0.0.of(function), ends[0].max(ends[1])],
         // The others ascend, or descend, wherever they are defined.
         _ => hull(&ends),
     }
@@ -100,6 +112,15 @@ fn wave([low, high]: Interval) -> Interval {
     let has = |peak: f64| ((high - peak) / TAU).floor() > ((low - peak) / TAU).floor();
     let [from, to] = hull(&[low.sin(), high.sin()]);
     [if has(-0.5 * PI) { -1.0 } else { from }, if has(0.5 * PI) { 1.0 } else { to }]
+}
+
+/// Of atan2(u, v): that of the corners, unless the half-line at which it jumps meets the rectangle.
+fn angle(u: Interval, v: Interval) -> Interval {
+    let is_met = v[0] <= 0.0 && u[0] <= 0.0 && u[1] >= 0.0;
+    if is_met {
+        return [-PI, PI];
+    }
+    hull(&[u[0].atan2(v[0]), u[0].atan2(v[1]), u[1].atan2(v[0]), u[1].atan2(v[1])])
 }
 
 fn of_two(function: Function, u: Interval, v: Interval) -> Interval {
@@ -119,7 +140,7 @@ fn of_two(function: Function, u: Interval, v: Interval) -> Interval {
             let [a, b] = [u, v].map(|side| of_one(Function::Abs, side));
             [a[0].hypot(b[0]), a[1].hypot(b[1])]
         }
-        Function::Atan2 => [-PI, PI],
+        Function::Atan2 => angle(u, v),
         Function::Mod if v[0] == v[1] && (u[0] / v[0]).floor() == (u[1] / v[0]).floor() => {
             hull(&u.map(|value| value.rem_euclid(v[0])))
         }
@@ -131,6 +152,7 @@ fn of_two(function: Function, u: Interval, v: Interval) -> Interval {
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeMap;
+    use std::f64::consts::PI;
 
     use proptest::prelude::*;
 
@@ -160,6 +182,9 @@ mod tests {
             ("if(t > 1, 5, 2)", 0.0, 0.5, [2.0, 2.0]),
             ("if(t > 1, 5, 2)", 0.0, 1.5, [2.0, 5.0]),
             ("hypot(3, t)", -4.0, 1.0, [3.0, 5.0]),
+            ("atan2(t, 1)", -1.0, 1.0, [-0.25 * PI, 0.25 * PI]),
+            ("atan2(1, t)", -1.0, 1.0, [0.25 * PI, 0.75 * PI]),
+            ("atan2(t, -1)", -1.0, 1.0, [-PI, PI]),
             ("0*exp(t)", 0.0, 1e4, [0.0, 0.0]),
             ("exp(-((t - 1)/1e-4)^2)", 0.0, 2.0, [0.0, 1.0]),
         ] {

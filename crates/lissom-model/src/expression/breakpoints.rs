@@ -3,7 +3,8 @@
 use lissom_core::kinematics::Switch;
 use lissom_core::kinematics::switch::level_of_side;
 
-use super::{Function, Jet, STACK, Step};
+use super::number::Point;
+use super::{Function, STACK, Step};
 
 /// a + b x, or none for what is no straight line.
 pub(crate) type Line = Option<(f64, f64)>;
@@ -88,19 +89,23 @@ pub(super) fn switch_count(function: Function) -> usize {
 
 /// A function continued from the sides of its switches that are given by their signs, whatever its arguments; none where
 /// it is smooth enough, or a side is not known.
-pub(super) fn continued(function: Function, sides: &[f64], [one, other, third]: [Jet; 3]) -> Option<Jet> {
+pub(super) fn continued<N: Point>(
+    function: Function,
+    sides: &[f64],
+    [one, other, third]: [N; 3],
+) -> Option<N> {
     if sides.is_empty() || sides.contains(&0.0) {
         return None;
     }
     let is_above = sides[0] > 0.0;
     let level = level_of_side(sides[0]);
-    let truth = |holds: bool| Jet::constant(f64::from(u8::from(holds)));
+    let truth = |holds: bool| N::constant(f64::from(u8::from(holds)));
     match function {
-        Function::Floor | Function::Round => Some(Jet::constant(level)),
-        Function::Ceil => Some(Jet::constant(level + 1.0)),
-        Function::Mod => Some(one.plus(other.scaled(-level * other.value.signum()))),
+        Function::Floor | Function::Round => Some(N::constant(level)),
+        Function::Ceil => Some(N::constant(level + 1.0)),
+        Function::Mod => Some(one.plus(other.scaled(-level * other.value().signum()))),
         Function::Abs => Some(one.scaled(sides[0])),
-        Function::Sign => Some(Jet::constant(sides[0])),
+        Function::Sign => Some(N::constant(sides[0])),
         Function::Step | Function::Greater | Function::GreaterOrEqual => Some(truth(is_above)),
         Function::Less | Function::LessOrEqual => Some(truth(!is_above)),
         Function::Min => Some(if is_above { other } else { one }),

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::formula::Name;
 use super::token::{Placed, Token, tokens};
-use super::{ExpressionError, Function, Jet, STACK, Step, jet, run};
+use super::{ExpressionError, Function, STACK, Step, jet, run};
 use crate::{suggest, synonyms};
 
 /// Nesting that is still read; deeper texts are machine-made.
@@ -264,7 +264,7 @@ pub(super) fn fold(steps: Vec<Step>) -> Vec<Step> {
         let from = folded.len() - 1 - operands.min(folded.len() - 1);
         let constant = |step: &Step| matches!(step, Step::Constant(_));
         if operands > 0 && folded[from..folded.len() - 1].iter().all(constant) {
-            let value = run(&folded.split_off(from), Jet::constant(0.0), |_| Jet::constant(0.0)).value;
+            let value = run(&folded.split_off(from), 0.0, |_| 0.0);
             folded.push(Step::Constant(value));
         }
     }

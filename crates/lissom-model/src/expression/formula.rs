@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use lissom_core::kinematics::Switch;
-use lissom_core::law::Interval;
+use lissom_core::law::{Enclosure, Interval};
 use lissom_core::signals::SignalFunction;
 
 use super::breakpoints::{Course, Line};
 use super::compile::{compile, fold};
 use super::smoothness::{self, Kink};
-use super::{Expression, ExpressionError, Function, Jet, Step, bounds, breakpoints, run, run_continued};
+use super::{Expression, ExpressionError, Function, Jet, Step, breakpoints, run, run_continued};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -110,8 +110,7 @@ impl Formula {
         sides: &[f64],
         visit: impl FnMut(Switch),
     ) {
-        let of = |index: usize| Jet::constant(arguments[index]);
-        run_continued(&self.steps, Jet::constant(time), of, sides, visit);
+        run_continued(&self.steps, time, |index| arguments[index], sides, visit);
     }
 
     /// The expression as it was written.
@@ -132,8 +131,10 @@ impl Formula {
 
 impl SignalFunction for Formula {
     fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64 {
-        let of = |index: usize| Jet::constant(arguments[index]);
-        run_continued(&self.steps, Jet::constant(time), of, sides, |_| ()).value
+        if sides.is_empty() {
+            return run(&self.steps, time, |index| arguments[index]);
+        }
+        run_continued(&self.steps, time, |index| arguments[index], sides, |_| ())
     }
 
     fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]) {
@@ -157,7 +158,11 @@ impl SignalFunction for Formula {
     }
 
     fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
-        Some(bounds::of(&self.steps, time, arguments))
+        Some(run(&self.steps, time, |index| arguments[index]))
+    }
+
+    fn enclosure(&self, time: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        Some(run(&self.steps, *time, |index| arguments[index]))
     }
 
     fn switch_count(&self) -> usize {

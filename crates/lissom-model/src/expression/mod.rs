@@ -6,8 +6,10 @@
 mod bounds;
 mod breakpoints;
 mod compile;
+mod enclosure;
 mod formula;
 mod jet;
+mod number;
 mod over_time;
 mod smoothness;
 mod token;
@@ -16,11 +18,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use lissom_core::kinematics::Switch;
+use lissom_core::law::{EVERYTHING, Enclosure};
 
 pub(crate) use breakpoints::Line;
 pub use formula::{Formula, Name};
 pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
+use number::{Number, Point};
 pub(crate) use over_time::OverTime;
 pub(crate) use smoothness::Kink;
 
@@ -100,7 +104,17 @@ impl Expression {
 
     /// Bounds of the value where the variable is between `from` and `to`.
     pub fn bounds(&self, from: f64, to: f64) -> [f64; 2] {
-        bounds::of(&self.steps, [from, to], &[])
+        run(&self.steps, [from, to], |_| EVERYTHING)
+    }
+
+    /// Bounds of the value and of both derivatives where the variable is between `from` and `to`.
+    pub(crate) fn enclosure(&self, from: f64, to: f64) -> Enclosure {
+        run(&self.steps, Enclosure::of_line([from, to], 1.0), |_| Enclosure::of_constant(EVERYTHING))
+    }
+
+    /// Value at `x`, without derivatives.
+    pub fn value(&self, x: f64) -> f64 {
+        run(&self.steps, x, |_| 0.0)
     }
 
     /// Value and derivatives at `x`.
@@ -109,54 +123,64 @@ impl Expression {
     }
 }
 
-/// The value that steps leave, for a variable and arguments.
-fn run(steps: &[Step], variable: Jet, argument: impl Fn(usize) -> Jet) -> Jet {
-    run_continued(steps, variable, argument, &[], |_| ())
+/// What steps leave, for a variable and arguments.
+fn run<N: Number>(steps: &[Step], variable: N, argument: impl Fn(usize) -> N) -> N {
+    run_with(steps, variable, argument, |_, _| None)
 }
 
 /// The same with functions continued from known `sides` of their switches, in the order of the switches; none for all by
 /// their arguments. Passes the switching functions to `visit`.
-fn run_continued(
+fn run_continued<N: Point>(
     steps: &[Step],
-    variable: Jet,
-    argument: impl Fn(usize) -> Jet,
+    variable: N,
+    argument: impl Fn(usize) -> N,
     sides: &[f64],
     mut visit: impl FnMut(Switch),
-) -> Jet {
+) -> N {
     let mut next = 0;
-    let mut continued = |function: Function, arguments: [Jet; 3]| {
+    run_with(steps, variable, argument, |function, arguments| {
         let first = next;
         next += breakpoints::switch_count(function);
         let own = sides.get(first..next).unwrap_or_default();
-        breakpoints::switches(function, arguments.map(|argument| argument.value), own, &mut visit);
+        breakpoints::switches(function, arguments.map(N::value), own, &mut visit);
         breakpoints::continued(function, own, arguments)
-    };
-    let mut stack = [Jet::constant(0.0); STACK];
+    })
+}
+
+/// The same, with functions that are `replaced` by other values.
+#[inline]
+fn run_with<N: Number>(
+    steps: &[Step],
+    variable: N,
+    argument: impl Fn(usize) -> N,
+    mut replaced: impl FnMut(Function, [N; 3]) -> Option<N>,
+) -> N {
+    let mut stack = [N::constant(0.0); STACK];
     let mut top = 0;
     for step in steps {
         match *step {
-            Step::Constant(value) => stack[top] = Jet::constant(value),
+            Step::Constant(value) => stack[top] = N::constant(value),
             Step::Variable => stack[top] = variable,
             Step::Argument(index) => stack[top] = argument(index),
             Step::Negate => stack[top - 1] = stack[top - 1].scaled(-1.0),
             Step::Call(function) => {
                 let own = stack[top - 1];
-                stack[top - 1] = continued(function, [own; 3]).unwrap_or_else(|| function.of(own));
+                stack[top - 1] = replaced(function, [own; 3]).unwrap_or_else(|| own.of(function));
             }
             Step::Add => stack[top - 2] = stack[top - 2].plus(stack[top - 1]),
-            Step::Subtract => stack[top - 2] = stack[top - 2].plus(stack[top - 1].scaled(-1.0)),
+            Step::Subtract => stack[top - 2] = stack[top - 2].minus(stack[top - 1]),
             Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
             Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
             Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
             Step::Call2(function) => {
                 let (one, other) = (stack[top - 2], stack[top - 1]);
                 stack[top - 2] =
-                    continued(function, [one, other, other]).unwrap_or_else(|| function.of_two(one, other));
+                    replaced(function, [one, other, other]).unwrap_or_else(|| one.of_two(function, other));
             }
             Step::Call3(function) => {
                 let [one, other, third] = [stack[top - 3], stack[top - 2], stack[top - 1]];
-                stack[top - 3] = continued(function, [one, other, third])
-                    .unwrap_or_else(|| function.of_three(one, other, third));
+                stack[top - 3] = replaced(function, [one, other, third])
+                    .unwrap_or_else(|| one.of_three(function, other, third));
             }
         }
         top = top + 1 - step.operands();

@@ -2,7 +2,7 @@
 //! depend on time alone.
 
 use lissom_core::kinematics::Switch;
-use lissom_core::law::Interval;
+use lissom_core::law::{Enclosure, Interval};
 use lissom_core::signals::SignalFunction;
 
 use super::Formula;
@@ -43,6 +43,10 @@ impl SignalFunction for OverTime {
 
     fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
         self.formula.bounds(time, arguments)
+    }
+
+    fn enclosure(&self, time: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        self.formula.enclosure(time, arguments)
     }
 
     fn switch_count(&self) -> usize {

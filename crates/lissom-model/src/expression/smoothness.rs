@@ -100,8 +100,8 @@ impl Switched<'_> {
 
     fn switches(&self, point: &[f64]) -> Vec<f64> {
         let mut found = Vec::new();
-        let of = |index: usize| Jet::constant(point[index + 1]);
-        run_continued(self.steps, Jet::constant(point[0]), of, &[], |switch| found.push(switch.number));
+        let of = |index: usize| point[index + 1];
+        run_continued(self.steps, point[0], of, &[], |switch| found.push(switch.number));
         found
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lissom_core::joints::Constraint as _;
 use lissom_core::joints::JointKind;
 use lissom_core::kinematics::{CoordinateId, Quantity};
-use lissom_core::law::Interval;
+use lissom_core::law::{Enclosure, Interval};
 use lissom_core::registry::Value;
 use lissom_core::relation::{MAX_COUPLED, Relation, RelationPoint};
 use lissom_core::signals::SignalFunction as _;
@@ -47,6 +47,14 @@ impl Relation for Equation {
             *argument = coordinates[coordinate];
         }
         self.formula.bounds(time, &arguments[..self.arguments.len()])
+    }
+
+    fn enclosure(&self, time: &Enclosure, coordinates: &[Enclosure]) -> Option<Enclosure> {
+        let mut arguments = [Enclosure::of_constant([0.0; 2]); MAX_COUPLED];
+        for (argument, &coordinate) in arguments.iter_mut().zip(&self.arguments) {
+            *argument = coordinates[coordinate];
+        }
+        self.formula.enclosure(time, &arguments[..self.arguments.len()])
     }
 }
 

@@ -1,6 +1,5 @@
 //! Joints, drives, springs and loads as they look.
 
-use lissom_core::registry::TimeFunction;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 

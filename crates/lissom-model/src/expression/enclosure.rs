@@ -1,0 +1,216 @@
+//! Enclosures: bounds of a function and of its first and second derivative over an interval of a parameter [Moore 1966].
+
+use lissom_core::law::{EVERYTHING, Enclosure, Interval};
+
+use super::Function;
+use super::number::Number;
+
+/// What has a kink or a jump somewhere in its interval.
+fn unknown(value: Interval) -> Enclosure {
+    Enclosure { value, first: EVERYTHING, second: EVERYTHING }
+}
+
+/// The chain rule, given bounds of f, f' and f''.
+fn through(u: Enclosure, [f, f1, f2]: [Interval; 3]) -> Enclosure {
+    Enclosure {
+        value: f,
+        first: f1.times(u.first),
+        second: f2.times(u.first.square()).plus(f1.times(u.second)),
+    }
+}
+
+/// Whether a function of one number has a kink or a jump within an interval.
+fn switches(function: Function, u: Interval) -> bool {
+    let level = |shift: f64| u.map(|value| (value + shift).floor());
+    let has_levels = |[one, other]: Interval| one != other;
+    match function {
+        Function::Abs | Function::Sign | Function::Step => u[0] <= 0.0 && u[1] >= 0.0,
+        Function::Floor => has_levels(level(0.0)),
+        Function::Ceil => has_levels(u.map(f64::ceil)),
+        Function::Round => has_levels(level(0.5)),
+        Function::Tan => u.of(Function::Tan) == EVERYTHING,
+        _ => false,
+    }
+}
+
+impl Number for Enclosure {
+    fn constant(value: f64) -> Self {
+        Self::of_constant([value; 2])
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            value: self.value.plus(other.value),
+            first: self.first.plus(other.first),
+            second: self.second.plus(other.second),
+        }
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self {
+            value: self.value.minus(other.value),
+            first: self.first.minus(other.first),
+            second: self.second.minus(other.second),
+        }
+    }
+
+    fn times(self, other: Self) -> Self {
+        let value = self.value.times(other.value);
+        match [self.is_constant(), other.is_constant()] {
+            [true, true] => Self::of_constant(value),
+            [true, _] => {
+                Self { value, first: self.value.times(other.first), second: self.value.times(other.second) }
+            }
+            [_, true] => {
+                Self { value, first: other.value.times(self.first), second: other.value.times(self.second) }
+            }
+            _ => {
+                let both = self.first.times(other.first);
+                Self {
+                    value,
+                    first: self.first.times(other.value).plus(self.value.times(other.first)),
+                    second: self
+                        .second
+                        .times(other.value)
+                        .plus(both.plus(both))
+                        .plus(self.value.times(other.second)),
+                }
+            }
+        }
+    }
+
+    fn over(self, other: Self) -> Self {
+        let inverse = Interval::constant(1.0).over(other.value);
+        if other.is_constant() {
+            return self.times(Self::of_constant(inverse));
+        }
+        let square = inverse.square();
+        let cube = square.times(inverse);
+        let value = self.value.over(other.value);
+        Self { value, ..self.times(through(other, [inverse, square.scaled(-1.0), cube.scaled(2.0)])) }
+    }
+
+    fn to_the(self, exponent: Self) -> Self {
+        let value = self.value.to_the(exponent.value);
+        if self.is_constant() && exponent.is_constant() {
+            return Self::of_constant(value);
+        }
+        let [n, other] = exponent.value;
+        if exponent.is_constant() && n == other {
+            let power = |by: f64| self.value.to_the([n - by; 2]);
+            return through(self, [value, power(1.0).scaled(n), power(2.0).scaled(n * (n - 1.0))]);
+        }
+        Self { value, ..exponent.times(self.of(Function::Ln)).of(Function::Exp) }
+    }
+
+    fn of(self, function: Function) -> Self {
+        let value = self.value.of(function);
+        if self.is_constant() {
+            return Self::of_constant(value);
+        }
+        if switches(function, self.value) {
+            return unknown(value);
+        }
+        through(self, function.derivatives(self.value))
+    }
+
+    fn of_two(self, function: Function, other: Self) -> Self {
+        let (u, v) = (self.value, other.value);
+        let value = u.of_two(function, v);
+        if self.is_constant() && other.is_constant() {
+            return Self::of_constant(value);
+        }
+        let is_above = u[0] > v[1];
+        let is_below = u[1] < v[0];
+        match function {
+            Function::Max if is_above => self,
+            Function::Max if is_below => other,
+            Function::Min if is_above => other,
+            Function::Min if is_below => self,
+            // d atan2(u, v) = (v du - u dv)/(u² + v²), and once more by the quotient rule.
+            Function::Atan2 if v[0] > 0.0 || u[0] > 0.0 || u[1] < 0.0 => {
+                let square = u.square().plus(v.square());
+                let slope = v.times(self.first).minus(u.times(other.first)).over(square);
+                let bend = v.times(self.second).minus(u.times(other.second));
+                let growth = u.times(self.first).plus(v.times(other.first)).scaled(2.0);
+                Self { value, first: slope, second: bend.minus(slope.times(growth)).over(square) }
+            }
+            // √(u² + v²)
+            Function::Hypot => {
+                let first = u.times(self.first).plus(v.times(other.first)).over(value);
+                let squares = self.first.square().plus(other.first.square());
+                let bend = u.times(self.second).plus(v.times(other.second));
+                Self { value, first, second: squares.minus(first.square()).plus(bend).over(value) }
+            }
+            Function::Mod if other.is_constant() && v[0] == v[1] => {
+                let [low, high] = u.map(|value| (value / v[0]).floor());
+                if low == high { Self { value, ..self } } else { unknown(value) }
+            }
+            Function::Less | Function::LessOrEqual | Function::Greater | Function::GreaterOrEqual
+                if value[0] == value[1] =>
+            {
+                Self::of_constant(value)
+            }
+            _ => unknown(value),
+        }
+    }
+
+    fn choose(self, one: Self, other: Self) -> Self {
+        match self.value {
+            [0.0, 0.0] => other,
+            [low, high] if low > 0.0 || high < 0.0 => one,
+            _ => unknown(self.value.choose(one.value, other.value)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use proptest::prelude::*;
+
+    use super::super::Expression;
+
+    fn parse(text: &str) -> Expression {
+        Expression::parse(text, Some("t"), &BTreeMap::new()).unwrap()
+    }
+
+    #[test]
+    fn derivatives_are_bounded_where_nothing_switches() {
+        let enclosure = parse("3*max(t - 1, 0) + 2*min(t, 1)").enclosure(1.5, 2.0);
+        assert_eq!((enclosure.first, enclosure.second), ([3.0, 3.0], [0.0, 0.0]));
+        for kinked in
+            ["abs(t - 1.7)", "max(t, 1.7)", "if(t < 1.7, t, 2*t)", "floor(t*2)", "mod(t, 1.7)", "tan(t)"]
+        {
+            assert_eq!(
+                parse(kinked).enclosure(1.5, 2.0).second,
+                [f64::NEG_INFINITY, f64::INFINITY],
+                "{kinked}"
+            );
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_derivative_is_beyond_them(from in -4.0_f64..4.0, size in 0.0_f64..1.5, part in 0.0_f64..1.0) {
+            for text in [
+                "t*sin(3*t) - cos(t^2)/(2 + sin(t))", "exp(-t^2)*t", "abs(t - 1)^1.5", "2^t - t^3 + 1/t", "atan2(t, 1 - t)",
+                "mod(t, 0.7)*sign(t)", "sqrt(t) + ln(t + 5)", "hypot(t, 1 - t)", "acos(t/8)*cosh(t) - tanh(t)", "t^t",
+                "smoothstep(t)*clamp(t, 0, 2) + min(t, t^2) - max(t, 1/t)", "if(t < 1, t, 3 - t)", "tan(t)*floor(3*t)",
+                "asin(t/5) + atan(t) + sinh(t)", "asinh(t) + acosh(t + 6)*atanh(t/7) + log10(t + 8) + cbrt(t)",
+                "t^-2 + (t + 5)^0.3", "abs(t)*step(t - 1)*round(t)", "hypot(t, 0)",
+            ] {
+                let expression = parse(text);
+                let jet = expression.jet(from + part * size);
+                let found = expression.enclosure(from, from + size);
+                for (value, [low, high]) in
+                    [(jet.value, found.value), (jet.first, found.first), (jet.second, found.second)]
+                {
+                    let slack = 1e-10 * (1.0 + value.abs());
+                    prop_assert!(value.is_nan() || (low - slack <= value && value <= high + slack), "{text}: {low} {value} {high}");
+                }
+            }
+        }
+    }
+}
