@@ -20,6 +20,10 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn first_derivative(&self, time: f64) -> f64;
     /// Second derivative with respect to time at `time` [s].
     fn second_derivative(&self, time: f64) -> f64;
+    /// Value, first and second derivative at `time` [s].
+    fn jet(&self, time: f64) -> [f64; 3] {
+        [self.value(time), self.first_derivative(time), self.second_derivative(time)]
+    }
     /// Known breakpoints [s], in ascending order. Default: none.
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()

@@ -5,17 +5,22 @@ use std::sync::Arc;
 
 use lissom_core::registry::{Constant, Function, TimeFunction};
 
-use crate::expression::Expression;
+use crate::expression::{Expression, Jet};
+use crate::remembered::Remembered;
 
 impl TimeFunction for Expression {
     fn value(&self, time: f64) -> f64 {
         Self::value(self, time)
     }
     fn first_derivative(&self, time: f64) -> f64 {
-        self.jet(time).first
+        Self::jet(self, time).first
     }
     fn second_derivative(&self, time: f64) -> f64 {
-        self.jet(time).second
+        Self::jet(self, time).second
+    }
+    fn jet(&self, time: f64) -> [f64; 3] {
+        let Jet { value, first, second } = Self::jet(self, time);
+        [value, first, second]
     }
     fn breakpoints(&self) -> Vec<f64> {
         Self::breakpoints(self)
@@ -35,7 +40,7 @@ impl TimeFunction for Expression {
 pub(crate) fn of_expression(expression: Expression) -> Function {
     match expression.constant() {
         Some(value) => Arc::new(Constant(value)),
-        None => Arc::new(expression),
+        None => Arc::new(Remembered::new(expression)),
     }
 }
 

@@ -32,6 +32,7 @@ mod parts;
 mod python_entries;
 mod reader;
 pub mod registry;
+mod remembered;
 mod report;
 pub mod scene;
 mod schema;

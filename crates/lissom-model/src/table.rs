@@ -197,6 +197,9 @@ impl TimeFunction for Table {
     fn second_derivative(&self, time: f64) -> f64 {
         self.evaluate(time)[2]
     }
+    fn jet(&self, time: f64) -> [f64; 3] {
+        self.evaluate(time)
+    }
     fn breakpoints(&self) -> Vec<f64> {
         self.breakpoint_rows()
     }

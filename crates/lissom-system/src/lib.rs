@@ -226,9 +226,7 @@ impl System {
     /// and the value.
     pub fn function_without_value(&self, time: f64) -> Option<(&Subject, f64)> {
         self.functions.iter().find_map(|(words, function)| {
-            let values =
-                [function.value(time), function.first_derivative(time), function.second_derivative(time)];
-            values.into_iter().find(|value| !value.is_finite()).map(|value| (words, value))
+            function.jet(time).into_iter().find(|value| !value.is_finite()).map(|value| (words, value))
         })
     }
 

@@ -203,7 +203,8 @@ impl Number for Jet {
             let second = if n == 0.0 || n == 1.0 { 0.0 } else { n * (n - 1.0) * u.powf(n - 2.0) };
             return self.through([u.powf(n), first, second]);
         }
-        exponent.times(self.of(Function::Ln)).of(Function::Exp)
+        // The value without derivatives is the same to the last bit.
+        Self { value: self.value.powf(n), ..exponent.times(self.of(Function::Ln)).of(Function::Exp) }
     }
 
     fn of(self, function: Function) -> Self {
