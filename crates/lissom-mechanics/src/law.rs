@@ -35,6 +35,38 @@ impl Enclosure {
         self.first == [0.0; 2] && self.second == [0.0; 2]
     }
 
+    /// The chain rule, given bounds of f, f' and f'' where f is applied to it.
+    pub fn through(&self, [f, f1, f2]: [Interval; 3]) -> Self {
+        Self {
+            value: f,
+            first: product(f1, self.first),
+            second: sum(product(f2, square(self.first)), product(f1, self.second)),
+        }
+    }
+
+    /// u v.
+    pub fn times(&self, other: &Self) -> Self {
+        let value = product(self.value, other.value);
+        let by = |constant: &Self, u: &Self| Self {
+            value,
+            first: product(constant.value, u.first),
+            second: product(constant.value, u.second),
+        };
+        match [self.is_constant(), other.is_constant()] {
+            [true, true] => Self::of_constant(value),
+            [true, _] => by(self, other),
+            [_, true] => by(other, self),
+            _ => Self {
+                value,
+                first: sum(product(self.first, other.value), product(self.value, other.first)),
+                second: sum(
+                    sum(product(self.second, other.value), product(self.value, other.second)),
+                    scaled(2.0, product(self.first, other.first)),
+                ),
+            },
+        }
+    }
+
     /// c u.
     pub(crate) fn scaled(&self, factor: f64) -> Self {
         let Self { value, first, second } = *self;
@@ -84,7 +116,26 @@ pub fn hull(values: &[f64]) -> Interval {
 
 /// Sum of two intervals.
 pub fn sum(u: Interval, v: Interval) -> Interval {
-    [u[0] + v[0], u[1] + v[1]]
+    let [low, high] = [u[0] + v[0], u[1] + v[1]];
+    // What is not a number bounds nothing.
+    if low <= high { [low, high] } else { EVERYTHING }
+}
+
+/// Product of two intervals; zero times an infinite bound is zero.
+pub fn product(u: Interval, v: Interval) -> Interval {
+    let of = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+    hull(&[of(u[0], v[0]), of(u[0], v[1]), of(u[1], v[0]), of(u[1], v[1])])
+}
+
+/// Square of an interval.
+pub fn square(u: Interval) -> Interval {
+    let [low, high] = u.map(|value| value * value);
+    if u[0] < 0.0 && u[1] > 0.0 { [0.0, low.max(high)] } else { hull(&[low, high]) }
+}
+
+/// Reciprocal of an interval; every number if it contains zero.
+pub fn inverse(u: Interval) -> Interval {
+    if u[0] > 0.0 || u[1] < 0.0 { [1.0 / u[1], 1.0 / u[0]] } else { EVERYTHING }
 }
 
 /// Product of a number and an interval; zero times an infinite bound is zero.

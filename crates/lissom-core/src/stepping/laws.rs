@@ -179,10 +179,9 @@ impl<'l> Course<'l> {
         Some(bend(enclosure.second, to - from))
     }
 
-    /// Whether values within an interval may differ from those at its ends and between them by more than [`NARROW`] of the
-    /// `magnitude`.
-    fn may_hide(&self, within: Interval, magnitude: f64) -> bool {
-        let is_wide = |width: f64| width > NARROW * magnitude;
+    /// Whether values within an interval may differ from those at its ends and between them by more than `least`.
+    fn may_hide(&self, within: Interval, least: f64) -> bool {
+        let is_wide = |width: f64| width > least;
         self.width(within).is_some_and(is_wide) && self.bend(within).is_none_or(is_wide)
     }
 
@@ -199,7 +198,7 @@ impl<'l> Course<'l> {
         let may_be = |within: Interval| {
             let [from, to] = within.map(|share| share.clamp(whole[0] + inside, whole[1] - inside));
             self.bounds([from, to]).is_some_and(|bounds| bounds.into_iter().any(is_beyond))
-                && self.may_hide(within, magnitude)
+                && self.may_hide(within, NARROW * magnitude)
         };
         search(whole, is_found, may_be)
     }
@@ -212,7 +211,9 @@ impl<'l> Course<'l> {
         }
         let expected = self.interpolated(whole);
         let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
-        let may_be = |within: Interval| self.may_hide(within, magnitude);
+        // A law with kinks may act between two samples only, in a contact for example.
+        let least = if self.law.is_smooth() { NARROW } else { part } * magnitude;
+        let may_be = |within: Interval| self.may_hide(within, least);
         if search(whole, is_found, may_be) {
             self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump)
         } else {

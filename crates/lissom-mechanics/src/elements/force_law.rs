@@ -123,6 +123,12 @@ impl ForceLaw {
         !(has_kinks || self.elastic.is_some() || self.damper.is_some())
     }
 
+    /// Whether the force depends on the rate.
+    pub(crate) fn depends_on_rate(&self) -> bool {
+        let is_damped = |law: &Force| law.depends_on_second();
+        self.damping != 0.0 || self.damper.is_some() || self.elastic.as_ref().is_some_and(is_damped)
+    }
+
     /// Elongation past the free play.
     fn past(&self, elongation: f64) -> f64 {
         let past = elongation - elongation.clamp(-self.play, self.play);

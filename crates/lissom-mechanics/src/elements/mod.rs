@@ -22,6 +22,7 @@ pub(crate) mod joint_load;
 pub mod kind;
 mod kinds;
 pub mod latch;
+mod law_of_distance;
 pub mod moment;
 pub(crate) mod point_spring;
 pub mod quadrature;

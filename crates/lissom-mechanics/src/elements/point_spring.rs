@@ -11,6 +11,7 @@ use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
+use super::law_of_distance::{self, LawOfDistance};
 use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
@@ -272,8 +273,9 @@ impl Element for PointSpring {
 
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
         if !self.law.is_linear() {
-            let (_, length, rate, _) = self.tension(at, &self.points(at));
-            visit(&self.law, &[length - self.length, rate]);
+            let [a, b] = self.points(at);
+            let law = LawOfDistance { law: &self.law, length: self.length };
+            visit(&law, &law_of_distance::arguments(&(b.position - a.position), &(b.velocity - a.velocity)));
         }
     }
 

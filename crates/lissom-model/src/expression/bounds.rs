@@ -3,7 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lissom_core::law::{EVERYTHING, Interval, hull};
+use lissom_core::law::{EVERYTHING, Interval, hull, inverse, product, square, sum};
 
 use super::Function;
 use super::number::Number;
@@ -16,7 +16,7 @@ impl Number for Interval {
     }
 
     fn plus(self, other: Self) -> Self {
-        valid([self[0] + other[0], self[1] + other[1]])
+        sum(self, other)
     }
 
     fn minus(self, other: Self) -> Self {
@@ -36,8 +36,7 @@ impl Number for Interval {
     }
 
     fn square(self) -> Self {
-        let [low, high] = self.map(|value| value * value);
-        if self[0] < 0.0 && self[1] > 0.0 { [0.0, low.max(high)] } else { hull(&[low, high]) }
+        square(self)
     }
 
     fn of(self, function: Function) -> Self {
@@ -60,16 +59,6 @@ impl Number for Interval {
 /// What is not a number bounds nothing.
 fn valid(bounds: Interval) -> Interval {
     if bounds[0] <= bounds[1] { bounds } else { EVERYTHING }
-}
-
-fn product(u: Interval, v: Interval) -> Interval {
-    // Nothing times what has no bound is nothing.
-    let of = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
-    hull(&[of(u[0], v[0]), of(u[0], v[1]), of(u[1], v[0]), of(u[1], v[1])])
-}
-
-fn inverse(u: Interval) -> Interval {
-    if u[0] > 0.0 || u[1] < 0.0 { [1.0 / u[1], 1.0 / u[0]] } else { EVERYTHING }
 }
 
 fn power(base: Interval, exponent: Interval) -> Interval {

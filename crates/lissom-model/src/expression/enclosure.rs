@@ -10,15 +10,6 @@ fn unknown(value: Interval) -> Enclosure {
     Enclosure { value, first: EVERYTHING, second: EVERYTHING }
 }
 
-/// The chain rule, given bounds of f, f' and f''.
-fn through(u: Enclosure, [f, f1, f2]: [Interval; 3]) -> Enclosure {
-    Enclosure {
-        value: f,
-        first: f1.times(u.first),
-        second: f2.times(u.first.square()).plus(f1.times(u.second)),
-    }
-}
-
 /// Whether a function of one number has a kink or a jump within an interval.
 fn switches(function: Function, u: Interval) -> bool {
     let level = |shift: f64| u.map(|value| (value + shift).floor());
@@ -55,39 +46,18 @@ impl Number for Enclosure {
     }
 
     fn times(self, other: Self) -> Self {
-        let value = self.value.times(other.value);
-        match [self.is_constant(), other.is_constant()] {
-            [true, true] => Self::of_constant(value),
-            [true, _] => {
-                Self { value, first: self.value.times(other.first), second: self.value.times(other.second) }
-            }
-            [_, true] => {
-                Self { value, first: other.value.times(self.first), second: other.value.times(self.second) }
-            }
-            _ => {
-                let both = self.first.times(other.first);
-                Self {
-                    value,
-                    first: self.first.times(other.value).plus(self.value.times(other.first)),
-                    second: self
-                        .second
-                        .times(other.value)
-                        .plus(both.plus(both))
-                        .plus(self.value.times(other.second)),
-                }
-            }
-        }
+        Self::times(&self, &other)
     }
 
     fn over(self, other: Self) -> Self {
         let inverse = Interval::constant(1.0).over(other.value);
         if other.is_constant() {
-            return self.times(Self::of_constant(inverse));
+            return Self::times(&self, &Self::of_constant(inverse));
         }
         let square = inverse.square();
         let cube = square.times(inverse);
         let value = self.value.over(other.value);
-        Self { value, ..self.times(through(other, [inverse, square.scaled(-1.0), cube.scaled(2.0)])) }
+        Self { value, ..Self::times(&self, &other.through([inverse, square.scaled(-1.0), cube.scaled(2.0)])) }
     }
 
     fn to_the(self, exponent: Self) -> Self {
@@ -98,9 +68,9 @@ impl Number for Enclosure {
         let [n, other] = exponent.value;
         if exponent.is_constant() && n == other {
             let power = |by: f64| self.value.to_the([n - by; 2]);
-            return through(self, [value, power(1.0).scaled(n), power(2.0).scaled(n * (n - 1.0))]);
+            return self.through([value, power(1.0).scaled(n), power(2.0).scaled(n * (n - 1.0))]);
         }
-        Self { value, ..exponent.times(self.of(Function::Ln)).of(Function::Exp) }
+        Self { value, ..Self::times(&exponent, &self.of(Function::Ln)).of(Function::Exp) }
     }
 
     fn of(self, function: Function) -> Self {
@@ -111,7 +81,7 @@ impl Number for Enclosure {
         if switches(function, self.value) {
             return unknown(value);
         }
-        through(self, function.derivatives(self.value))
+        self.through(function.derivatives(self.value))
     }
 
     fn of_two(self, function: Function, other: Self) -> Self {

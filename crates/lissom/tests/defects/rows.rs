@@ -144,6 +144,26 @@ fn bump_stop_table_chosen_steps() {
     }
 }
 
+/// Points that are as far apart at the ends of a long step as if they had never met.
+#[test]
+fn contacts_of_points_within_long_steps() {
+    for tolerance in ["1e-5", "1e-8"] {
+        let tolerance = format!("analysis.relative_tolerance={tolerance}");
+        for end in ["10", "50", "200"] {
+            let end = format!("analysis.end={end}");
+            let results =
+                Results::clean("pass-through-each-other.toml", &["--set", &end, "--set", &tolerance]);
+            results.assert_last("a", &["v1", "v2", "v3"], &[-1.0, 0.0, 0.0], 1e-3);
+        }
+        let results = Results::clean("contact-flown-past-100s.toml", &["--set", &tolerance]);
+        results.assert_last("b", &["v1", "v2", "v3"], &[-0.365_737, 0.930_718, 0.0], 1e-3);
+        let results = Results::clean("narrow-law-of-elongation-60s.toml", &["--set", &tolerance]);
+        results.assert_last("b", &["v1", "v2", "v3"], &[0.996_852, -0.079_284, 0.0], 1e-3);
+        let results = Results::clean("rotating-pin-misses-spring.toml", &["--set", &tolerance]);
+        near(&tolerance, results.last("h.rate"), 15.555_49, 0.01);
+    }
+}
+
 #[test]
 fn bounce_damped() {
     // The spring and damper pull until the elongation is zero again: energies per mass before and after a contact.
