@@ -102,7 +102,7 @@ fn run(model: &Model, scheme: &str, tolerance: f64, end: Option<f64>) -> Result<
     while simulation.state().kinematics.time < end {
         simulation.step_watched(end, &mut Unwatched).map_err(|error| error.to_string())?;
     }
-    let busy = processor_time().zip(before).map_or(0.0, |(now, then)| (now - then).as_secs_f64());
+    let busy = processor_time().zip(before).map_or(0.0, |(now, then)| now.saturating_sub(then).as_secs_f64());
     let totals = simulation.totals();
     Ok(Ran {
         steps: totals.steps,

@@ -266,7 +266,9 @@ fn a_four_bar_is_differentiated_over_time() {
         agrees_closely(&model, "drive.moment", drive, &mass, &set, 2e-7);
         // The moment hardly depends on these: a millionth of it is round-off of the runs.
         let little = [("parameters.EI", 70.656, 1e-2), ("parameters.reach", 0.24, 1e-3)];
-        agrees_closely(&model, "drive.moment", drive, &little, &set, 1e-5);
+        // With three stages, recovery differences forces over half the time of that with two.
+        let tolerance = if scheme == "radau-iia-5" { 2e-5 } else { 1e-5 };
+        agrees_closely(&model, "drive.moment", drive, &little, &set, tolerance);
     }
 }
 

@@ -4,7 +4,7 @@
 //! of Radau IIA with two stages are of first order only [Hairer and Wanner 1996, VII.4]. Forces of stiff elements have the
 //! same error, for a constraint is the limit of a stiff spring. Both follow from the positions:
 //!
-//! Legend: τ = h/2 with the step h, S saddle-point matrix of M + τ D + τ² K and the constraints G, f forces, a
+//! Legend: τ = h/2 with the step h, or less with more than two stages, S saddle-point matrix of M + τ D + τ² K and the constraints G, f forces, a
 //! accelerations of the scheme, c second derivative of the forces along the motion with constant twists.
 //!
 //! ```text
@@ -71,6 +71,7 @@ impl Recovery {
         if step <= 0.0 {
             return None;
         }
+        // More stages resolve faster motion.
         let time = 0.5 * step / self.stages.saturating_sub(1).max(1) as f64;
         let mut rates = state.clone();
         hold_sides(system, &mut rates.kinematics);

@@ -121,7 +121,7 @@ impl Adaptive {
                 let (error, acceleration) = integrator.error_of_forces(review.problem, end);
                 self.reached.acceleration = acceleration;
                 let largest = self.farthest.or(self.reached).acceleration;
-                let forces = error / (largest * tolerance).max(f64::MIN_POSITIVE);
+                let forces = error / (largest * share * tolerance).max(f64::MIN_POSITIVE);
                 excess = larger(excess, root(forces, order));
             }
         }

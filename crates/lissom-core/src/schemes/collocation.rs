@@ -30,6 +30,7 @@ const ALLOWED: f64 = 0.5;
 const MARGIN: f64 = 0.6;
 
 /// A stiffly accurate scheme with stages at these abscissae, the last of them 1, from A⁻¹.
+#[expect(clippy::cast_possible_wrap, reason = "stages are few")]
 pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rate: [[f64; S]; S]) -> Scheme {
     let matrix = SMatrix::<f64, S, S>::from_fn(|i, j| rate[i][j]);
     let curvature = matrix * matrix;
@@ -88,6 +89,7 @@ fn error_constants(stages: usize) -> [f64; 2] {
 /// ```text
 /// f₁ (q''_0 - Σ_j w_j'(0) (A⁻¹ D)_j) ≈ f₁ Π c_i/(S + 1)! q^(S+2),      f₂ Σ_j w_j'(0) D_j ≈ f₂ Π c_i/(S + 1)! q^(S+1),      C φ^(2 S) = 1/2
 /// ```
+#[expect(clippy::cast_possible_wrap, reason = "stages are few")]
 fn estimates(abscissae: &[f64], stages: &[Stage], dense: &DensePolynomial) -> [ErrorEstimate; 2] {
     let count = abscissae.len();
     let product: f64 = abscissae.iter().product();

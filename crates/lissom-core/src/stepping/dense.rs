@@ -52,6 +52,7 @@ impl DenseOutput<'_> {
     }
 
     /// Order of the defect of the equations in the step size.
+    #[expect(clippy::cast_possible_wrap, reason = "stages are few")]
     pub(crate) fn order(&self) -> i32 {
         self.stages.as_ref().map_or(CUBIC, |stages| stages.table.len() as i32 + 1)
     }

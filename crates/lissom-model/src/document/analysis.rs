@@ -98,11 +98,11 @@ const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-5;
 /// Default tolerance of Newton's iterations. With adaptive steps it is a fraction of their tolerance: with a tenth of that, steps
 /// of 1e-3 have eight times the error; with a ten-thousandth, iterations increase by a quarter.
 const DEFAULT_TOLERANCE: f64 = 1e-8;
-const NEWTON_PART: f64 = 5e-3;
+const NEWTON_PART: f64 = 1e-2;
 /// Word of `control` by which tolerances apply to forces, too.
 const FORCES: &str = "forces";
 /// Scheme where steps are chosen and none is named.
-const CONTROLLED_SCHEME: &str = "radau-iia-5";
+const CONTROLLED_SCHEME: &str = "radau-iia";
 /// Part of the whole duration that the longest step and the first step are where they are not given.
 const LONGEST_PART: f64 = 0.05;
 const FIRST_PART: f64 = 1e-4;

@@ -33,7 +33,7 @@ class Dynamics(Analysis):
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: number of steps between records, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
-        scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"energy-decaying"`, or nothing.
+        scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, or nothing.
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
         relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`; a number from 0.0000 to 0.1, or nothing.
@@ -58,7 +58,7 @@ class Dynamics(Analysis):
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
-    scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] | None = None
+    scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "radau-iia-9", "radau-iia-13", "energy-decaying"] | None = None
     end: Number
     step: Number | None = None
     relative_tolerance: Number | None = None

@@ -76,12 +76,14 @@ words! {
 }
 
 words! {
-    /// One of `generalized-alpha`, `hht`, `radau-iia`, `radau-iia-5`, `energy-decaying`.
+    /// One of `generalized-alpha`, `hht`, `radau-iia`, `radau-iia-5`, `radau-iia-9`, `radau-iia-13`, `energy-decaying`.
     Scheme;
     GeneralizedAlpha = "generalized-alpha";
     Hht = "hht";
     RadauIia = "radau-iia";
     RadauIia5 = "radau-iia-5";
+    RadauIia9 = "radau-iia-9";
+    RadauIia13 = "radau-iia-13";
     EnergyDecaying = "energy-decaying";
 }
 
