@@ -15,7 +15,7 @@ const SCHEMES: [&str; 6] =
 /// Tolerances that are tried.
 const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 /// Reference of costs: a model with default settings.
-const DEFAULT: (usize, usize) = (1, 2);
+const DEFAULT: (usize, usize) = (0, 2);
 /// Tolerances of the two runs that the others are compared with.
 const FINE: [f64; 2] = [1e-8, 1e-9];
 /// Where the fine runs differ by more than this fraction of the way, nothing is compared.
