@@ -44,3 +44,5 @@ pub const ITERATED_EIGENVALUE: f64 = 1e-9;
 pub const STEADY_MOTION: f64 = 1e-8;
 /// Derivatives with respect to model parameters, relative to the largest.
 pub const DERIVATIVE: f64 = 1e-7;
+/// Estimated errors of a step's vibrations below this fraction of the model's size: their displacements are small, and steps short.
+pub const VIBRATION: f64 = 1e-14;

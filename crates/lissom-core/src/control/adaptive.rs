@@ -18,6 +18,8 @@ use crate::integrator::error_estimate::{MIN_ERROR, MIN_REFERENCE, driven, excurs
 use crate::kinematics::CoordinateId;
 use crate::tuning::{Tuning, TuningParameter};
 
+/// Fraction of the tolerance that a step may err in accelerations: the errors of a vibration add up over its periods.
+const SHARE_OF_FORCES: f64 = 0.4;
 /// Largest growth of a step.
 const MAX_GROWTH: f64 = 2.5;
 /// Smallest ratio of the allowed sizes of two steps that is expected to continue.
@@ -121,7 +123,7 @@ impl Adaptive {
                 let (error, acceleration) = integrator.error_of_forces(review.problem, end);
                 self.reached.acceleration = acceleration;
                 let largest = self.farthest.or(self.reached).acceleration;
-                let forces = error / (largest * share * tolerance).max(f64::MIN_POSITIVE);
+                let forces = error / (largest * SHARE_OF_FORCES * tolerance).max(f64::MIN_POSITIVE);
                 excess = larger(excess, root(forces, order));
             }
         }

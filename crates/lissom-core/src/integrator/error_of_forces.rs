@@ -12,12 +12,10 @@
 //! error relative to its own amplitude, however small its displacements are.
 
 use super::Integrator;
-use super::error_estimate::{MIN_ERROR, inertial_part};
+use super::error_estimate::inertial_part;
 use crate::analysis::Problem;
 use crate::kinematics::Kinematics;
-
-/// Round-off of these errors, relative to that of positions: vibrations of which forces consist are small and their steps short.
-const ROUND_OFF: f64 = 0.03;
+use crate::round_off;
 
 impl Integrator {
     /// The largest scaled error of an acceleration at the end of the last attempt, whose error has been estimated, and the largest
@@ -47,6 +45,6 @@ impl Integrator {
             largest = largest.max((work.unit.curvature[row] * size).abs()).max((end * size).abs());
         }
         let share = coupling.inertial_share();
-        ((error - ROUND_OFF * MIN_ERROR).max(0.0) / (share * square), largest / square)
+        ((error - round_off::VIBRATION).max(0.0) / (share * square), largest / square)
     }
 }
