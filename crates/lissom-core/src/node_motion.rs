@@ -237,30 +237,34 @@ impl WithSimd for StageKinematics<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut increments = [[[0.0; WIDTH]; 6]; MAX_STAGES];
+        let [mut own, mut other] = [[[0.0; WIDTH]; 6]; 2];
         for (block, start) in self.blocks.iter().zip(self.starts) {
             let (parts, lanes) = parts::<S>(block.count);
-            for stage in 0..self.increments.len() {
-                block.gather(lanes, &self.increments[stage], &mut increments[stage]);
+            let [mut rate, mut curvature] = [start.rate, start.curvature];
+            for (stage, increments) in self.increments.iter().enumerate() {
+                let increment = if stage == self.stage { &mut own } else { &mut other };
+                block.gather(lanes, increments, increment);
+                for index in 0..parts {
+                    let part = Part { simd, index };
+                    for (sum, weights) in
+                        [(&mut rate, &self.table.rate), (&mut curvature, &self.table.curvature)]
+                    {
+                        let weight = Lanes::splat(simd, weights[stage]);
+                        part.store(part.screw(sum).plus_scaled(part.screw(increment), weight), sum);
+                    }
+                }
             }
             for index in 0..parts {
                 let part = Part { simd, index };
-                let mut rate = part.screw(&start.rate);
-                let mut curvature = part.screw(&start.curvature);
-                for stage in 0..self.increments.len() {
-                    let increment = part.screw(&increments[stage]);
-                    rate = rate.plus_scaled(increment, Lanes::splat(simd, self.table.rate[stage]));
-                    let weight = Lanes::splat(simd, self.table.curvature[stage]);
-                    curvature = curvature.plus_scaled(increment, weight);
-                }
-                let own = part.screw(&increments[self.stage]);
+                let own = part.screw(&own);
                 let start = Start {
                     frame: part.frame(&start.frame),
                     ahead: part.frame(&start.ahead),
                     straight: part.screw(&start.straight),
                     twist: part.screw(&start.twist),
                 };
-                let reached = stage_kinematics(self.table, &start, own, [rate, curvature]);
+                let reached =
+                    stage_kinematics(self.table, &start, own, [part.screw(&rate), part.screw(&curvature)]);
                 let first = index * S::F64_LANES;
                 let nodes = &block.nodes[first..block.count.min(first + S::F64_LANES)];
                 Places::new(&reached).scatter(nodes, self.at, self.changes);
