@@ -1,7 +1,7 @@
 //! Ends of steps and the selection of records: planned instants at equal distances, or adaptive steps up to the next
 //! mandatory instant. Independent of the system.
 
-use lissom_model::lower::Plan;
+use lissom_model::lower::{Plan, Records};
 use serde::{Deserialize, Serialize};
 
 /// A remainder this close to a whole step, relative to the step, is a whole step.
@@ -14,6 +14,15 @@ pub(crate) enum Next {
     Planned { size: f64, end: f64 },
     /// Of any size, not beyond this instant [s].
     Until(f64),
+}
+
+/// A record that is due.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Due {
+    /// Of this instant within the last step [s].
+    Within(f64),
+    /// Of its end.
+    End,
 }
 
 /// Progress of a run.
@@ -30,15 +39,32 @@ pub(crate) struct Schedule {
     taken: usize,
     /// Records at equal distances since the start.
     recorded: usize,
-    /// For adaptive steps: the time reached [s].
+    /// The time reached, for adaptive steps, and the start of the last step [s].
     time: f64,
+    from: f64,
+    /// Samples of the last step that were looked at, and the last record [s].
+    part: usize,
+    last: f64,
 }
 
 impl Schedule {
     /// At the start of `plan`, with planned steps of `step_size` [s].
     pub(crate) fn new(plan: Plan, step_size: f64) -> Self {
         let (base, steps) = (plan.start, plan.steps);
-        Self { plan, step_size, base, steps, reached: 0, taken: 0, recorded: 0, time: base }
+        let [time, from, last] = [base; 3];
+        Self {
+            plan,
+            step_size,
+            base,
+            steps,
+            reached: 0,
+            taken: 0,
+            recorded: 0,
+            time,
+            from,
+            part: usize::MAX,
+            last,
+        }
     }
 
     pub(crate) fn plan(&self) -> &Plan {
@@ -78,13 +104,18 @@ impl Schedule {
         }
     }
 
-    /// The next record at an equal distance, or the end [s].
-    fn next_record(&self) -> f64 {
-        let of = |step: f64| self.plan.start + (self.recorded + 1) as f64 * step;
-        self.plan.output_step.map_or(self.plan.end, |step| {
-            let next = of(step);
-            if next >= self.plan.end - WHOLE * step { self.plan.end } else { next }
-        })
+    /// Distance of records, if it is given [s].
+    fn distance(&self) -> Option<f64> {
+        match self.plan.records {
+            Records::Ends(step) | Records::Within(step) => Some(step),
+            Records::Every(_) | Records::Resolved { .. } => None,
+        }
+    }
+
+    /// The next record at a `distance` [s], or the end [s].
+    fn next_record(&self, distance: f64) -> f64 {
+        let next = self.plan.start + (self.recorded + 1) as f64 * distance;
+        if next >= self.plan.end - WHOLE * distance { self.plan.end } else { next }
     }
 
     /// Planned instants and records nearest to `time` [s], and the end [s].
@@ -92,14 +123,17 @@ impl Schedule {
         let nearest =
             move |(base, distance): (f64, f64)| base + ((time - base) / distance).round() * distance;
         let planned = (!self.plan.is_controlled).then_some((self.base, self.step_size));
-        let records = self.plan.output_step.map(|step| (self.plan.start, step));
+        let records = self.distance().map(|distance| (self.plan.start, distance));
         planned.into_iter().chain(records).map(nearest).chain([self.plan.end])
     }
 
     /// The next step.
     pub(crate) fn next(&self) -> Next {
         if self.plan.is_controlled {
-            return Next::Until(self.next_record());
+            return Next::Until(match self.plan.records {
+                Records::Ends(distance) => self.next_record(distance),
+                _ => self.plan.end,
+            });
         }
         let whole = if self.reached + 1 < self.steps {
             self.step_size
@@ -110,32 +144,56 @@ impl Schedule {
         Next::Planned { size: whole, end: self.planned(self.reached + 1) }
     }
 
-    /// Records a step that ends at `time` [s]. Whether its end is a record.
-    pub(crate) fn accept(&mut self, time: f64) -> bool {
+    /// Takes note of a step that ends at `time` [s]; [`due`](Self::due) then has its records.
+    pub(crate) fn accept(&mut self, time: f64) {
         self.taken += 1;
-        if self.plan.is_controlled {
-            let is_at_record = time >= self.next_record();
-            self.time = time;
-            self.recorded += usize::from(is_at_record);
-            return match self.plan.output_step {
-                Some(_) => is_at_record,
-                None => self.taken.is_multiple_of(self.plan.output_every),
-            };
-        }
         self.reached += 1;
-        self.taken.is_multiple_of(self.plan.output_every)
+        (self.from, self.time, self.part) = (self.time, time, 0);
+    }
+
+    /// The next record of the last step.
+    pub(crate) fn due(&mut self) -> Option<Due> {
+        match self.plan.records {
+            Records::Every(steps) => {
+                let is_new = std::mem::replace(&mut self.part, usize::MAX) == 0;
+                (is_new && self.taken.is_multiple_of(steps)).then_some(Due::End)
+            }
+            Records::Ends(distance) | Records::Within(distance) => {
+                let next = self.next_record(distance);
+                let same = WHOLE * distance;
+                if next > self.time + same || next <= self.last {
+                    return None;
+                }
+                self.recorded += 1;
+                self.last = next;
+                Some(if next < self.time - same { Due::Within(next) } else { Due::End })
+            }
+            Records::Resolved { per_step, least } => {
+                while self.part < per_step {
+                    self.part += 1;
+                    let is_end = self.part == per_step;
+                    let share = self.part as f64 / per_step as f64;
+                    let time = if is_end { self.time } else { self.from + share * (self.time - self.from) };
+                    if time - self.last >= least {
+                        self.last = time;
+                        return Some(if is_end { Due::End } else { Due::Within(time) });
+                    }
+                }
+                None
+            }
+        }
     }
 
     /// Records a step to `time` [s] outside the plan: planned steps continue from there.
     pub(crate) fn divert(&mut self, time: f64) {
         self.taken += 1;
-        self.time = time;
+        (self.from, self.time, self.part) = (time, time, usize::MAX);
         self.base = time;
         self.reached = 0;
         let rest = ((self.plan.end - time) / self.step_size - 1e-6).ceil();
         self.steps = if rest > 0.0 { rest as usize } else { 0 };
-        if let Some(step) = self.plan.output_step {
-            self.recorded = ((time - self.plan.start) / step + WHOLE).floor().max(0.0) as usize;
+        if let Some(distance) = self.distance() {
+            self.recorded = ((time - self.plan.start) / distance + WHOLE).floor().max(0.0) as usize;
         }
     }
 }
@@ -145,15 +203,7 @@ mod tests {
     use super::*;
 
     fn plan(end: f64, steps: usize) -> Plan {
-        Plan {
-            start: 0.5,
-            end,
-            steps,
-            output_every: 1,
-            is_static: false,
-            is_controlled: false,
-            output_step: None,
-        }
+        Plan { start: 0.5, end, steps, records: Records::Every(1), is_static: false, is_controlled: false }
     }
 
     fn size(schedule: &Schedule) -> f64 {
@@ -169,7 +219,9 @@ mod tests {
         let mut sum = 0.5;
         while !schedule.is_finished() {
             sum += size(&schedule);
-            assert!(schedule.accept(sum));
+            schedule.accept(sum);
+            assert_eq!(schedule.due(), Some(Due::End));
+            assert_eq!(schedule.due(), None);
             assert!((schedule.time() - sum).abs() < 1e-14);
         }
         assert_eq!(schedule.done(), (11, 11));
@@ -186,19 +238,35 @@ mod tests {
         assert_eq!(schedule.time(), 0.3);
     }
 
-    #[test]
-    fn chosen_steps_meet_every_record_and_the_end() {
-        let controlled = Plan { is_controlled: true, output_step: Some(0.25), ..plan(1.6, 1) };
+    /// What is recorded of steps of 0.1 s at most.
+    fn recorded(records: Records) -> Vec<Due> {
+        let controlled = Plan { is_controlled: true, records, ..plan(1.6, 1) };
         let mut schedule = Schedule::new(controlled, 0.1);
         let mut met = Vec::new();
         while !schedule.is_finished() {
             let Next::Until(limit) = schedule.next() else { panic!("steps are chosen") };
-            let time = (schedule.time() + 0.1).min(limit);
-            if schedule.accept(time) {
-                met.push(time);
-            }
+            schedule.accept((schedule.time() + 0.1).min(limit));
+            met.extend(std::iter::from_fn(|| schedule.due()));
         }
-        assert_eq!(met, [0.75, 1.0, 1.25, 1.5, 1.6]);
+        met
+    }
+
+    #[test]
+    fn chosen_steps_end_at_every_record_and_the_end() {
+        assert_eq!(recorded(Records::Ends(0.25)), [Due::End; 5]);
+    }
+
+    #[test]
+    fn records_at_a_distance_are_within_steps_and_at_the_end() {
+        let met = recorded(Records::Within(0.25));
+        assert_eq!(met, [Due::Within(0.75), Due::End, Due::Within(1.25), Due::End, Due::End]);
+    }
+
+    #[test]
+    fn steps_are_sampled_but_not_more_often_than_needed() {
+        assert_eq!(recorded(Records::Resolved { per_step: 3, least: 1e-3 }).len(), 33);
+        assert_eq!(recorded(Records::Resolved { per_step: 3, least: 0.06 }).len(), 16);
+        assert_eq!(recorded(Records::Resolved { per_step: 1, least: 0.15 }), [Due::End; 5]);
     }
 
     #[test]

@@ -82,7 +82,8 @@ fn a_wheel_that_is_thrown_slides_and_then_rolls() {
         for set in SCHEMES
             .map(|scheme| vec![("analysis.scheme", scheme)])
             .into_iter()
-            .chain([vec![("analysis.relative_tolerance", "1e-6")]])
+            // The force of the stiff contact is far below what errors of positions make of it.
+            .chain([vec![("analysis.relative_tolerance", "1e-6"), ("analysis.control", "\"forces\"")]])
         {
             let record = run(&text, &set);
             for (row, &time) in record.times.iter().enumerate() {

@@ -259,8 +259,8 @@ fn a_model_that_names_no_step_chooses_its_own() {
     let mut session = model.session(&[]).unwrap();
     let (free, report) = session.record();
     assert!(report.is_complete(), "{:?}", report.error());
-    assert_eq!(session.simulation().settings().scheme.name, "radau-iia");
-    assert_eq!(free.times.len(), report.totals.steps + 1, "every step is recorded");
+    assert_eq!(session.simulation().settings().scheme.name, "radau-iia-9");
+    assert!(free.times.len() > 5 * report.totals.steps, "every step is sampled");
     let sizes: Vec<f64> = free.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     assert!(sizes.iter().copied().fold(0.0, f64::max) > 3.0 * sizes[0], "{sizes:?}");
     assert_eq!(*free.times.last().unwrap(), 1.0);

@@ -200,6 +200,15 @@ pub struct Scheme {
     pub dynamic: bool,
 }
 
+impl Scheme {
+    /// At how many instants per step its motion is sampled so that straight lines between them show it: steps of more stages are
+    /// longer.
+    pub fn samples(&self) -> usize {
+        let stages = self.stages.len();
+        if self.dense.is_some() { (stages * (stages - 1) / 2).max(1) } else { 1 }
+    }
+}
+
 /// Parameters that a scheme accepts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SchemeParameters {

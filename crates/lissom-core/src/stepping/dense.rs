@@ -42,6 +42,12 @@ pub(crate) struct SolvedStages<'s> {
 }
 
 impl DenseOutput<'_> {
+    /// By the stages only if they are `known`.
+    pub(crate) fn known(mut self, known: bool) -> Self {
+        self.stages = self.stages.filter(|_| known);
+        self
+    }
+
     /// The step fraction farthest from instants at which the equations are satisfied.
     pub(crate) fn least_determined(&self) -> f64 {
         let Some(stages) = &self.stages else { return 0.5 };

@@ -102,9 +102,8 @@ impl Simulation {
 
     /// The state at `time` [s] within the last step, to the order of the scheme; `out` must be a state of this system.
     pub fn interpolate(&self, time: f64, out: &mut State) {
-        let mut step = self.integrator.dense(self.problem(), (&self.previous, &self.state));
-        step.stages = step.stages.filter(|_| self.is_last_step_known);
-        step.interpolate(time, out);
+        let step = self.integrator.dense(self.problem(), (&self.previous, &self.state));
+        step.known(self.is_last_step_known).interpolate(time, out);
     }
 
     /// The sequence of a step: a planned one is solved to its end, through all stops within it; an adaptive one ends with the

@@ -94,15 +94,19 @@ pub struct StepChoice {
 }
 
 /// Tolerance of the local error if a model specifies neither step nor tolerance.
-const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-5;
-/// Default tolerance of Newton's iterations. With adaptive steps it is a fraction of their tolerance: with a tenth of that, steps
-/// of 1e-3 have eight times the error; with a ten-thousandth, iterations increase by a quarter.
+const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-6;
+/// Default tolerance of Newton's iterations. With adaptive steps it is a fraction of their tolerance: errors of the iterations add
+/// up over the steps, and with more than two stages, whose estimates compare positions of much smaller errors, steps become shorter
+/// by them.
 const DEFAULT_TOLERANCE: f64 = 1e-8;
-const NEWTON_PART: f64 = 1e-2;
+const NEWTON_PART: f64 = 1e-3;
 /// Word of `control` by which tolerances apply to forces, too.
 const FORCES: &str = "forces";
-/// Scheme where steps are chosen and none is named.
-const CONTROLLED_SCHEME: &str = "radau-iia";
+/// Scheme where steps are chosen and none is named, and that for tolerances above the limit: with large errors, the order of more
+/// stages does not pay for them.
+const CONTROLLED_SCHEME: &str = "radau-iia-9";
+const COARSE_SCHEME: &str = "radau-iia-5";
+const COARSE: f64 = 3e-5;
 /// Part of the whole duration that the longest step and the first step are where they are not given.
 const LONGEST_PART: f64 = 0.05;
 const FIRST_PART: f64 = 1e-4;
@@ -205,12 +209,12 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         "none" => Scaling::None,
         _ => Scaling::Physical,
     });
-    let is_controlled = matches!(kind, Some(AnalysisKind::Dynamics { control: Some(_), .. }));
-    let scheme = match dynamics.then(|| chosen(&reader, "scheme", &registry.schemes)).flatten() {
-        Some(_) if is_controlled && !reader.has("scheme") => {
-            Some(Located::new(CONTROLLED_SCHEME.to_owned(), reader.name))
+    let scheme = match (dynamics.then(|| chosen(&reader, "scheme", &registry.schemes)).flatten(), &kind) {
+        (Some(_), Some(AnalysisKind::Dynamics { control: Some(control), .. })) if !reader.has("scheme") => {
+            let name = if control.relative_tolerance > COARSE { COARSE_SCHEME } else { CONTROLLED_SCHEME };
+            Some(Located::new(name.to_owned(), reader.name))
         }
-        chosen => chosen,
+        (chosen, _) => chosen,
     };
     let parameters =
         if dynamics { scheme_parameters(&reader, scheme.as_ref(), registry) } else { Parameters::new() };

@@ -84,7 +84,7 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
             "relative_tolerance",
             Shape::Between(1e-12, 0.1),
             "",
-            "tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`",
+            "tolerance of the local error of adaptive steps, relative to the motion; default 1e-6 without `step`",
         ),
         optional(
             "control",
@@ -97,7 +97,7 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
             "output_step",
             Shape::Positive,
             "s",
-            "interval between records of adaptive steps; default every step",
+            "interval between records of adaptive steps, interpolated within them; by default steps are sampled, up to 5000 times in all",
         ),
     ]);
     dynamics.push(optional(

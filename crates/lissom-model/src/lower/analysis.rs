@@ -19,14 +19,44 @@ pub struct Plan {
     pub end: f64,
     /// Number of steps; the last may be shorter.
     pub steps: usize,
-    /// Steps from one record to the next.
-    pub output_every: usize,
+    /// Which instants are recorded.
+    pub records: Records,
     /// Whether it is a load history without inertia.
     pub is_static: bool,
     /// Whether steps are chosen by their error: then `steps` has no meaning.
     pub is_controlled: bool,
-    /// Time from record to record where steps are chosen; none where each is recorded [s].
-    pub output_step: Option<f64>,
+}
+
+/// Which instants are recorded, besides the start and the end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Records {
+    /// The ends of every so many steps.
+    Every(usize),
+    /// Instants at this distance [s], at which steps end.
+    Ends(f64),
+    /// Instants at this distance [s], wherever steps end.
+    Within(f64),
+    /// So many instants at equal distances in each step, but none closer to the last one than `least` [s].
+    Resolved {
+        /// Per step; the last of them is its end.
+        per_step: usize,
+        /// Shortest time from one to the next [s].
+        least: f64,
+    },
+}
+
+/// Most records of a run if nothing is said about them.
+const MOST_RECORDS: f64 = 5000.0;
+
+impl Records {
+    /// Of steps that are chosen by their error. `output_step` [s] is the distance that is asked for, if any.
+    fn of_chosen_steps(scheme: &Scheme, output_step: Option<f64>, duration: f64) -> Self {
+        match output_step {
+            Some(step) if scheme.dense.is_some() => Self::Within(step),
+            Some(step) => Self::Ends(step),
+            None => Self::Resolved { per_step: scheme.samples(), least: duration / MOST_RECORDS },
+        }
+    }
 }
 
 /// First and longest load step of chosen size, as parts of the whole range.
@@ -92,14 +122,20 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         from_equilibrium,
         energy_check: analysis.energy_check,
     };
+    let is_static = !matches!(analysis.kind, AnalysisKind::Dynamics { .. });
+    let records = match choice {
+        Some(choice) if !is_static && analysis.output_every <= 1 => {
+            Records::of_chosen_steps(&settings.scheme, choice.output_step, duration)
+        }
+        _ => Records::Every(analysis.output_every.max(1)),
+    };
     let plan = Plan {
         start: analysis.start,
         end: analysis.end,
         steps,
-        output_every: analysis.output_every.max(1),
-        is_static: !matches!(analysis.kind, AnalysisKind::Dynamics { .. }),
+        records,
+        is_static,
         is_controlled: choice.is_some(),
-        output_step: choice.and_then(|choice| choice.output_step),
     };
     Ok((settings, plan))
 }

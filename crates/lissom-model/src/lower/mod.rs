@@ -40,7 +40,7 @@ use crate::output_channels;
 use crate::outputs::Resolver;
 use crate::report::{Located, Problem, Report};
 
-pub use analysis::Plan;
+pub use analysis::{Plan, Records};
 pub use assembly::{Assembly, Brought, MovedPart};
 pub use resource_limits::check_run;
 

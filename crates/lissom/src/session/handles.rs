@@ -95,6 +95,7 @@ impl Session {
             simulation,
             columns: self.columns.clone(),
             signals: self.signals.clone(),
+            between: self.between.clone(),
             schedule: self.schedule.clone(),
             tally: self.tally.clone(),
             timings: Timings::new(),

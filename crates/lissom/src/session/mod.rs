@@ -18,6 +18,7 @@ use lissom_core::instants;
 use lissom_core::judge::Warning;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
+use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::lower::{Lowered, Plan};
 use lissom_model::output::{Column, Record, Writer};
@@ -27,7 +28,7 @@ use lissom_model::{Document, Report, component_position};
 use crate::builder::IdNames;
 use crate::prepared::Prepared;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
-use crate::schedule::{Next, Schedule};
+use crate::schedule::{Due, Next, Schedule};
 use crate::state_writer::StateWriter;
 use crate::telemetry::Telemetry;
 use crate::timings::Timings;
@@ -79,6 +80,8 @@ pub struct Session {
     timings: Timings,
     scale: f64,
     telemetry: Telemetry,
+    /// Room for a state within a step.
+    between: Box<State>,
     state_writers: Vec<Box<dyn StateWriter>>,
     /// Warnings of the model, before the run.
     warnings: Vec<Warning>,
@@ -140,6 +143,7 @@ impl Session {
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             telemetry: Telemetry::default(),
+            between: Box::new(simulation.state().clone()),
             state_writers: Vec::new(),
             simulation,
             signals: names.signals,
@@ -272,7 +276,9 @@ impl Session {
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
         let outcome = self.step();
         self.timings.pause();
-        outcome.map(|(report, _)| report)
+        // Nothing is recorded.
+        while self.schedule.due().is_some() {}
+        outcome
     }
 
     /// Continues to `time` [s], which is reached exactly; with a constant step size the last step is shorter. Does
@@ -369,16 +375,17 @@ impl Session {
         nearest.filter(|instant| (instant - time).abs() <= allowed && *instant > now).unwrap_or(time)
     }
 
-    /// Takes the next step of a sequence; whether its end is a record.
-    fn step(&mut self) -> Result<(StepReport, bool), StepError> {
+    /// Takes the next step of a sequence.
+    fn step(&mut self) -> Result<StepReport, StepError> {
         let report = self.take(self.schedule.next())?;
         let time = self.simulation.state().kinematics.time;
         if self.stopped_by().is_some() && !self.schedule.plan().is_controlled {
             // The step ends where the event happened.
             self.schedule.divert(time);
-            return Ok((report, false));
+        } else {
+            self.schedule.accept(time);
         }
-        Ok((report, self.schedule.accept(time)))
+        Ok(report)
     }
 
     fn take(&mut self, next: Next) -> Result<StepReport, StepError> {
@@ -472,7 +479,7 @@ impl Session {
             for writer in writers.iter_mut() {
                 writer.begin(&self.columns)?;
             }
-            self.write_row(writers)?;
+            self.write_row(writers, Due::End)?;
             let simulation = &self.simulation;
             self.state_writers.iter_mut().try_for_each(|writer| writer.begin(simulation))?;
         }
@@ -480,38 +487,39 @@ impl Session {
         self.keep(writers, checkpoints)?;
         while !self.is_finished() {
             let before = self.schedule.time();
-            recorded = match self.step() {
-                Ok((report, is_recorded)) => {
+            match self.step() {
+                Ok(report) => {
                     // Only the last part of a step can be interpolated, and load steps are not a motion in time.
                     let is_known = report.parts <= 1 && !self.schedule.plan().is_static;
                     self.write_states(is_known.then_some(before))?;
-                    is_recorded
                 }
                 Err(error) => {
                     if !recorded {
-                        self.write_row(writers)?;
+                        self.write_row(writers, Due::End)?;
                     }
                     if matches!(error, StepError::Interrupted { .. }) {
                         return Ok(ControlFlow::Break(()));
                     }
                     return Err(error.into());
                 }
-            };
-            if recorded {
-                self.write_row(writers)?;
+            }
+            recorded = false;
+            while let Some(due) = self.schedule.due() {
+                recorded = due == Due::End;
+                self.write_row(writers, due)?;
             }
             if checkpoints.is_due(self.simulation.totals().steps) {
                 self.keep(writers, checkpoints)?;
             }
             if watch(&self.progress()).is_break() && !self.is_finished() {
                 if !recorded {
-                    self.write_row(writers)?;
+                    self.write_row(writers, Due::End)?;
                 }
                 return Ok(ControlFlow::Break(()));
             }
         }
         if !recorded {
-            self.write_row(writers)?;
+            self.write_row(writers, Due::End)?;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -543,13 +551,24 @@ impl Session {
         written
     }
 
-    fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {
+    /// Writes a row of the present state, or of an instant within the last step.
+    fn write_row(&mut self, writers: &mut [&mut dyn Writer], due: Due) -> io::Result<()> {
         self.timings.pause();
         let began = Instant::now();
         let mut values = std::mem::take(&mut self.tally.values);
         values.clear();
-        self.values(&mut values);
-        let time = self.schedule.time();
+        let time = match due {
+            Due::End => {
+                self.values(&mut values);
+                self.take_stock();
+                self.schedule.time()
+            }
+            Due::Within(time) => {
+                self.simulation.state_within(time, &mut self.between);
+                self.observed.values(&self.between, self.simulation.last_step(), &mut values);
+                time
+            }
+        };
         if self.tally.histories.len() != values.len() {
             let of = |column: &Column| Accumulator::with_fatigue(column.fatigue);
             self.tally.histories = self.columns.iter().map(of).collect();
@@ -558,13 +577,13 @@ impl Session {
             history.add(time, *value);
         }
         self.tally.values = values;
-        self.take_stock();
+        self.tally.records += 1;
         let written = writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values));
         self.timings.output += began.elapsed();
         written
     }
 
-    /// Updates violations and energy at a recorded instant.
+    /// Updates violations and energy at the recorded end of a step.
     fn take_stock(&mut self) {
         let at = &self.simulation.state().kinematics;
         let tally = &mut self.tally;
@@ -577,6 +596,5 @@ impl Session {
         tally.energy.end = now;
         let change = (now.total() - tally.energy.start.total()).abs();
         tally.energy.largest = tally.energy.largest.max(change);
-        tally.records += 1;
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use lissom_model::component_position;
-use lissom_model::lower::{Lowered, Plan, lower};
+use lissom_model::lower::{Lowered, Plan, Records, lower};
 use lissom_model::output::Record;
 
 use super::StudyError;
@@ -68,7 +68,8 @@ pub(super) fn observe(
     lowered.channels.retain(|channel| channel.name == name);
     let start = lowered.plan.start;
     let end = start + steps as f64 * lowered.settings.step_size;
-    lowered.plan = Plan { start, end, steps, output_every: every, is_controlled: false, ..lowered.plan };
+    lowered.plan =
+        Plan { start, end, steps, records: Records::Every(every), is_controlled: false, ..lowered.plan };
     lowered.settings.control = None;
     let mut session = Session::start(lowered)?;
     let mut record = Record::default();

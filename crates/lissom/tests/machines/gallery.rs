@@ -45,7 +45,7 @@ fn booms_latch_and_the_angular_momentum_stays_zero() {
         close(last(&record, hinge, "rate"), 0.0, 1e-7, hinge);
     }
     let momentum = column(&record, "momentum", "l3");
-    assert!(momentum.iter().all(|l| l.abs() < 1e-7), "{momentum:?}");
+    assert!(momentum.iter().all(|l| l.abs() < 1e-6), "{momentum:?}");
     // The hub has turned against the booms.
     assert!(last(&record, "hub", "r3").abs() > 0.01);
 }
