@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lissom::Model;
 use lissom::core::analysis::Simulation;
+use lissom::{Model, Session};
 use lissom_model::lower::lower;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +15,27 @@ use crate::scenes;
 /// Scenes whose steps are counted, each with other kernels in front.
 const COUNTED: &[&str] =
     &["planar-pendulum", "chain-s-10", "chain-r-10", "soft-beam-8", "soft-beam-cubic-3", "andrews"];
+/// Scenes whose records are counted, one after every step, with the outputs that are added.
+const RECORDED: &[(&str, &str)] = &[
+    (
+        "chain-r-2",
+        "[outputs.velocity]\nkind = \"velocity\"\nof = \"b1\"\n[outputs.energy]\nkind = \"energy\"\n\
+         [outputs.reaction]\nkind = \"reaction\"\nof = \"j0\"\n",
+    ),
+    (
+        "chain-s-10",
+        "[outputs.velocity]\nkind = \"velocity\"\nof = \"b9\"\n[outputs.energy]\nkind = \"energy\"\n\
+         [outputs.reaction]\nkind = \"reaction\"\nof = \"j0\"\n",
+    ),
+    ("andrews", "[outputs.velocity]\nkind = \"velocity\"\nof = \"k7\"\n"),
+    (
+        "soft-beam-64",
+        "[outputs.velocity]\nkind = \"velocity\"\nof = \"rod.end\"\n[outputs.energy]\nkind = \"energy\"\n\
+         [outputs.reaction]\nkind = \"reaction\"\nof = \"root\"\n",
+    ),
+];
+/// Marks a count of records, after the name of the scene.
+const RECORDS: &str = "+records";
 /// Steps before the count begins, and steps counted.
 const STEPS: [usize; 2] = [20, 50];
 /// Counts may differ by this share.
@@ -68,8 +89,10 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
     }
     let compiler = version("rustc").unwrap_or_default();
     let mut instructions = BTreeMap::new();
-    for &name in COUNTED {
-        instructions.insert(name.to_owned(), instructions_of(name)?);
+    let recorded = RECORDED.iter().map(|(name, _)| format!("{name}{RECORDS}"));
+    for name in COUNTED.iter().map(|&name| name.to_owned()).chain(recorded) {
+        let counted = instructions_of(&name)?;
+        instructions.insert(name, counted);
     }
     let path = root.join("benches/instructions.toml");
     let fail =
@@ -77,8 +100,7 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
     let found = Kept { compiler, instructions };
     if update {
         let text = toml::to_string(&found).map_err(|error| fail(&error))?;
-        let heading =
-            "# Instructions of 50 steps of each scene; `cargo xtask count --update` writes this file.\n";
+        let heading = "# Instructions of 50 steps of each scene, or of a record after each; `cargo xtask count --update` writes this file.\n";
         std::fs::write(&path, format!("{heading}{text}")).map_err(|error| fail(&error))?;
         return Ok(true);
     }
@@ -121,7 +143,12 @@ fn instructions_of(name: &str) -> Result<u64, CountError> {
     let fail = |message: String| CountError::Program { program: "valgrind", message };
     let program = std::env::current_exe().map_err(|error| fail(error.to_string()))?;
     let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=*counted_steps*"])
+        .args([
+            "--tool=callgrind",
+            "--callgrind-out-file=/dev/null",
+            "--toggle-collect=*counted_steps*",
+            "--toggle-collect=*counted_record*",
+        ])
         .arg(program)
         .args(["steps", name])
         .output()
@@ -139,8 +166,11 @@ fn collected(output_text: &str) -> Option<u64> {
     line.rsplit(':').next()?.trim().parse().ok()
 }
 
-/// Runs the steps that are counted.
+/// Runs the steps or records that are counted.
 pub(crate) fn steps(name: &str) -> Result<(), CountError> {
+    if let Some(name) = name.strip_suffix(RECORDS) {
+        return records(name);
+    }
     let scene = scenes::scene(name).ok_or_else(|| CountError::Unknown(name.to_owned()))?;
     let model = Model::from_text(&scene.name, &scene.text);
     let failed = |report: lissom::Report| CountError::Failed(report.render(false));
@@ -152,6 +182,37 @@ pub(crate) fn steps(name: &str) -> Result<(), CountError> {
         simulation.step().map_err(|error| CountError::Failed(error.to_string()))?;
     }
     counted_steps(&mut simulation, counted)
+}
+
+/// Runs the steps after which records are counted.
+fn records(name: &str) -> Result<(), CountError> {
+    let unknown = || CountError::Unknown(name.to_owned());
+    let scene = scenes::scene(name).ok_or_else(unknown)?;
+    let (_, outputs) = RECORDED.iter().find(|(recorded, _)| *recorded == name).ok_or_else(unknown)?;
+    let model = Model::from_text(&scene.name, &format!("{}\n{outputs}", scene.text));
+    let document = model.document(&[]).map_err(|report| CountError::Failed(report.render(false)))?;
+    let mut session = Session::new(&document).map_err(|error| CountError::Failed(error.to_string()))?;
+    let mut values = Vec::new();
+    let [before, counted] = STEPS;
+    for step in 0..before + counted {
+        session.advance().map_err(|error| CountError::Failed(error.to_string()))?;
+        values.clear();
+        if step < before {
+            session.values(&mut values);
+        } else {
+            counted_record(&session, &mut values);
+        }
+        if !values.iter().all(|value| value.is_finite()) {
+            return Err(CountError::Failed(format!("{name}: a recorded value is not finite")));
+        }
+    }
+    Ok(())
+}
+
+/// Function counted by callgrind, by name.
+#[inline(never)]
+fn counted_record(session: &Session, values: &mut Vec<f64>) {
+    session.values(values);
 }
 
 /// Function counted by callgrind, by name.
@@ -190,6 +251,9 @@ mod tests {
     fn every_counted_scene_takes_its_steps() {
         for name in COUNTED {
             steps(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        }
+        for (name, _) in RECORDED {
+            records(name).unwrap_or_else(|error| panic!("{name}: {error}"));
         }
     }
 }

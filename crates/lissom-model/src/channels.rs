@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lissom_core::analysis::Need;
 use lissom_core::system::{State, System};
 
 use crate::document::{Feature, OutputKind};
@@ -38,9 +39,15 @@ impl Channel {
         self.kind.has(feature) || of_arguments
     }
 
-    /// Whether it reports velocities, accelerations or forces of constraints.
-    pub fn reports_rates(&self) -> bool {
-        self.has(Feature::Rates)
+    /// What has to be recovered from the positions before it is evaluated.
+    pub fn need(&self) -> Need {
+        if self.has(Feature::Accelerations) || self.reports_internal_forces() {
+            Need::Forces
+        } else if self.has(Feature::Velocities) {
+            Need::Velocities
+        } else {
+            Need::Positions
+        }
     }
 
     /// Whether it reports forces of springs or within beams.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::recovery::Recovery;
+use super::recovery::{Need, Recovery};
 use super::settings::Problem;
 use super::simulation::Simulation;
 use crate::elements::quadrature::gauss_legendre;
@@ -140,7 +140,8 @@ impl Accumulation {
             for (state, (xi, _)) in within.iter_mut().zip(points) {
                 step.interpolate(start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
                 let whole = step.to.kinematics.time - start.kinematics.time;
-                let recovered = rates.as_mut().and_then(|rates| rates.recover(system, state, whole));
+                let recovered =
+                    rates.as_mut().and_then(|rates| rates.recover(Need::Forces, (system, state), whole));
                 match recovered {
                     Some(recovered) => *state = recovered.rates,
                     None => has_consistent_rates = false,

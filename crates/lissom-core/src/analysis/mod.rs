@@ -39,7 +39,7 @@ pub use held_values::InputError;
 pub use initial_conditions::InitialError;
 pub use mobility::{Mobility, Redundant};
 pub use phase::{Phase, Stopwatch, Unwatched};
-pub use recovery::{Recovered, Recovery};
+pub use recovery::{Need, Recovered, Recovery};
 pub(crate) use settings::Problem;
 pub use settings::{Controlled, Settings, StepControl};
 pub use simulation::Simulation;

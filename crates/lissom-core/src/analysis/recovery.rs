@@ -41,12 +41,24 @@ pub struct Recovery {
     stages: usize,
 }
 
+/// What recorded quantities depend on, and what has to be recovered for them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Need {
+    /// Positions only: nothing is recovered.
+    #[default]
+    Positions,
+    /// Velocities.
+    Velocities,
+    /// Accelerations, multipliers or internal forces.
+    Forces,
+}
+
 /// What is recorded of an instant.
 pub struct Recovered {
-    /// The state with velocities that satisfy the constraints, and with accelerations and multipliers that follow from the
-    /// positions.
+    /// The state with velocities that satisfy the constraints and, if forces are needed, with accelerations and multipliers that
+    /// follow from the positions.
     pub rates: State,
-    /// The same with positions whose internal forces are in equilibrium with them.
+    /// The same with positions whose internal forces are in equilibrium with them, if forces are needed.
     pub forces: State,
 }
 
@@ -67,8 +79,13 @@ impl Recovery {
 
     /// What is recorded of a state to which a step of `step` [s] led. None at the start, and where nothing is found, as in a
     /// singular position.
-    pub fn recover(&mut self, system: &System, state: &State, step: f64) -> Option<Recovered> {
-        if step <= 0.0 {
+    pub fn recover(
+        &mut self,
+        need: Need,
+        (system, state): (&System, &State),
+        step: f64,
+    ) -> Option<Recovered> {
+        if step <= 0.0 || need == Need::Positions {
             return None;
         }
         // More stages resolve faster motion.
@@ -77,7 +94,12 @@ impl Recovery {
         hold_sides(system, &mut rates.kinematics);
         self.initial.factor(system, &rates, Inertias::Within(time)).ok()?;
         let mut forces = rates.clone();
-        self.recover_velocities(system, time, [&mut rates, &mut forces]);
+        let lacking = self.lacking_velocities(system, &rates);
+        self.recover_velocities(system, &lacking, &mut rates)?;
+        if need == Need::Velocities {
+            return Some(Recovered { rates, forces });
+        }
+        self.filter_velocities(system, time, &lacking, &mut forces);
         let shift = self.recover_accelerations(system, time, &mut forces)?;
         if !forces.multipliers.iter().chain(&shift).all(|value| value.is_finite()) {
             return None;
@@ -101,13 +123,12 @@ impl Recovery {
         Some(Recovered { rates, forces })
     }
 
-    /// Makes velocities satisfy the constraints: those to be recorded, and those without strain rates of stiff parts.
-    fn recover_velocities(&mut self, system: &System, time: f64, [rates, found]: [&mut State; 2]) {
+    /// What the rates of constraints lack, -(G v + ∂g/∂t), by row: of constraints between positions and between velocities.
+    fn lacking_velocities(&self, system: &System, state: &State) -> Vec<f64> {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let mut speeds = vec![0.0; layout.size()];
-        gather_rates(layout, &found.kinematics, &mut speeds);
-        // What constraints lack, of positions and of velocities.
+        gather_rates(layout, &state.kinematics, &mut speeds);
         let mut lacking = vec![0.0; layout.size()];
         self.initial.subtract_product(system, &speeds, &mut lacking);
         let slides: Vec<(usize, f64)> = layout.impulses().map(|(row, _)| (row, lacking[row])).collect();
@@ -116,17 +137,29 @@ impl Recovery {
             lacking[row] = slide;
         }
         let mut explicit = vec![0.0; layout.multiplier_count];
-        system.constraint_velocities(&found.kinematics, &mut explicit);
+        system.constraint_velocities(&state.kinematics, &mut explicit);
         lacking[count..].iter_mut().zip(&explicit).for_each(|(value, rate)| *value -= rate);
+        lacking
+    }
 
-        let mut held = lacking.clone();
-        self.initial.solve(system, &mut held);
-        add_rates(layout, &held, &mut rates.kinematics);
-        let mut stiff = lacking.clone();
+    /// Makes the velocities to be recorded satisfy the constraints; none where no finite ones are found.
+    fn recover_velocities(&mut self, system: &System, lacking: &[f64], rates: &mut State) -> Option<()> {
+        let mut change = lacking.to_vec();
+        self.initial.solve(system, &mut change);
+        add_rates(system.layout(), &change, &mut rates.kinematics);
+        change.iter().all(|value| value.is_finite()).then_some(())
+    }
+
+    /// Makes velocities satisfy the constraints, without strain rates of stiff parts.
+    fn filter_velocities(&mut self, system: &System, time: f64, lacking: &[f64], found: &mut State) {
+        let layout = system.layout();
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, &found.kinematics, &mut speeds);
+        let mut stiff = lacking.to_vec();
         self.initial.add_stiffness_product(system, -time * time, &speeds, &mut stiff);
         self.initial.solve(system, &mut stiff);
         for _ in 1..self.stages.max(2) {
-            let mut next = lacking.clone();
+            let mut next = lacking.to_vec();
             self.initial.add_stiffness_product(system, time * time, &stiff, &mut next);
             self.initial.solve(system, &mut next);
             stiff = next;

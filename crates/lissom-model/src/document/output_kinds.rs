@@ -39,8 +39,10 @@ pub(crate) enum Feature {
     Axes,
     /// It may be of a point that the node carries.
     Point,
-    /// It depends on velocities, accelerations or forces of constraints.
-    Rates,
+    /// It depends on velocities, but neither on accelerations nor on forces of constraints.
+    Velocities,
+    /// It depends on accelerations or forces of constraints.
+    Accelerations,
     /// It is a force within the model, which deformation determines.
     InternalForces,
     /// It depends on the whole motion since the start.

@@ -521,6 +521,8 @@ fn output_option(feature: Feature) -> Vec<Key> {
                 "position at the start of a point fixed to the node; default: the node",
             )]
         }
-        Feature::Rates | Feature::InternalForces | Feature::Accumulated => Vec::new(),
+        Feature::Velocities | Feature::Accelerations | Feature::InternalForces | Feature::Accumulated => {
+            Vec::new()
+        }
     }
 }

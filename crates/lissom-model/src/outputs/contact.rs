@@ -17,7 +17,7 @@ pub(crate) const CONTACT: Declaration = Declaration {
     word: "contact",
     summary: "Contact position of a wheel on a rail, with normal force, creep forces and creepages.",
     subject: Subject::Joint,
-    features: &[Feature::Rates],
+    features: &[Feature::Accelerations],
     components: &[
         ("wheel", "m"),
         ("rail", "m"),

@@ -13,7 +13,7 @@ pub(crate) const ENERGY: Declaration = Declaration {
     word: "energy",
     summary: "Kinetic, strain, gravity and total energy of the model.",
     subject: Subject::Model,
-    features: &[Feature::Rates],
+    features: &[Feature::Velocities],
     components: &[("kinetic", "J"), ("strain", "J"), ("potential", "J"), ("total", "J")],
     build: Build::System(WHOLE_MODEL, |_, _, _| Ok(Arc::new(Energy))),
 };

@@ -66,7 +66,7 @@ pub(crate) const VELOCITY: Declaration = Declaration {
     word: "velocity",
     summary: "Velocity of a node, or of a point fixed to it.",
     subject: Subject::Node,
-    features: &[Feature::Observer, Feature::Axes, Feature::Point, Feature::Rates],
+    features: &[Feature::Observer, Feature::Axes, Feature::Point, Feature::Velocities],
     components: &[("v1", "m/s"), ("v2", "m/s"), ("v3", "m/s")],
     build: Build::Motion(|output, subjects| quantity(Of::Velocity, output, subjects)),
 };
@@ -75,7 +75,7 @@ pub(crate) const ANGULAR_VELOCITY: Declaration = Declaration {
     word: "angular_velocity",
     summary: "Angular velocity of a node.",
     subject: Subject::Node,
-    features: &[Feature::Observer, Feature::Axes, Feature::Rates],
+    features: &[Feature::Observer, Feature::Axes, Feature::Velocities],
     components: &[("w1", "rad/s"), ("w2", "rad/s"), ("w3", "rad/s")],
     build: Build::Motion(|output, subjects| quantity(Of::AngularVelocity, output, subjects)),
 };
@@ -84,7 +84,7 @@ pub(crate) const ACCELERATION: Declaration = Declaration {
     word: "acceleration",
     summary: "Acceleration of a node, or of a point fixed to it.",
     subject: Subject::Node,
-    features: &[Feature::Observer, Feature::Axes, Feature::Point, Feature::Rates],
+    features: &[Feature::Observer, Feature::Axes, Feature::Point, Feature::Accelerations],
     components: &[("a1", "m/s²"), ("a2", "m/s²"), ("a3", "m/s²")],
     build: Build::System(SOLUTION, |output, _, subjects| quantity(Of::Acceleration, output, subjects)),
 };

@@ -16,7 +16,7 @@ pub(crate) const MOMENTUM: Declaration = Declaration {
     word: "momentum",
     summary: "Momentum and angular momentum of the model about the origin, global axes.",
     subject: Subject::Model,
-    features: &[Feature::Axes, Feature::Rates],
+    features: &[Feature::Axes, Feature::Velocities],
     components: &[
         ("p1", "N s"),
         ("p2", "N s"),

@@ -20,7 +20,7 @@ pub(crate) const POWER: Declaration = Declaration {
     word: "power",
     summary: "Power that a spring, a load, a drive or the friction of a joint delivers to the rest of the model.",
     subject: Subject::Actor,
-    features: &[Feature::Rates],
+    features: &[Feature::Accelerations],
     components: &[("power", "W")],
     build: Build::Element(Of::Power, quantity),
 };

@@ -21,7 +21,7 @@ pub(crate) const REACTION: Declaration = Declaration {
     word: "reaction",
     summary: "Force and moment of a joint on its tip.",
     subject: Subject::Joint,
-    features: &[Feature::JointAxes, Feature::Fatigue, Feature::Rates],
+    features: &[Feature::JointAxes, Feature::Fatigue, Feature::Accelerations],
     components: &[("f1", "N"), ("f2", "N"), ("f3", "N"), ("m1", "N m"), ("m2", "N m"), ("m3", "N m")],
     build: Build::System(SOLUTION, quantity),
 };

@@ -17,7 +17,7 @@ pub(crate) const RELATIVE: Declaration = Declaration {
     word: "relative",
     summary: "Relative coordinates of a joint.",
     subject: Subject::Joint,
-    features: &[Feature::Rates],
+    features: &[Feature::Velocities],
     components: &[],
     build: Build::Motion(quantity),
 };

@@ -21,7 +21,7 @@ pub(crate) const RELATIVE_ACCELERATION: Declaration = Declaration {
     word: "relative_acceleration",
     summary: "Accelerations of a joint's relative coordinates.",
     subject: Subject::Joint,
-    features: &[Feature::Rates],
+    features: &[Feature::Accelerations],
     components: &[],
     build: Build::System(SOLUTION, quantity),
 };

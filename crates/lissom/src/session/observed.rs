@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lissom_core::analysis::{Recovered, Recovery, Simulation};
+use lissom_core::analysis::{Need, Recovered, Recovery, Simulation};
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 
@@ -10,15 +10,17 @@ use lissom_model::channels::Channel;
 pub(crate) struct Observed {
     system: Arc<System>,
     channels: Vec<Channel>,
+    /// The largest need of the channels.
+    need: Need,
     /// Of motions, if any output depends on more than positions.
     recovery: Option<Mutex<Recovery>>,
 }
 
 impl Observed {
     pub(super) fn new(simulation: &Simulation, channels: Vec<Channel>) -> Self {
-        let is_recovered = channels.iter().any(is_recovered);
-        let recovery = is_recovered.then(|| Recovery::of(simulation)).flatten().map(Mutex::new);
-        Self { system: simulation.shared_system(), channels, recovery }
+        let need = channels.iter().map(Channel::need).max().unwrap_or_default();
+        let recovery = (need > Need::Positions).then(|| Recovery::of(simulation)).flatten().map(Mutex::new);
+        Self { system: simulation.shared_system(), channels, need, recovery }
     }
 
     /// The outputs, as they are evaluated.
@@ -28,14 +30,14 @@ impl Observed {
 
     /// Appends the values of all channels in a state at the end of a step of `step` [s].
     pub(crate) fn values(&self, state: &State, step: f64, out: &mut Vec<f64>) {
-        let recovered = self.recovered(state, step);
+        let recovered = self.recovered(self.need, state, step);
         self.channels.iter().for_each(|channel| self.evaluate(channel, (state, recovered.as_ref()), out));
     }
 
     /// The values of one channel.
     pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64) -> Vec<f64> {
         let mut values = Vec::new();
-        let recovered = is_recovered(channel).then(|| self.recovered(state, step)).flatten();
+        let recovered = self.recovered(channel.need(), state, step);
         self.evaluate(channel, (state, recovered.as_ref()), &mut values);
         values
     }
@@ -48,7 +50,8 @@ impl Observed {
 
     /// Whether a column is recovered from the positions.
     pub(crate) fn recovers(&self, column: usize) -> bool {
-        self.recovery.is_some() && self.channel_of(column).is_some_and(|(channel, _)| is_recovered(channel))
+        self.recovery.is_some()
+            && self.channel_of(column).is_some_and(|(channel, _)| channel.need() > Need::Positions)
     }
 
     /// Channel and component of a column.
@@ -69,19 +72,14 @@ impl Observed {
     ) {
         let state = match recovered {
             Some(recovered) if channel.reports_internal_forces() => &recovered.forces,
-            Some(recovered) if channel.reports_rates() => &recovered.rates,
+            Some(recovered) if channel.need() > Need::Positions => &recovered.rates,
             _ => state,
         };
         channel.evaluate(&self.system, state, out);
     }
 
-    fn recovered(&self, state: &State, step: f64) -> Option<Recovered> {
-        let recovery = self.recovery.as_ref()?;
-        recovery.lock().unwrap_or_else(PoisonError::into_inner).recover(&self.system, state, step)
+    fn recovered(&self, need: Need, state: &State, step: f64) -> Option<Recovered> {
+        let recovery = self.recovery.as_ref().filter(|_| need > Need::Positions)?;
+        recovery.lock().unwrap_or_else(PoisonError::into_inner).recover(need, (&self.system, state), step)
     }
-}
-
-/// Whether it depends on more than positions.
-fn is_recovered(channel: &Channel) -> bool {
-    channel.reports_rates() || channel.reports_internal_forces()
 }
