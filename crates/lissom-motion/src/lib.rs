@@ -19,6 +19,7 @@
 mod algebra;
 mod coefficients;
 mod dual;
+mod jet;
 mod lanes;
 mod motion;
 mod operator;
@@ -39,6 +40,7 @@ pub use algebra::{
     translation_part,
 };
 pub use dual::DualMatrix;
+pub use jet::Jet;
 pub use lanes::{Block, Lanes, WIDTH};
 pub use motion::Motion;
 pub use pose::Pose;

@@ -155,8 +155,34 @@ impl System {
         self.linearize_constraints(point, chart, &mut scratch.joint, out);
     }
 
+    /// Whether there are elements that may be stiff.
+    pub fn has_stiff_elements(&self) -> bool {
+        self.batches.iter().any(|batch| batch.may_be_stiff())
+    }
+
+    /// Adds the derivatives of those elements that may be stiff, or of the others, with respect to body variations.
+    pub fn linearize_elements(
+        &self,
+        stiff: bool,
+        at: &Kinematics,
+        scratch: &mut Scratch,
+        out: &mut TangentAssembler<'_>,
+    ) {
+        for batch in self.batches.iter().filter(|batch| batch.may_be_stiff() == stiff) {
+            batch.linearize((at, at), Chart::Body, &mut scratch.local, out);
+        }
+    }
+
+    /// Forces of those elements that may be stiff.
+    pub fn stiff_forces(&self, at: &Kinematics, out: &mut [f64]) {
+        out.fill(0.0);
+        for batch in self.batches.iter().filter(|batch| batch.may_be_stiff()) {
+            batch.forces(at, out);
+        }
+    }
+
     /// Adds the derivatives of constraints.
-    pub(crate) fn linearize_constraints(
+    pub fn linearize_constraints(
         &self,
         point: &Point<'_>,
         chart: Chart<'_>,

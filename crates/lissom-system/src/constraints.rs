@@ -8,10 +8,11 @@ use lissom_mechanics::evaluation::scratch::with_scratch;
 use lissom_mechanics::evaluation::tangent_assembler::TangentAssembler;
 use lissom_mechanics::joints::Drive;
 use lissom_mechanics::joints::attached::AttachedJoint;
-use lissom_mechanics::joints::constraint::{Constraint, Port, Visit, ports_of};
+use lissom_mechanics::joints::constraint::{Constraint, Port, Visit, ports_of, violation_rates};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
 use lissom_mechanics::joints::slider::Slider;
+use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 
 /// The constraints by family, because outputs depend on the type.
@@ -365,6 +366,34 @@ impl System {
     pub fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
         out.fill(0.0);
         self.each_equation(out, |constraint, own| constraint.time_derivative(at, own));
+    }
+
+    /// ċ and c̈ by multiplier, for the motion `at` at which the values `starts` of the joints are taken.
+    pub fn violation_rates(
+        &self,
+        at: &Kinematics,
+        starts: &JointStarts,
+        [rates, accelerations]: [&mut [f64]; 2],
+    ) {
+        for (batch, starts) in self.joint_batches.with_starts(Some(starts)) {
+            batch.violation_rates(at, starts.unwrap_or_default(), &mut |block, found| {
+                for (lane, item) in batch.block_items(block).enumerate() {
+                    let joint = &self.constraints.joints[batch.indices()[item] as usize];
+                    let own = joint.first_multiplier..joint.first_multiplier + joint.equations();
+                    let own = rates[own.clone()].iter_mut().zip(&mut accelerations[own]);
+                    for (k, (rate, acceleration)) in own.enumerate() {
+                        (*rate, *acceleration) = (found[0][k][lane], found[1][k][lane]);
+                    }
+                }
+            });
+        }
+        for constraint in self.constraints.others() {
+            let own = constraint.first_multiplier()..constraint.first_multiplier() + constraint.equations();
+            with_scratch(constraint.equations() * constraint.size(), |gradient| {
+                let out = [&mut rates[own.clone()], &mut accelerations[own]];
+                violation_rates(constraint, at, gradient, out);
+            });
+        }
     }
 
     fn each_equation(&self, out: &mut [f64], of: impl Fn(&dyn Constraint, &mut [f64])) {

@@ -5,7 +5,7 @@ use lissom_motion::Vector3;
 use lissom_mechanics::kinematics::Kinematics;
 
 /// The state between two steps.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct State {
     /// Positions, velocities and accelerations.
     pub kinematics: Kinematics,
@@ -22,4 +22,29 @@ pub struct State {
     pub position_remainders: Vec<Vector3>,
     /// Values that a simulation accumulates along the motion, see `analysis::accumulated`.
     pub accumulated: Vec<f64>,
+}
+
+impl Clone for State {
+    fn clone(&self) -> Self {
+        Self {
+            kinematics: self.kinematics.clone(),
+            multipliers: self.multipliers.clone(),
+            violations: self.violations.clone(),
+            algorithmic: self.algorithmic.clone(),
+            time_remainder: self.time_remainder,
+            position_remainders: self.position_remainders.clone(),
+            accumulated: self.accumulated.clone(),
+        }
+    }
+
+    /// Copies into the present allocations.
+    fn clone_from(&mut self, from: &Self) {
+        self.kinematics.clone_from(&from.kinematics);
+        self.multipliers.clone_from(&from.multipliers);
+        self.violations.clone_from(&from.violations);
+        self.algorithmic.clone_from(&from.algorithmic);
+        self.time_remainder = from.time_remainder;
+        self.position_remainders.clone_from(&from.position_remainders);
+        self.accumulated.clone_from(&from.accumulated);
+    }
 }

@@ -262,11 +262,12 @@ fn a_four_bar_is_differentiated_over_time() {
         let set = set(&[("analysis.end", "0.3"), ("analysis.scheme", scheme)]);
         let drive = ("drive", "moment");
         let mass = [("sections.stiff.mass.per_length", 1.9968, 1e-2)];
-        // Forces that are recovered are differenced over some thousandths of a number.
-        agrees_closely(&model, "drive.moment", drive, &mass, &set, 2e-7);
+        // Forces that are recovered are differenced over some thousandths of a number; with three stages, whose recovery differences
+        // forces over half the time, round-off is up to 3e-7.
+        let tolerance = if scheme == "radau-iia-5" { 6e-7 } else { 2e-7 };
+        agrees_closely(&model, "drive.moment", drive, &mass, &set, tolerance);
         // The moment hardly depends on these: a millionth of it is round-off of the runs.
         let little = [("parameters.EI", 70.656, 1e-2), ("parameters.reach", 0.24, 1e-3)];
-        // With three stages, recovery differences forces over half the time of that with two.
         let tolerance = if scheme == "radau-iia-5" { 2e-5 } else { 1e-5 };
         agrees_closely(&model, "drive.moment", drive, &little, &set, tolerance);
     }

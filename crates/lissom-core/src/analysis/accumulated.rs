@@ -88,7 +88,7 @@ pub(crate) struct Accumulation {
     /// Room for the Gauss points of a step, where there are any.
     within: Vec<State>,
     /// Makes velocities, accelerations and multipliers there consistent with the positions, if numbers depend on them.
-    rates: Option<Recovery>,
+    rates: Option<Box<Recovery>>,
     /// Room for the values after a step.
     after: Vec<f64>,
 }
@@ -143,7 +143,7 @@ impl Accumulation {
                 let recovered =
                     rates.as_mut().and_then(|rates| rates.recover(Need::Forces, (system, state), whole));
                 match recovered {
-                    Some(recovered) => *state = recovered.rates,
+                    Some(recovered) => state.clone_from(&recovered.rates),
                     None => has_consistent_rates = false,
                 }
             }

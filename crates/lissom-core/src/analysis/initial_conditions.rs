@@ -30,8 +30,6 @@ const REPEATED: f64 = 1e-10;
 pub(super) enum Inertias {
     /// All of them.
     All,
-    /// All of them, and what damping and stiffness add over so long a time τ [s]: M + τ D + τ² K.
-    Within(f64),
     /// Those of parts and of generalised coordinates, not those that act on coordinates of joints.
     OfParts,
 }
@@ -94,17 +92,6 @@ impl ConsistentInitialConditions {
         for (row, ..) in layout.states() {
             if let Some(diagonal) = pattern.position(row, row) {
                 weights[diagonal] += 1.0;
-            }
-        }
-        if let Inertias::Within(time) = inertias {
-            let is_of_rates = rate_rows(layout);
-            for column in (0..pattern.size()).filter(|&column| !is_of_rates[column]) {
-                for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
-                    if !is_of_rates[pattern.row_indices()[at]] {
-                        weights[at] +=
-                            time * (linearization.damping[at] + time * linearization.stiffness[at]);
-                    }
-                }
             }
         }
         // Constraints between velocities stand where those between places do: [M Bᵀ; B 0].
@@ -200,20 +187,6 @@ impl ConsistentInitialConditions {
             for position in range {
                 let row = pattern.row_indices()[position];
                 rest[row] -= (self.weights[position] + self.linearization.constraint[position]) * x[column];
-            }
-        }
-    }
-
-    /// out += factor · K x over motions; equations of rates have no stiffness.
-    pub(super) fn add_stiffness_product(&self, system: &System, factor: f64, x: &[f64], out: &mut [f64]) {
-        let pattern = &system.structure().pattern;
-        let is_of_rates = rate_rows(system.layout());
-        for column in (0..system.layout().coordinate_count()).filter(|&column| !is_of_rates[column]) {
-            for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
-                let row = pattern.row_indices()[position];
-                if !is_of_rates[row] {
-                    out[row] += factor * self.linearization.stiffness[position] * x[column];
-                }
             }
         }
     }
@@ -469,13 +442,6 @@ impl ConsistentInitialConditions {
         }
         Ok(now)
     }
-}
-
-/// Which rows are equations of rates.
-fn rate_rows(layout: &Layout) -> Vec<bool> {
-    let mut is_of_rates = vec![false; layout.size()];
-    layout.rate_rows().for_each(|row| is_of_rates[row] = true);
-    is_of_rates
 }
 
 /// The state moved along its motion for a short time, to second order.

@@ -92,7 +92,7 @@ pub(crate) fn relax(
         if distance(&state.kinematics, &simulation.state().kinematics) >= FAR * length {
             return None;
         }
-        reached = simulation.state().clone();
+        reached.clone_from(simulation.state());
         let is_due = step >= next_try || step_size >= long_enough || step + 1 == MAX_STEPS;
         let taken = step_size;
         step_size *= LONGER;

@@ -15,11 +15,13 @@ mod superelement;
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::joints::constraint::violation_rates;
 use lissom_core::joints::derivatives::IncrementTangent;
 use lissom_core::joints::evaluation_point::Chart;
 use lissom_core::joints::slider::{CarriedPoint, Orientation};
+use lissom_core::joints::starts::JointStarts;
 use lissom_core::joints::{self, Build, JointKind};
-use lissom_core::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
+use lissom_core::kinematics::{CoordinateId, Freedoms, Kinematics, NodeId, Quantity};
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{
     Blend, Builder, Linearization, Placement, Scratch, State, Sum, System, TangentAssembler,
@@ -429,6 +431,25 @@ fn a_slider_carries_its_violation_past_nodes() {
     }
 }
 
+/// Rates and accelerations of violations, several joints at a time and by the rows of each.
+fn rates_in_lanes_are_those_one_by_one(system: &System, at: &Kinematics, kind: &str) {
+    let mut starts = JointStarts::default();
+    system.begin_step(at, &mut starts);
+    let count = system.layout().multiplier_count;
+    let [mut rates, mut accelerations] = [vec![0.0; count], vec![0.0; count]];
+    system.violation_rates(at, &starts, [&mut rates, &mut accelerations]);
+    let [mut by_rows, mut accelerated] = [vec![0.0; count], vec![0.0; count]];
+    for constraint in system.constraints() {
+        let own = constraint.first_multiplier()..constraint.first_multiplier() + constraint.equations();
+        let mut gradient = vec![0.0; constraint.equations() * constraint.size()];
+        let out = [&mut by_rows[own.clone()], &mut accelerated[own]];
+        violation_rates(constraint, at, &mut gradient, out);
+    }
+    for (a, b) in rates.iter().chain(&accelerations).zip(by_rows.iter().chain(&accelerated)) {
+        assert!((a - b).abs() < 1e-12 * (1.0 + b.abs()), "{kind}: {a} in lanes, {b} one by one");
+    }
+}
+
 /// d/dt (B v) along a motion, against the exact Ḃ v.
 #[test]
 fn constraint_accelerations_are_second_derivatives() {
@@ -439,6 +460,7 @@ fn constraint_accelerations_are_second_derivatives() {
         let here = Configuration::random(&system, &state, 0.3, &mut random);
         let mut exact = vec![0.0; state.multipliers.len()];
         system.constraint_accelerations(&here.at, &mut exact);
+        rates_in_lanes_are_those_one_by_one(&system, &here.at, kind.name);
         // Constant twists: H(t) = H exp(t V).
         let rate = |time: f64| {
             difference(|step| {

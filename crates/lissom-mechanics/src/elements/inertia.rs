@@ -160,6 +160,10 @@ impl Element for Inertia {
         }
     }
 
+    fn may_be_stiff(&self) -> bool {
+        false
+    }
+
     fn energy(&self, at: &Kinematics) -> Energy {
         let node = &at.nodes[self.node[0]];
         let (mass, moment) = self.moments();

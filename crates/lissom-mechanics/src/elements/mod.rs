@@ -276,6 +276,12 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         }
     }
 
+    /// Whether motion that deforms it may be faster than steps resolve. Default: it may. False for inertia, whose forces depend on
+    /// positions only through the axes in which they are expressed.
+    fn may_be_stiff(&self) -> bool {
+        true
+    }
+
     /// Whether its forces supply or dissipate energy, so that their work is computed. Default: they do not. Stored
     /// energy is then reported by [`energy`](Self::energy), and dissipated energy is lost.
     fn is_load(&self) -> bool {

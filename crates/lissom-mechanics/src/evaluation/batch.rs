@@ -42,6 +42,10 @@ pub trait AnyBatch: Send + Sync {
     fn count(&self) -> usize;
     /// Whether forces depend on multipliers.
     fn sees_multipliers(&self) -> bool;
+    /// Whether motion that deforms an item may be faster than steps resolve.
+    fn may_be_stiff(&self) -> bool {
+        true
+    }
     /// Determines the rows of the items.
     fn connect(&mut self, layout: &Layout);
     /// Determines the positions of local matrices in the tangent's pattern.
@@ -275,6 +279,10 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn sees_multipliers(&self) -> bool {
         self.items.iter().any(|item| !item.multipliers().is_empty())
+    }
+
+    fn may_be_stiff(&self) -> bool {
+        self.items.iter().any(Element::may_be_stiff)
     }
 
     fn connect(&mut self, layout: &Layout) {

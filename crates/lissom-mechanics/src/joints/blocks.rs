@@ -10,21 +10,27 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::ops::Range;
 
-use lissom_motion::{Block, Lanes, Pose, Real, Screw, Triple, WIDTH};
+use lissom_motion::{Block, Jet, Lanes, Pose, Real, Screw, Triple, WIDTH};
 use pulp::{Simd, WithSimd};
 
 use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::relative_increment::{Angle, Axes, CoordinateIncrement, FrameChange, RelativeIncrement};
+use super::relative_jets::{FrameMotion, angle, relative_motion};
 use super::scalar_batch::ScalarJointBatch;
 use super::starts::{JointStarts, StartBlock};
 use super::{Coordinate, Joint, MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS};
 use crate::joints::evaluation_point::{Chart, Point};
-use crate::kinematics::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
+use crate::kinematics::lanes::{
+    Frames, Part, Screws, gather, gather_accelerations, gather_frames, gather_twists, parts, processor_for,
+};
 use crate::kinematics::{Kinematics, NodeId, Quantity};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.
 pub type Results = [Block; LOCAL + MAX_EQUATIONS];
+
+/// Rates and accelerations of the violations of eight joints.
+pub type ViolationRates = [[Block; MAX_EQUATIONS]; 2];
 
 /// All joints, by kind.
 #[derive(Default)]
@@ -111,6 +117,14 @@ pub trait JointBatch: Send + Sync {
         starts: Option<&[StartBlock]>,
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
+    );
+    /// Computes rates and accelerations of the violations for the motion `at`, at which the values `starts` are taken, and passes
+    /// those of each block to `take`, in order.
+    fn violation_rates(
+        &self,
+        at: &Kinematics,
+        starts: &[StartBlock],
+        take: &mut dyn FnMut(usize, &ViolationRates),
     );
     /// Passes the derivatives of each joint to `take`, with its index among all.
     fn linearize(
@@ -244,6 +258,15 @@ impl<J: Joint> JointBatch for Batch<J> {
         SCRATCH.with_borrow_mut(|scratch| {
             self.processor.dispatch(Evaluation { batch: self, wanted, point, starts, blocks, scratch, add });
         });
+    }
+
+    fn violation_rates(
+        &self,
+        at: &Kinematics,
+        starts: &[StartBlock],
+        take: &mut dyn FnMut(usize, &ViolationRates),
+    ) {
+        self.processor.dispatch(Rates { batch: self, at, starts, take });
     }
 
     fn linearize(
@@ -524,6 +547,102 @@ impl WithSimd for Begin<'_> {
         for (pack, out) in self.packs.iter().zip(self.out) {
             pack.begin(simd, self.coordinates, self.start, &mut frames, out);
         }
+    }
+}
+
+/// Rates and accelerations of the violations of a batch.
+struct Rates<'a, J> {
+    batch: &'a Batch<J>,
+    at: &'a Kinematics,
+    starts: &'a [StartBlock],
+    take: &'a mut dyn FnMut(usize, &ViolationRates),
+}
+
+impl<J: Joint> WithSimd for Rates<'_, J> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let mut motion = GatheredMotion::default();
+        let mut rates = [[[0.0; WIDTH]; MAX_EQUATIONS]; 2];
+        for (block, (pack, start)) in self.batch.packs.iter().zip(self.starts).enumerate() {
+            let (parts, lanes) = parts::<S>(pack.count);
+            pack.gather_motion(lanes, self.at, J::COORDINATES.len(), &mut motion);
+            for index in 0..parts {
+                let part = Part { simd, index };
+                let jets = pack.violation_jets::<J, S>(part, start, &motion);
+                for k in 0..J::MAX_ROWS {
+                    jets[k].first.store(&mut rates[0][k], index);
+                    jets[k].second.store(&mut rates[1][k], index);
+                }
+            }
+            (self.take)(block, &rates);
+        }
+    }
+}
+
+/// Twists and accelerations of the nodes of eight joints, base and tip, and rates of their coordinates.
+#[derive(Default)]
+struct GatheredMotion {
+    twists: [Screws; 2],
+    accelerations: [Screws; 2],
+    coordinates: [[Block; 2]; MAX_COORDINATES],
+}
+
+impl Pack {
+    /// Compiled once for joints of all kinds.
+    #[inline(never)]
+    fn gather_motion(&self, lanes: usize, at: &Kinematics, coordinates: usize, out: &mut GatheredMotion) {
+        for side in 0..2 {
+            let nodes = &self.nodes[side][..self.count];
+            gather_twists(at, nodes, lanes, &mut out.twists[side]);
+            gather_accelerations(at, nodes, lanes, &mut out.accelerations[side]);
+        }
+        for k in 0..coordinates {
+            for lane in 0..lanes {
+                let own = &at.coordinates[self.coordinates[k][lane] as usize];
+                out.coordinates[k][0][lane] = own.rate;
+                out.coordinates[k][1][lane] = own.acceleration;
+            }
+        }
+    }
+
+    /// Violations in time; their values are zero.
+    #[inline(always)]
+    fn violation_jets<J: Joint, S: Simd>(
+        &self,
+        part: Part<S>,
+        start: &StartBlock,
+        motion: &GatheredMotion,
+    ) -> [Jet<Lanes<S>>; MAX_EQUATIONS] {
+        let [base, tip] = [0, 1].map(|side| {
+            let offset = part.frame(&self.offsets[side]);
+            FrameMotion {
+                twist: offset.adjoint_inverse_times(part.screw(&motion.twists[side])),
+                rate: offset.adjoint_inverse_times(part.screw(&motion.accelerations[side])),
+            }
+        });
+        let here = (axes(part, &start.rotation), triple(part, &start.place, 0));
+        let increment = relative_motion(here, base, tip);
+        let zero = Lanes::splat(part.simd, 0.0);
+        let mut own = CoordinateIncrement {
+            change: [Jet::constant(zero); MAX_COORDINATES],
+            angles: [angle([zero; 2], zero, zero); MAX_COORDINATES],
+        };
+        for k in 0..J::COORDINATES.len() {
+            let [first, second] = &motion.coordinates[k];
+            let (first, second) = (part.number(first), part.number(second));
+            own.change[k] = Jet { value: zero, first, second };
+            if J::COORDINATES[k].quantity == Quantity::Angle {
+                let [sine, cosine] = &start.angles[k];
+                own.angles[k] = angle([part.number(sine), part.number(cosine)], first, second);
+            }
+        }
+        let mut constants = [Jet::constant(zero); MAX_CONSTANTS];
+        for k in 0..MAX_CONSTANTS {
+            constants[k] = Jet::constant(part.number(&self.constants[k]));
+        }
+        J::violation_change(&increment, &own, &constants)
     }
 }
 

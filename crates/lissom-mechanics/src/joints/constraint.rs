@@ -43,6 +43,17 @@ impl Port {
             Self::Coordinate(coordinate) => [at.coordinates[coordinate].rate, 0.0, 0.0, 0.0, 0.0, 0.0],
         }
     }
+
+    /// Second derivatives of the local unknowns; the first [`width`](Self::width) count [m/s², rad/s²].
+    fn accelerations(self, at: &Kinematics) -> [f64; 6] {
+        match self {
+            Self::Node(node) => at.nodes[node].acceleration.into(),
+            Self::NoNode => [0.0; 6],
+            Self::Coordinate(coordinate) => {
+                [at.coordinates[coordinate].acceleration, 0.0, 0.0, 0.0, 0.0, 0.0]
+            }
+        }
+    }
 }
 
 /// A constraint at both stages of a step whose violations are integrated, see `step_stages`.
@@ -173,6 +184,32 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
             let behind = (out.changes[e] - step.whole(rates) + before[e]) / whole;
             [*first, *second] = step.at_stages(0.0, rates.map(|rate| rate + behind));
         }
+    }
+}
+
+/// Rates ċ and accelerations c̈ of a constraint's violations for the motion `at`; `gradient` is zero and receives B.
+pub fn violation_rates<C: Constraint + ?Sized>(
+    constraint: &C,
+    at: &Kinematics,
+    gradient: &mut [f64],
+    [rates, accelerations]: [&mut [f64]; 2],
+) {
+    rates.fill(0.0);
+    constraint.time_derivative(at, rates);
+    constraint.acceleration(at, accelerations);
+    let size = constraint.size();
+    constraint.gradient(at, gradient);
+    let arrangement = constraint.arrangement(at);
+    let mut first = 0;
+    for port in (0..constraint.ports()).map(|index| constraint.port(arrangement, index)) {
+        let (by_rate, by_acceleration) = (port.rates(at), port.accelerations(at));
+        for (e, row) in gradient.chunks_exact(size).enumerate() {
+            for (k, by) in row[first..first + port.width()].iter().enumerate() {
+                rates[e] += by * by_rate[k];
+                accelerations[e] += by * by_acceleration[k];
+            }
+        }
+        first += port.width();
     }
 }
 

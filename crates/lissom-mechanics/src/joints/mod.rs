@@ -39,6 +39,7 @@ pub mod prescribed_rotation;
 pub mod primitives;
 pub mod prismatic;
 pub mod relative_increment;
+pub(crate) mod relative_jets;
 pub mod revolute;
 pub mod rigid_link;
 pub mod rolling;

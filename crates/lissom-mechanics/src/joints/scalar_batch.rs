@@ -8,9 +8,11 @@ use lissom_motion::WIDTH;
 
 use super::Equations;
 use super::attached::AttachedJoint;
-use super::blocks::{JointBatch, Results, Wanted};
+use super::blocks::{JointBatch, Results, ViolationRates, Wanted};
+use super::constraint::{Constraint as _, violation_rates};
 use super::derivatives::{Derivatives, LOCAL};
 use super::starts::StartBlock;
+use super::{MAX_COORDINATES, MAX_EQUATIONS};
 use crate::joints::evaluation_point::{Chart, Point};
 use crate::kinematics::Kinematics;
 
@@ -57,7 +59,7 @@ impl JointBatch for ScalarJointBatch {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
     ) {
-        let mut results = [[0.0; WIDTH]; LOCAL + super::MAX_EQUATIONS];
+        let mut results = [[0.0; WIDTH]; LOCAL + MAX_EQUATIONS];
         for block in blocks {
             for (lane, item) in self.block_items(block).enumerate() {
                 let joint = &self.joints[item];
@@ -79,6 +81,29 @@ impl JointBatch for ScalarJointBatch {
                 }
             }
             add(block, &results);
+        }
+    }
+
+    fn violation_rates(
+        &self,
+        at: &Kinematics,
+        _: &[StartBlock],
+        take: &mut dyn FnMut(usize, &ViolationRates),
+    ) {
+        let mut results = [[[0.0; WIDTH]; MAX_EQUATIONS]; 2];
+        for block in 0..self.joints.len().div_ceil(WIDTH) {
+            for (lane, item) in self.block_items(block).enumerate() {
+                let joint = &self.joints[item];
+                let mut own = [[0.0; MAX_EQUATIONS]; 2];
+                let [rates, accelerations] = own.each_mut().map(|own| &mut own[..joint.equations()]);
+                let mut gradient = [0.0; MAX_EQUATIONS * (12 + MAX_COORDINATES)];
+                let gradient = &mut gradient[..joint.equations() * joint.size()];
+                violation_rates(joint, at, gradient, [rates, accelerations]);
+                for (blocks, own) in results.iter_mut().zip(own) {
+                    blocks.iter_mut().zip(own).for_each(|(block, value)| block[lane] = value);
+                }
+            }
+            take(block, &results);
         }
     }
 

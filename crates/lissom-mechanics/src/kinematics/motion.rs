@@ -135,7 +135,7 @@ pub struct CoordinateMotion {
 }
 
 /// All nodes and coordinates at one instant.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct Kinematics {
     /// Time [s].
     pub time: f64,
@@ -149,6 +149,28 @@ pub struct Kinematics {
     pub held: Vec<f64>,
     /// Multipliers for elements whose forces depend on them [N, N m]; empty if there are no such elements.
     pub multipliers: Vec<f64>,
+}
+
+impl Clone for Kinematics {
+    fn clone(&self) -> Self {
+        Self {
+            time: self.time,
+            elapsed: self.elapsed,
+            nodes: self.nodes.clone(),
+            coordinates: self.coordinates.clone(),
+            held: self.held.clone(),
+            multipliers: self.multipliers.clone(),
+        }
+    }
+
+    /// Copies into the present allocations.
+    fn clone_from(&mut self, from: &Self) {
+        (self.time, self.elapsed) = (from.time, from.elapsed);
+        self.nodes.clone_from(&from.nodes);
+        self.coordinates.clone_from(&from.coordinates);
+        self.held.clone_from(&from.held);
+        self.multipliers.clone_from(&from.multipliers);
+    }
 }
 
 impl Kinematics {

@@ -13,7 +13,7 @@ pub(crate) struct Observed {
     /// The largest need of the channels.
     need: Need,
     /// Of motions, if any output depends on more than positions.
-    recovery: Option<Mutex<Recovery>>,
+    recovery: Option<Mutex<Box<Recovery>>>,
 }
 
 impl Observed {
@@ -30,15 +30,17 @@ impl Observed {
 
     /// Appends the values of all channels in a state at the end of a step of `step` [s].
     pub(crate) fn values(&self, state: &State, step: f64, out: &mut Vec<f64>) {
-        let recovered = self.recovered(self.need, state, step);
-        self.channels.iter().for_each(|channel| self.evaluate(channel, (state, recovered.as_ref()), out));
+        self.with_recovered(self.need, state, step, |recovered| {
+            self.channels.iter().for_each(|channel| self.evaluate(channel, (state, recovered), out));
+        });
     }
 
     /// The values of one channel.
     pub(crate) fn values_of(&self, channel: &Channel, state: &State, step: f64) -> Vec<f64> {
         let mut values = Vec::new();
-        let recovered = self.recovered(channel.need(), state, step);
-        self.evaluate(channel, (state, recovered.as_ref()), &mut values);
+        self.with_recovered(channel.need(), state, step, |recovered| {
+            self.evaluate(channel, (state, recovered), &mut values);
+        });
         values
     }
 
@@ -78,8 +80,20 @@ impl Observed {
         channel.evaluate(&self.system, state, out);
     }
 
-    fn recovered(&self, need: Need, state: &State, step: f64) -> Option<Recovered> {
-        let recovery = self.recovery.as_ref().filter(|_| need > Need::Positions)?;
-        recovery.lock().unwrap_or_else(PoisonError::into_inner).recover(need, (&self.system, state), step)
+    /// Evaluates outputs with what they need recovered, if it is found.
+    fn with_recovered(
+        &self,
+        need: Need,
+        state: &State,
+        step: f64,
+        evaluate: impl FnOnce(Option<&Recovered>),
+    ) {
+        match self.recovery.as_ref().filter(|_| need > Need::Positions) {
+            Some(recovery) => {
+                let mut recovery = recovery.lock().unwrap_or_else(PoisonError::into_inner);
+                evaluate(recovery.recover(need, (&self.system, state), step));
+            }
+            None => evaluate(None),
+        }
     }
 }

@@ -405,7 +405,7 @@ impl PathEquations<'_> {
             tangent.reverse();
         }
         let mut state = self.start.clone();
-        state.kinematics = work.at.clone();
+        state.kinematics.clone_from(&work.at);
         state.kinematics.elapsed = 0.0;
         for node in &mut state.kinematics.nodes {
             node.frame.rotation = node.frame.rotation.normalized();

@@ -1,0 +1,164 @@
+//! A number with its first and second derivative in time.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::real::Real;
+
+/// A function of time at an instant, by its value and its first two derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct Jet<R> {
+    /// The value.
+    pub value: R,
+    /// The first derivative.
+    pub first: R,
+    /// The second derivative.
+    pub second: R,
+}
+
+impl<R: Real> Jet<R> {
+    /// A constant.
+    #[inline(always)]
+    pub fn constant(value: R) -> Self {
+        let zero = value.like(0.0);
+        Self { value, first: zero, second: zero }
+    }
+}
+
+impl<R: Real> Add for Jet<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            first: self.first + other.first,
+            second: self.second + other.second,
+        }
+    }
+}
+
+impl<R: Real> Sub for Jet<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self {
+            value: self.value - other.value,
+            first: self.first - other.first,
+            second: self.second - other.second,
+        }
+    }
+}
+
+impl<R: Real> Mul for Jet<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let cross = self.first * other.first;
+        Self {
+            value: self.value * other.value,
+            first: (self.value * other.first).plus_product(self.first, other.value),
+            second: (cross + cross)
+                .plus_product(self.value, other.second)
+                .plus_product(self.second, other.value),
+        }
+    }
+}
+
+impl<R: Real> Div for Jet<R> {
+    type Output = Self;
+    /// From q b = a: q' b = a' - q b', q'' b = a'' - 2 q' b' - q b''.
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let first = self.first.minus_product(value, other.first) / other.value;
+        let cross = first * other.first;
+        let second = (self.second - cross - cross).minus_product(value, other.second) / other.value;
+        Self { value, first, second }
+    }
+}
+
+impl<R: Real> Neg for Jet<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { value: -self.value, first: -self.first, second: -self.second }
+    }
+}
+
+impl<R: Real> Real for Jet<R> {
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        Self::constant(self.value.like(value))
+    }
+
+    #[inline(always)]
+    fn scaled(self, factor: f64) -> Self {
+        Self {
+            value: self.value.scaled(factor),
+            first: self.first.scaled(factor),
+            second: self.second.scaled(factor),
+        }
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
+    }
+
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        self - a * b
+    }
+
+    /// From r r = a: 2 r r' = a', 2 r r'' = a'' - 2 r' r'.
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        let value = self.value.square_root();
+        let first = self.first.scaled(0.5) / value;
+        let second = self.second.scaled(0.5).minus_product(first, first) / value;
+        Self { value, first, second }
+    }
+
+    #[inline(always)]
+    fn all_below(self, limit: f64) -> bool {
+        self.value.all_below(limit)
+    }
+
+    /// # Panics
+    /// Always: the derivatives of such functions are unknown.
+    fn one_by_one<const K: usize, const M: usize, const N: usize>(
+        _arguments: [Self; K],
+        _function: fn([f64; K]) -> [[f64; N]; M],
+    ) -> [[Self; N]; M] {
+        unreachable!("functions without derivatives are not evaluated in time")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_are_those_of_known_functions() {
+        // t and 1 + t² at t = 2.
+        let t = Jet { value: 2.0, first: 1.0, second: 0.0 };
+        let square = t.like(1.0).plus_product(t, t);
+        assert_eq!((square.value, square.first, square.second), (5.0, 4.0, 2.0));
+        // t/(1 + t²): first (1 - t²)/(1 + t²)², second 2 t (t² - 3)/(1 + t²)³.
+        let ratio = t / square;
+        for (found, wanted) in [(ratio.value, 0.4), (ratio.first, -3.0 / 25.0), (ratio.second, 4.0 / 125.0)] {
+            assert!((found - wanted).abs() < 1e-15, "{found} instead of {wanted}");
+        }
+        // √(1 + t²): first t/√, second 1/√³.
+        let root = square.square_root();
+        let length = 5.0_f64.sqrt();
+        for (found, wanted) in
+            [(root.value, length), (root.first, 2.0 / length), (root.second, 1.0 / (5.0 * length))]
+        {
+            assert!((found - wanted).abs() < 1e-15, "{found} instead of {wanted}");
+        }
+        let difference = (-t).minus_product(t, t) - t.scaled(3.0);
+        assert_eq!((difference.value, difference.first, difference.second), (-12.0, -8.0, -2.0));
+        assert!(t.all_below(2.5) && !t.all_below(2.0));
+    }
+}
