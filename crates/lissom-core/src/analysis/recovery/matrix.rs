@@ -38,7 +38,8 @@ pub(super) struct RecoveryMatrix {
     /// Derivatives of the forces of elements that may be stiff, if there are any.
     stiff: Option<Linearization>,
     has_damping: bool,
-    scratch: Scratch,
+    /// Memory for the assembly, lent to it.
+    scratch: Option<Box<Scratch>>,
     /// s.
     scale: f64,
     augmentation: Augmentation,
@@ -75,7 +76,7 @@ impl RecoveryMatrix {
             kind,
             stiff: system.has_stiff_elements().then(|| system.empty_linearization()),
             has_damping: false,
-            scratch: Scratch::default(),
+            scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             augmentation,
             weights: layout.quantities()[count..].iter().map(|own| augmentation.relative(*own)).collect(),
@@ -114,9 +115,12 @@ impl RecoveryMatrix {
     pub(super) fn factor(&mut self, system: &System, at: &Kinematics, time: f64) -> Option<()> {
         system.begin_step(at, &mut self.starts);
         if let Some(stiff) = &mut self.stiff {
-            stiff.clear();
+            // The other derivatives are not read.
+            for values in [&mut stiff.mass, &mut stiff.damping, &mut stiff.stiffness] {
+                values.fill(0.0);
+            }
             let out = &mut TangentAssembler::Separate(stiff);
-            system.linearize_elements(true, at, &mut self.scratch, out);
+            system.linearize_elements(true, at, self.scratch.get_or_insert_default(), out);
             self.has_damping = stiff.damping.iter().any(|value| *value != 0.0);
         }
         self.assemble(system, at, time);
@@ -132,7 +136,7 @@ impl RecoveryMatrix {
     fn assemble(&mut self, system: &System, at: &Kinematics, time: f64) {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let mut values = std::mem::take(&mut self.saddle.matrices.values);
-        let mut scratch = std::mem::take(&mut self.scratch);
+        let mut scratch = self.scratch.take().unwrap_or_default();
         values.fill(0.0);
         let blend =
             Blend { place: 0.0, rate: 0.0, acceleration: 1.0, augmented: self.scale, constraint: self.scale };
@@ -167,7 +171,7 @@ impl RecoveryMatrix {
             }
         }
         self.saddle.matrices.values = values;
-        self.scratch = scratch;
+        self.scratch = Some(scratch);
     }
 
     /// Solves in place for motions and multipliers.
