@@ -144,7 +144,7 @@ impl Schedule {
         Next::Planned { size: whole, end: self.planned(self.reached + 1) }
     }
 
-    /// Takes note of a step that ends at `time` [s]; [`due`](Self::due) then has its records.
+    /// Accepts a step that ends at `time` [s]; [`due`](Self::due) then has its records.
     pub(crate) fn accept(&mut self, time: f64) {
         self.taken += 1;
         self.reached += 1;

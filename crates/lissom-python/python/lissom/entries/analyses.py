@@ -36,10 +36,10 @@ class Dynamics(Analysis):
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, or nothing.
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
-        relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`; a number from 0.0000 to 0.1, or nothing.
+        relative_tolerance: tolerance of the local error of adaptive steps, relative to the motion; default 1e-6 without `step`; a number from 0.0000 to 0.1, or nothing.
         control: errors that determine adaptive steps: those of `positions` (and velocities and states, the default), or those of `forces` (and accelerations), too; `"positions"`, `"forces"`, or nothing.
         max_step: maximum adaptive step, default a twentieth of the whole time [s]; a number > 0, or nothing.
-        output_step: interval between records of adaptive steps; default every step [s]; a number > 0, or nothing.
+        output_step: interval between records of adaptive steps, interpolated within them; by default steps are sampled, up to 5000 times in all [s]; a number > 0, or nothing.
         energy_check: whether a spurious increase of energy is a failure, default true; `true` or `false`, or nothing.
         spectral_radius: Spectral radius at infinite frequency, 0 … 1; default 0.8; a number from 0.0000 to 1, or nothing.
         alpha: Numerical damping, -1/3 … 0; default -0.1; a number from -0.3333 to 0, or nothing.

@@ -16,13 +16,13 @@ entry! {
     scheme: words::Scheme = "scheme";
     /// Time step; with `relative_tolerance` the first step \[s\].
     step: f64 = "step";
-    /// Tolerance of the local error of adaptive steps, relative to the motion; default 1e-5 without `step`.
+    /// Tolerance of the local error of adaptive steps, relative to the motion; default 1e-6 without `step`.
     relative_tolerance: f64 = "relative_tolerance";
     /// Errors that determine adaptive steps: those of `positions` (and velocities and states, the default), or those of `forces` (and accelerations), too.
     control: words::Control = "control";
     /// Maximum adaptive step, default a twentieth of the whole time \[s\].
     max_step: f64 = "max_step";
-    /// Interval between records of adaptive steps; default every step \[s\].
+    /// Interval between records of adaptive steps, interpolated within them; by default steps are sampled, up to 5000 times in all \[s\].
     output_step: f64 = "output_step";
     /// Whether a spurious increase of energy is a failure, default true.
     energy_check: bool = "energy_check";
