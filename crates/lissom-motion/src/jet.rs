@@ -100,16 +100,6 @@ impl<R: Real> Real for Jet<R> {
         }
     }
 
-    #[inline(always)]
-    fn plus_product(self, a: Self, b: Self) -> Self {
-        self + a * b
-    }
-
-    #[inline(always)]
-    fn minus_product(self, a: Self, b: Self) -> Self {
-        self - a * b
-    }
-
     /// From r r = a: 2 r r' = a', 2 r r'' = a'' - 2 r' r'.
     #[inline(always)]
     fn square_root(self) -> Self {

@@ -23,10 +23,16 @@ pub trait Real:
     fn scaled(self, factor: f64) -> Self;
 
     /// `self + a b`, rounded once where the processor does so at no cost.
-    fn plus_product(self, a: Self, b: Self) -> Self;
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
+    }
 
     /// `self - a b`, rounded once where the processor does so at no cost.
-    fn minus_product(self, a: Self, b: Self) -> Self;
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        self - a * b
+    }
 
     /// The square root.
     fn square_root(self) -> Self;
@@ -57,16 +63,6 @@ impl Real for f64 {
     #[inline(always)]
     fn scaled(self, factor: f64) -> Self {
         self * factor
-    }
-
-    #[inline(always)]
-    fn plus_product(self, a: Self, b: Self) -> Self {
-        self + a * b
-    }
-
-    #[inline(always)]
-    fn minus_product(self, a: Self, b: Self) -> Self {
-        self - a * b
     }
 
     #[inline(always)]
