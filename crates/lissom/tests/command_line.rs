@@ -121,6 +121,11 @@ fn rows_come_every_so_often_and_at_the_last_step() {
     // Seven steps, the last of them shorter.
     assert_eq!(times(&["analysis.end=0.065", "analysis.output_every=3"]), [0.0, 0.03, 0.06, 0.065]);
     assert_eq!(times(&["analysis.end=0.3", "analysis.step=0.1"]).last(), Some(&0.3));
+    // Adaptive steps, each with several rows by default.
+    let adaptive = ["analysis.end=1", "analysis.relative_tolerance=1e-6", "analysis.scheme=\"radau-iia-5\""];
+    let sampled = times(&adaptive).len();
+    let ends = times(&[&adaptive[..], &["analysis.output_every=1"]].concat()).len();
+    assert!(sampled > 2 * ends, "{sampled} rows, {ends} at ends of steps");
 }
 
 #[test]

@@ -152,8 +152,8 @@ pub struct Analysis {
     pub max_iterations: usize,
     /// Disabled features of the nonlinear solver, for studies.
     pub disabled: DisabledFeatures,
-    /// Steps from one record to the next.
-    pub output_every: usize,
+    /// Steps from one record to the next; none for each step, or for instants that suit adaptive steps.
+    pub output_every: Option<usize>,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
     pub frames_per_second: Option<f64>,
     /// Whether a motion with much more energy than anything put in fails.
@@ -229,7 +229,6 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         _ => DEFAULT_TOLERANCE,
     });
     let (penalty, tolerance) = (number("penalty", 1e-3), number("tolerance", of_newton));
-    let count = |key: &str, default| reader.count(key).map_or(default, |count| count.value);
     let analysis = Analysis {
         scheme,
         parameters,
@@ -239,9 +238,9 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         penalty: penalty?.value,
         solver,
         tolerance: tolerance?.value,
-        max_iterations: count("max_iterations", 40),
+        max_iterations: reader.count("max_iterations").map_or(40, |count| count.value),
         disabled: disabled(&reader),
-        output_every: if is_run { count("output_every", 1) } else { 1 },
+        output_every: if is_run { reader.count("output_every").map(|count| count.value) } else { None },
         frames_per_second: if is_run {
             reader.number("frames_per_second").map(|rate| rate.value)
         } else {
@@ -345,6 +344,13 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
         && let Some(step) = step
     {
         return Some(AnalysisKind::Dynamics { step, control: None });
+    }
+    if let (Some(interval), Some(_)) = (output_step, reader.node("output_every")) {
+        return reader.context.fail(
+            interval.span,
+            "both `output_step` and `output_every` specify what is recorded".to_owned(),
+            "remove one of them",
+        );
     }
     let max_step = max_step.map_or(LONGEST_PART * duration, |most| most.value);
     let step = step.unwrap_or(Located::new((FIRST_PART * duration).min(max_step), reader.name));

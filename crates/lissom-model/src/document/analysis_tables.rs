@@ -55,7 +55,7 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "output_every",
                 Shape::Count(1, 1_000_000_000),
                 "",
-                "number of steps between records, default 1",
+                "number of steps between records; default 1, or several records in each adaptive step",
             ),
             optional(
                 "frames_per_second",

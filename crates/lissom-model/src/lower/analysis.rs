@@ -123,11 +123,11 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         energy_check: analysis.energy_check,
     };
     let is_static = !matches!(analysis.kind, AnalysisKind::Dynamics { .. });
-    let records = match choice {
-        Some(choice) if !is_static && analysis.output_every <= 1 => {
+    let records = match (analysis.output_every, choice) {
+        (None, Some(choice)) if !is_static => {
             Records::of_chosen_steps(&settings.scheme, choice.output_step, duration)
         }
-        _ => Records::Every(analysis.output_every.max(1)),
+        (every, _) => Records::Every(every.unwrap_or(1)),
     };
     let plan = Plan {
         start: analysis.start,

@@ -83,6 +83,8 @@ fn what_is_too_large_is_refused_with_an_estimate_before_it_is_built() {
         &["analysis.end=1", "analysis.step=1e-9"],
         &["rows of results", "GB", "`output_every`"],
     );
+    let both = ["analysis.relative_tolerance=1e-5", "analysis.output_step=0.1", "analysis.output_every=2"];
+    refused(&pendulum, &both, &["both `output_step` and `output_every`", "remove one"]);
     assert!(!folder.path().join("out").exists());
 }
 
