@@ -13,6 +13,7 @@ use super::pairs::Pairs;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::judge::{Warning, report};
 use crate::kinematics::{Kinematics, Quantity};
+use crate::round_off::VIOLATION;
 use crate::system::System;
 
 /// ε is this fraction of the step, and of the time in which the fastest node moves a representative length or a radian. The error
@@ -97,6 +98,10 @@ impl ConstraintRates {
             return [0.0; 2];
         }
         let short = PART * step.min(1.0 / speed);
+        // At rest the difference is round-off.
+        if NOTEWORTHY * short * speed < VIOLATION {
+            return [0.0; 2];
+        }
         let Self { moved, before, after, .. } = self;
         moved.time = at.time + short;
         moved.elapsed = 0.0;
