@@ -36,6 +36,13 @@ const RECORDED: &[(&str, &str)] = &[
 ];
 /// Marks a count of records, after the name of the scene.
 const RECORDS: &str = "+records";
+/// Marks a count of inputs that are set before every step: torques of all joints.
+const INPUTS: &str = "+inputs";
+/// Marks a count of a whole run with adaptive steps, from reading the model on.
+const ADAPTIVE: &str = "+adaptive";
+/// Scenes of those, with the end of the run [s].
+const DRIVEN: &[&str] = &["chain-r-7"];
+const WHOLE: &[(&str, &str)] = &[("andrews", "0.03"), ("chain-r-2", "0.1")];
 /// Steps before the count begins, and steps counted.
 const STEPS: [usize; 2] = [20, 50];
 /// Counts may differ by this share.
@@ -89,8 +96,7 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
     }
     let compiler = version("rustc").unwrap_or_default();
     let mut instructions = BTreeMap::new();
-    let recorded = RECORDED.iter().map(|(name, _)| format!("{name}{RECORDS}"));
-    for name in COUNTED.iter().map(|&name| name.to_owned()).chain(recorded) {
+    for name in names() {
         let counted = instructions_of(&name)?;
         instructions.insert(name, counted);
     }
@@ -100,7 +106,7 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
     let found = Kept { compiler, instructions };
     if update {
         let text = toml::to_string(&found).map_err(|error| fail(&error))?;
-        let heading = "# Instructions of 50 steps of each scene, or of a record after each; `cargo xtask count --update` writes this file.\n";
+        let heading = "# Instructions of 50 steps of each scene, of a record or of inputs at each, or of a whole adaptive run; `cargo xtask count --update` writes this file.\n";
         std::fs::write(&path, format!("{heading}{text}")).map_err(|error| fail(&error))?;
         return Ok(true);
     }
@@ -112,6 +118,15 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
         return Ok(true);
     }
     Ok(same)
+}
+
+/// Names of all counts.
+fn names() -> Vec<String> {
+    let steps = COUNTED.iter().map(|&name| name.to_owned());
+    let records = RECORDED.iter().map(|(name, _)| format!("{name}{RECORDS}"));
+    let inputs = DRIVEN.iter().map(|name| format!("{name}{INPUTS}"));
+    let runs = WHOLE.iter().map(|(name, _)| format!("{name}{ADAPTIVE}"));
+    steps.chain(records).chain(inputs).chain(runs).collect()
 }
 
 /// Prints the table; whether all counts are as kept.
@@ -143,12 +158,7 @@ fn instructions_of(name: &str) -> Result<u64, CountError> {
     let fail = |message: String| CountError::Program { program: "valgrind", message };
     let program = std::env::current_exe().map_err(|error| fail(error.to_string()))?;
     let output = Command::new("valgrind")
-        .args([
-            "--tool=callgrind",
-            "--callgrind-out-file=/dev/null",
-            "--toggle-collect=*counted_steps*",
-            "--toggle-collect=*counted_record*",
-        ])
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=*counted_work*"])
         .arg(program)
         .args(["steps", name])
         .output()
@@ -166,41 +176,40 @@ fn collected(output_text: &str) -> Option<u64> {
     line.rsplit(':').next()?.trim().parse().ok()
 }
 
-/// Runs the steps or records that are counted.
+/// Does the work that is counted under this name.
 pub(crate) fn steps(name: &str) -> Result<(), CountError> {
     if let Some(name) = name.strip_suffix(RECORDS) {
         return records(name);
     }
-    let scene = scenes::scene(name).ok_or_else(|| CountError::Unknown(name.to_owned()))?;
-    let model = Model::from_text(&scene.name, &scene.text);
-    let failed = |report: lissom::Report| CountError::Failed(report.render(false));
-    let lowered = lower(&model.document(&[]).map_err(failed)?).map_err(failed)?;
-    let simulation = Simulation::new(lowered.system, lowered.state, lowered.settings);
-    let mut simulation = simulation.map_err(|error| CountError::Failed(error.to_string()))?;
+    if let Some(name) = name.strip_suffix(INPUTS) {
+        return inputs(name);
+    }
+    if let Some(name) = name.strip_suffix(ADAPTIVE) {
+        return adaptive(name);
+    }
+    let lowered = lower(&document(&model(name, "")?)?).map_err(of_report)?;
+    let mut simulation = Simulation::new(lowered.system, lowered.state, lowered.settings).map_err(failed)?;
     let [before, counted] = STEPS;
     for _ in 0..before {
-        simulation.step().map_err(|error| CountError::Failed(error.to_string()))?;
+        simulation.step().map_err(failed)?;
     }
-    counted_steps(&mut simulation, counted)
+    counted_work(|| (0..counted).try_for_each(|_| simulation.step().map(|_| ()))).map_err(failed)
 }
 
-/// Runs the steps after which records are counted.
+/// Counts a record after every step.
 fn records(name: &str) -> Result<(), CountError> {
-    let unknown = || CountError::Unknown(name.to_owned());
-    let scene = scenes::scene(name).ok_or_else(unknown)?;
-    let (_, outputs) = RECORDED.iter().find(|(recorded, _)| *recorded == name).ok_or_else(unknown)?;
-    let model = Model::from_text(&scene.name, &format!("{}\n{outputs}", scene.text));
-    let document = model.document(&[]).map_err(|report| CountError::Failed(report.render(false)))?;
-    let mut session = Session::new(&document).map_err(|error| CountError::Failed(error.to_string()))?;
+    let found = RECORDED.iter().find(|(recorded, _)| *recorded == name);
+    let (_, outputs) = found.ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    let mut session = Session::new(&document(&model(name, outputs)?)?).map_err(failed)?;
     let mut values = Vec::new();
     let [before, counted] = STEPS;
     for step in 0..before + counted {
-        session.advance().map_err(|error| CountError::Failed(error.to_string()))?;
+        session.advance().map_err(failed)?;
         values.clear();
         if step < before {
             session.values(&mut values);
         } else {
-            counted_record(&session, &mut values);
+            counted_work(|| session.values(&mut values));
         }
         if !values.iter().all(|value| value.is_finite()) {
             return Err(CountError::Failed(format!("{name}: a recorded value is not finite")));
@@ -209,19 +218,69 @@ fn records(name: &str) -> Result<(), CountError> {
     Ok(())
 }
 
-/// Function counted by callgrind, by name.
-#[inline(never)]
-fn counted_record(session: &Session, values: &mut Vec<f64>) {
-    session.values(values);
+/// Counts the inputs that are set before every step, which are torques of the chain's joints.
+fn inputs(name: &str) -> Result<(), CountError> {
+    let joints = name.rsplit('-').next().and_then(|count| count.parse().ok()).unwrap_or(0);
+    let names: Vec<String> = (0..joints).map(|joint| format!("u{joint}")).collect();
+    let mut loads = String::from("[inputs]\n");
+    names.iter().for_each(|name| loads.push_str(&format!("{name} = 0.0\n")));
+    for (joint, name) in names.iter().enumerate() {
+        let torque = format!("kind = \"joint_torque\"\njoint = \"j{joint}\"\ntorque = \"{name}\"\n");
+        loads.push_str(&format!("[loads.{name}]\n{torque}"));
+    }
+    let mut session = Session::new(&document(&model(name, &loads)?)?).map_err(failed)?;
+    let [before, counted] = STEPS;
+    for step in 0..before + counted {
+        let torque = 1e-3 * (step as f64).sin();
+        let values = names.iter().map(|name| (&**name, torque));
+        if step < before {
+            session.set_inputs(values).map_err(failed)?;
+        } else {
+            counted_work(|| session.set_inputs(values)).map_err(failed)?;
+        }
+        session.advance().map_err(failed)?;
+    }
+    Ok(())
+}
+
+/// Counts a whole run with adaptive steps.
+fn adaptive(name: &str) -> Result<(), CountError> {
+    let found = WHOLE.iter().find(|(whole, _)| *whole == name);
+    let (_, end) = found.ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    let scene = scenes::scene(name).ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    let fixed = "scheme = \"generalized-alpha\"\nspectral_radius = 0.8";
+    let text = scene.text.replace(fixed, "relative_tolerance = 1e-6");
+    counted_work(|| {
+        let model = Model::from_text(&scene.name, &text);
+        let set = [("analysis.end".to_owned(), (*end).to_owned())];
+        let mut session = Session::new(&model.document(&set).map_err(of_report)?).map_err(failed)?;
+        let report = session.run(&mut [], &mut |_| std::ops::ControlFlow::Continue(()));
+        report.error().map_or(Ok(()), |error| Err(CountError::Failed(error.to_string())))
+    })
+}
+
+/// A scene with more text.
+fn model(name: &str, more: &str) -> Result<Model, CountError> {
+    let scene = scenes::scene(name).ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    Ok(Model::from_text(&scene.name, &format!("{}\n{more}", scene.text)))
+}
+
+fn document(model: &Model) -> Result<lissom::Document, CountError> {
+    model.document(&[]).map_err(of_report)
+}
+
+fn of_report(report: lissom::Report) -> CountError {
+    CountError::Failed(report.render(false))
+}
+
+fn failed(error: impl std::error::Error) -> CountError {
+    CountError::Failed(error.to_string())
 }
 
 /// Function counted by callgrind, by name.
 #[inline(never)]
-fn counted_steps(simulation: &mut Simulation, count: usize) -> Result<(), CountError> {
-    for _ in 0..count {
-        simulation.step().map_err(|error| CountError::Failed(error.to_string()))?;
-    }
-    Ok(())
+fn counted_work<R>(work: impl FnOnce() -> R) -> R {
+    work()
 }
 
 #[cfg(test)]
@@ -249,11 +308,8 @@ mod tests {
 
     #[test]
     fn every_counted_scene_takes_its_steps() {
-        for name in COUNTED {
-            steps(name).unwrap_or_else(|error| panic!("{name}: {error}"));
-        }
-        for (name, _) in RECORDED {
-            records(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        for name in names() {
+            steps(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
         }
     }
 }

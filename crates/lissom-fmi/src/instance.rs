@@ -165,10 +165,9 @@ impl Instance {
             self.given.pending = self.given.inputs.keys().copied().collect();
         }
         let session = self.session.as_mut().ok_or_else(String::new)?;
-        for index in std::mem::take(&mut self.given.pending) {
-            let name = &self.interface.variables[index].name;
-            session.set_input(name, self.given.inputs[&index]).map_err(words)?;
-        }
+        let pending = std::mem::take(&mut self.given.pending);
+        let named = |&index: &usize| (&*self.interface.variables[index].name, self.given.inputs[&index]);
+        session.set_inputs(pending.iter().map(named)).map_err(words)?;
         Ok(session)
     }
 

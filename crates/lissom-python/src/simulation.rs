@@ -9,7 +9,7 @@ use lissom::{Document, Session, SessionSnapshot, with_code};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyFloat};
 
 use crate::analyses::linearize_here;
 use crate::errors::{solution, value_error};
@@ -32,6 +32,14 @@ impl Names {
     }
 }
 
+/// Inputs and their values.
+#[derive(FromPyObject)]
+enum Inputs {
+    One(String),
+    All(HashMap<String, f64>),
+    Named(Vec<String>),
+}
+
 /// A session and the values of its columns.
 struct Inner {
     session: Session,
@@ -42,6 +50,14 @@ struct Inner {
 }
 
 impl Inner {
+    /// Of one column. Columns that need nothing but positions are evaluated alone.
+    fn value(&mut self, column: usize) -> f64 {
+        if self.are_current || self.session.recovers(column) {
+            return self.values()[column];
+        }
+        self.session.column_value(column)
+    }
+
     fn values(&mut self) -> &[f64] {
         if !self.are_current {
             self.values.clear();
@@ -96,6 +112,18 @@ impl Simulation {
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Present value of a column, a signal, an input or a state.
+    fn value(&self, inner: &mut Inner, name: &str) -> PyResult<f64> {
+        let value = match self.indices.get(name) {
+            Some(&column) => Some(inner.value(column)),
+            None => inner.session.value(name),
+        };
+        value.ok_or_else(|| {
+            let known = self.names.join(", ");
+            PyKeyError::new_err(format!("`{name}` is no column; the columns are {known}"))
+        })
     }
 }
 
@@ -204,31 +232,49 @@ impl Simulation {
         PyArray1::from_slice(py, self.lock().values())
     }
 
-    /// Sets an input of the model from now on, until it is set again.
+    /// Sets inputs of the model from now on, until they are set again: `set("torque", 0.5)`, `set({"torque": 0.5, "brake": 1})`,
+    /// or `set(names, values)` with a list of names and a list or array of as many values. Several inputs that are set at once
+    /// cost as much as one.
     ///
-    /// Raises `ValueError` if the model has no such input or the value is not finite, `SolutionError` if there is no
-    /// consistent start with it.
-    fn set(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<()> {
+    /// Raises `ValueError` if the model has no such input or a value is not finite, `SolutionError` if there is no
+    /// consistent start with them; then none is set.
+    #[pyo3(signature = (inputs, value = None))]
+    fn set(&self, py: Python<'_>, inputs: Inputs, value: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let needed = || PyValueError::new_err("an input is set with its value: `set(name, value)`");
+        let given: Vec<(String, f64)> = match inputs {
+            Inputs::One(name) => vec![(name, value.ok_or_else(needed)?.extract()?)],
+            Inputs::All(inputs) if value.is_none() => inputs.into_iter().collect(),
+            Inputs::All(_) => return Err(PyValueError::new_err("a dictionary contains the values already")),
+            Inputs::Named(names) => {
+                let values: Vec<f64> = value.ok_or_else(needed)?.extract()?;
+                if values.len() != names.len() {
+                    let counts = format!("there are {} inputs and {} values", names.len(), values.len());
+                    return Err(PyValueError::new_err(counts));
+                }
+                names.into_iter().zip(values).collect()
+            }
+        };
         py.detach(|| {
             let mut inner = self.lock();
             inner.are_current = false;
-            inner.session.set_input(name, value).map_err(|error| match error {
+            let given = given.iter().map(|(name, value)| (&**name, *value));
+            inner.session.set_inputs(given).map_err(|error| match error {
                 InputError::Unknown { .. } | InputError::NotFinite { .. } => value_error(&error),
                 other => solution(&other),
             })
         })
     }
 
-    /// Present value of a column, a signal, an input or a state, in SI units.
-    fn __getitem__(&self, name: &str) -> PyResult<f64> {
-        let Some(&index) = self.indices.get(name) else {
-            if let Some(value) = self.lock().session.value(name) {
-                return Ok(value);
+    /// Present value of a column, a signal, an input or a state, in SI units; with a list of names an array of their values.
+    fn __getitem__<'py>(&self, py: Python<'py>, names: Names) -> PyResult<Bound<'py, PyAny>> {
+        let mut inner = self.lock();
+        match names {
+            Names::One(name) => Ok(PyFloat::new(py, self.value(&mut inner, &name)?).into_any()),
+            Names::Several(names) => {
+                let values: PyResult<Vec<f64>> = names.iter().map(|name| self.value(&mut inner, name)).collect();
+                Ok(PyArray1::from_vec(py, values?).into_any())
             }
-            let known = self.names.join(", ");
-            return Err(PyKeyError::new_err(format!("`{name}` is no column; the columns are {known}")));
-        };
-        Ok(self.lock().values()[index])
+        }
     }
 
     /// The model linearised at the current state, a `lissom.LinearModel`: as `model.linearize` about this

@@ -174,3 +174,13 @@ step = 0.1
         sim.set("trust", 1.0)
     with pytest.raises(ValueError, match="finite"):
         sim.set("thrust", float("inf"))
+    # Several at once, and several columns.
+    sim.set({"thrust": 2.0})
+    assert sim["thrust"] == 2.0
+    sim.set(["thrust"], np.array([3.0]))
+    thrust, x = sim[["thrust", "cart.x"]]
+    assert (thrust, x) == (3.0, sim["cart.x"])
+    for wrong in (lambda: sim.set("thrust"), lambda: sim.set(["thrust"], [1.0, 2.0]), lambda: sim.set({"thrust": 1.0}, 2.0)):
+        with pytest.raises(ValueError):
+            wrong()
+    assert sim["thrust"] == 3.0

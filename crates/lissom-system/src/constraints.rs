@@ -357,11 +357,6 @@ impl System {
         self.each_equation(out, |constraint, own| constraint.violation(at, own));
     }
 
-    /// Ḃ v + d/dt ∂c/∂t by multiplier: the constraints' second time derivative without B v̇.
-    pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
-        self.each_equation(out, |constraint, own| constraint.acceleration(at, own));
-    }
-
     /// ∂c/∂t by multiplier.
     pub fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
         out.fill(0.0);

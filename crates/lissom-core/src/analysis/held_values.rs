@@ -3,7 +3,7 @@
 //! Forces jump with them, and accelerations by M⁻¹ ΔF. What a scheme remembers of accelerations jumps as well, or it
 //! would see the change late by a part of a step: an error of first order in every velocity.
 
-use super::initial_conditions::{ConsistentInitialConditions, InitialError};
+use super::initial_conditions::{ConsistentInitialConditions, Inertias, InitialError};
 use super::settings::Settings;
 use super::simulation::Simulation;
 use crate::diagnostics::diagnostics;
@@ -85,26 +85,36 @@ pub(super) fn settle(
 }
 
 impl Simulation {
-    /// Sets an input, from now on [SI]. Before the first step samples and initial accelerations are made to fit.
+    /// Sets inputs, all at once, from now on [SI]. Before the first step samples and initial accelerations are made to fit.
     ///
     /// # Errors
-    /// If there is no such input, if the value is not finite, or if there are no consistent accelerations with it. The
+    /// If there is no such input, if a value is not finite, or if there are no consistent accelerations with them. The
     /// simulation is then as it was.
-    pub fn set_input(&mut self, name: &str, value: f64) -> Result<(), InputError> {
+    pub fn set_inputs<'n>(
+        &mut self,
+        inputs: impl IntoIterator<Item = (&'n str, f64)>,
+    ) -> Result<(), InputError> {
         let graph = self.system.signals();
-        let Some(held) = graph.input(name) else {
-            let names: Vec<&str> = graph.input_names().collect();
-            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            return Err(InputError::Unknown { name: name.to_owned(), known });
-        };
-        if !value.is_finite() {
-            return Err(InputError::NotFinite { name: name.to_owned(), value });
+        let mut changed: Vec<(HeldId, f64)> = Vec::new();
+        for (name, value) in inputs {
+            let Some(held) = graph.input(name) else {
+                let names: Vec<&str> = graph.input_names().collect();
+                let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+                return Err(InputError::Unknown { name: name.to_owned(), known });
+            };
+            if !value.is_finite() {
+                return Err(InputError::NotFinite { name: name.to_owned(), value });
+            }
+            changed.push((held, value));
         }
-        if self.state.kinematics.held[held.index()] == value {
+        changed.retain(|(held, value)| self.state.kinematics.held[held.index()] != *value);
+        if changed.is_empty() {
             return Ok(());
         }
         let mut at = self.state.kinematics.clone();
-        at.held[held.index()] = value;
+        for (held, value) in changed {
+            at.held[held.index()] = value;
+        }
         graph.check(&at).map_err(InputError::Signal)?;
         if self.totals.steps > 0 {
             return Ok(self.change_held_values(at)?);
@@ -147,7 +157,8 @@ impl Simulation {
     /// If there are no consistent accelerations; the state is then as it was.
     pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
         let engages = self.engages(&at);
-        if self.switches_latch(&at) {
+        let switches = self.switches_latch(&at);
+        if switches {
             // The tangent of the equation that the latch had would solve the one it has to the tolerance alone, and leave that
             // much of a force where there is none.
             self.integrator.jacobian_state.has_tangent = false;
@@ -156,23 +167,32 @@ impl Simulation {
             self.state.kinematics = at;
             return Ok(());
         };
+        if !switches {
+            // Held values change forces, and the matrix only where a latch switches.
+            initial.factor(&self.system, &self.state, Inertias::All)?;
+            let mut after = self.state.clone();
+            after.kinematics.held = at.held;
+            let jump = initial.acceleration_jump(&self.system, &self.state, &after)?;
+            self.state.kinematics.held = after.kinematics.held;
+            self.add_jump(jump);
+            return Ok(());
+        }
+        let kept = self.state.clone();
         let before = initial.acceleration_at(&self.system, &self.state)?;
-        let kept = engages.then(|| self.state.clone());
-        let held = std::mem::replace(&mut self.state.kinematics.held, at.held);
-        if let Some(kept) = kept {
-            if let Err(error) = initial.velocities(&self.system, &mut self.state) {
+        self.state.kinematics.held = at.held;
+        let after =
+            if engages { initial.velocities(&self.system, &mut self.state).map(|_| ()) } else { Ok(()) }
+                .and_then(|()| initial.acceleration_at(&self.system, &self.state));
+        let mut jump = match after {
+            Ok(after) => after,
+            Err(error) => {
                 self.state = kept;
                 return Err(error);
             }
+        };
+        if engages {
             self.energy_balance.record_impact(&self.system, &kept.kinematics, &self.state.kinematics);
         }
-        let mut jump = match initial.acceleration_at(&self.system, &self.state) {
-            Ok(after) => after,
-            Err(error) => {
-                self.state.kinematics.held = held;
-                return Err(error);
-            }
-        };
         jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
         self.add_jump(jump);
         Ok(())

@@ -14,6 +14,7 @@ pub use super::initial_error::InitialError;
 use super::singular_positions::SingularPositions;
 use super::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
+use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
@@ -45,6 +46,8 @@ pub struct ConsistentInitialConditions {
     unchanged: Vec<f64>,
     /// The inertias that weigh.
     weights: Vec<f64>,
+    /// Values of joints where constraints are differentiated.
+    starts: JointStarts,
 }
 
 impl ConsistentInitialConditions {
@@ -66,6 +69,7 @@ impl ConsistentInitialConditions {
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             weights: Vec::new(),
+            starts: JointStarts::default(),
         }
     }
 
@@ -287,7 +291,7 @@ impl ConsistentInitialConditions {
     }
 
     fn factored_accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
-        let mut right = self.acceleration_vector(system, state)?;
+        let mut right = self.acceleration_with_factors(system, state)?;
         let layout = system.layout();
         for (row, impulse) in layout.impulses() {
             state.kinematics.coordinates[impulse].rate = std::mem::take(&mut right[row]);
@@ -339,6 +343,31 @@ impl ConsistentInitialConditions {
         }
     }
 
+    /// By what accelerations and multipliers jump, by row, from `before` to `after`: two states at the same place with the same
+    /// equations, for which the matrix was factorised last. In the rows of states stands what their rates lack, in those of
+    /// impulses their rates.
+    pub(super) fn acceleration_jump(
+        &mut self,
+        system: &System,
+        before: &State,
+        after: &State,
+    ) -> Result<Vec<f64>, InitialError> {
+        let mut jump;
+        let earlier;
+        if system.sees_multipliers() {
+            earlier = self.acceleration_with_factors(system, before)?;
+            jump = self.acceleration_with_factors(system, after)?;
+        } else {
+            earlier = self.right_side(system, &without_accelerations(system.layout(), before));
+            jump = self.right_side(system, &without_accelerations(system.layout(), after));
+        }
+        jump.iter_mut().zip(&earlier).for_each(|(after, before)| *after -= before);
+        if !system.sees_multipliers() {
+            self.solve(system, &mut jump);
+        }
+        Ok(jump)
+    }
+
     /// Accelerations and multipliers by row; in the rows of states, what their rates lack, in those of impulses their
     /// rates.
     pub(super) fn acceleration_at(
@@ -347,28 +376,26 @@ impl ConsistentInitialConditions {
         state: &State,
     ) -> Result<Vec<f64>, InitialError> {
         self.factor(system, state, Inertias::All)?;
-        self.acceleration_vector(system, state)
+        self.acceleration_with_factors(system, state)
     }
 
+    /// The same with the matrix factorised last.
+    ///
     /// Where forces depend on multipliers, these are found by repetition: friction is small against what presses.
-    fn acceleration_vector(&mut self, system: &System, state: &State) -> Result<Vec<f64>, InitialError> {
-        let layout = system.layout();
-        let count = layout.coordinate_count();
-        let mut at = state.kinematics.clone();
-        scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
-        for (_, impulse) in layout.impulses() {
-            at.coordinates[impulse].rate = 0.0;
-        }
-        let zero = vec![0.0; layout.multiplier_count];
-        let mut right = vec![0.0; layout.size()];
-        let mut change = f64::INFINITY;
+    fn acceleration_with_factors(
+        &mut self,
+        system: &System,
+        state: &State,
+    ) -> Result<Vec<f64>, InitialError> {
+        let count = system.layout().coordinate_count();
+        let mut at = without_accelerations(system.layout(), state);
+        let (mut change, mut solution) = (f64::INFINITY, Vec::new());
         for _ in 0..MAX_REPETITIONS {
-            system.residual(&self.point(&at, &zero), &mut right);
-            self.turn_slides(system, &at, &mut right);
-            right[..count].iter_mut().for_each(|value| *value = -*value);
-            system.constraint_accelerations(&at, &mut right[count..]);
-            right[count..].iter_mut().for_each(|value| *value = -*value);
+            let mut right = self.right_side(system, &at);
             self.solve(system, &mut right);
+            if !system.sees_multipliers() {
+                return Ok(right);
+            }
             let (seen, found) = (&mut at.multipliers, &right[count..]);
             let largest = found.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             let changes = seen.iter().zip(found).map(|(seen, found)| (seen - found).abs());
@@ -378,8 +405,24 @@ impl ConsistentInitialConditions {
                 return Ok(right);
             }
             at.show_multipliers(found);
+            solution = right;
         }
-        if change < REPEATED { Ok(right) } else { Err(InitialError::NormalForces { change }) }
+        if change < REPEATED { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
+    }
+
+    /// [-f; -(Ḃ v + ∂²c/∂t²)] at a motion without accelerations.
+    fn right_side(&mut self, system: &System, at: &Kinematics) -> Vec<f64> {
+        let layout = system.layout();
+        let zero = vec![0.0; layout.multiplier_count];
+        let mut right = vec![0.0; layout.size()];
+        system.residual(&self.point(at, &zero), &mut right);
+        self.turn_slides(system, at, &mut right);
+        let mut rates = zero;
+        system.begin_step(at, &mut self.starts);
+        let accelerations = &mut right[layout.coordinate_count()..];
+        system.violation_rates(at, &self.starts, [&mut rates, accelerations]);
+        right.iter_mut().for_each(|value| *value = -*value);
+        right
     }
 
     /// Puts Ḃ v in the rows of constraints between velocities: their derivative by places, along the motion.
@@ -422,7 +465,7 @@ impl ConsistentInitialConditions {
         for sign in [1.0, -1.0] {
             let moved = moved(state, sign * delay);
             self.factor(system, &moved, Inertias::All)?;
-            let there = self.acceleration_vector(system, &moved)?;
+            let there = self.acceleration_with_factors(system, &moved)?;
             for (value, acceleration) in difference.iter_mut().zip(&there) {
                 *value += 0.5 * sign * acceleration;
             }
@@ -442,6 +485,16 @@ impl ConsistentInitialConditions {
         }
         Ok(now)
     }
+}
+
+/// The motion of a state with accelerations and impulses of zero.
+fn without_accelerations(layout: &Layout, state: &State) -> Kinematics {
+    let mut at = state.kinematics.clone();
+    scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
+    for (_, impulse) in layout.impulses() {
+        at.coordinates[impulse].rate = 0.0;
+    }
+    at
 }
 
 /// The state moved along its motion for a short time, to second order.

@@ -32,8 +32,7 @@ def driven(
         is_finished = sim.is_finished or sim.time >= end
         values = {} if is_finished else {name: float(function(sim)) for name, function in inputs.items()}
         try:
-            for name, value in values.items():
-                sim.set(name, value)
+            sim.set(values)
             times.append(sim.time)
             rows.append(sim.values())
             if is_finished:

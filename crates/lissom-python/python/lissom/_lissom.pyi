@@ -1,6 +1,6 @@
 """The compiled part of the package."""
 
-from typing import Any, Callable, Mapping, Optional, Sequence, Union, final
+from typing import Any, Callable, Mapping, Optional, Sequence, Union, final, overload
 
 from ._linear import LinearModel
 from ._tables import Files
@@ -107,13 +107,23 @@ class Simulation:
         """Units of the columns, in the order of `values`."""
     def values(self) -> Array:
         """Present values of all columns: an array of shape (number of columns,), in SI units."""
-    def __getitem__(self, name: str, /) -> float:
-        """Present value of a column, a signal, an input or a state, in SI units."""
-    def set(self, name: str, value: float) -> None:
-        """Sets an input of the model from now on, until it is set again.
+    @overload
+    def __getitem__(self, names: str, /) -> float: ...
+    @overload
+    def __getitem__(self, names: Sequence[str], /) -> Array:
+        """Present value of a column, a signal, an input or a state, in SI units; with a list of names an array of their values."""
+    @overload
+    def set(self, inputs: str, value: float) -> None: ...
+    @overload
+    def set(self, inputs: Mapping[str, float]) -> None: ...
+    @overload
+    def set(self, inputs: Sequence[str], value: Union[Sequence[float], Array]) -> None:
+        """Sets inputs of the model from now on, until they are set again: `set("torque", 0.5)`, `set({"torque": 0.5, "brake": 1})`,
+        or `set(names, values)` with a list of names and a list or array of as many values. Several inputs that are set at once
+        cost as much as one.
 
-        Raises `ValueError` if the model has no such input or the value is not finite, `SolutionError` if there is no
-        consistent start with it.
+        Raises `ValueError` if the model has no such input or a value is not finite, `SolutionError` if there is no
+        consistent start with them; then none is set.
         """
     def linearize(self, inputs: Union[str, Sequence[str]] = ..., outputs: Union[str, Sequence[str]] = ...) -> LinearModel:
         """The model linearised where the simulation stands, a `lissom.LinearModel`: what `model.linearize` gives about this

@@ -248,6 +248,16 @@ impl Session {
         self.observed.values_of(channel, self.simulation.state(), self.simulation.step_of_rates())
     }
 
+    /// The present value of a column, counted from 0; NaN if there is none.
+    pub fn column_value(&self, column: usize) -> f64 {
+        self.observed.value(column, self.simulation.state(), self.simulation.step_of_rates())
+    }
+
+    /// Whether a column needs more than positions, which are known without a solution of equations.
+    pub fn recovers(&self, column: usize) -> bool {
+        self.observed.recovers(column)
+    }
+
     /// The present value of a signal, an input or a state, or of a column, such as `tip.u1`; none if the name is unknown.
     pub fn value(&self, name: &str) -> Option<f64> {
         let (system, state) = (self.simulation.system(), self.simulation.state());
@@ -265,7 +275,18 @@ impl Session {
     /// # Errors
     /// If the model has no such input, or the value is not finite.
     pub fn set_input(&mut self, name: &str, value: f64) -> Result<(), InputError> {
-        self.simulation.set_input(name, value)
+        self.set_inputs([(name, value)])
+    }
+
+    /// Sets inputs, all at once, until they are set again: this costs as much as one of them.
+    ///
+    /// # Errors
+    /// If the model has no such input, or a value is not finite; then none is set.
+    pub fn set_inputs<'n>(
+        &mut self,
+        inputs: impl IntoIterator<Item = (&'n str, f64)>,
+    ) -> Result<(), InputError> {
+        self.simulation.set_inputs(inputs)
     }
 
     /// Performs one step: the next planned one, or one whose size is limited by its error. On failure the state remains

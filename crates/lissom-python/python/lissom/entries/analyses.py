@@ -31,7 +31,7 @@ class Dynamics(Analysis):
         tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
-        output_every: number of steps between records, default 1; a whole number from 1 to 1000000000, or nothing.
+        output_every: number of steps between records; default 1, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, or nothing.
         end: last time [s]; a number.
@@ -84,7 +84,7 @@ class Statics(Analysis):
         tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
-        output_every: number of steps between records, default 1; a whole number from 1 to 1000000000, or nothing.
+        output_every: number of steps between records; default 1, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         end: last time, default 1 [s]; a number, or nothing.
         steps: number of load steps; default: adaptive, by contraction and error; a whole number from 1 to 1000000, or nothing.

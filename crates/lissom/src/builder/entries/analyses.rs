@@ -114,7 +114,7 @@ keys! {
 
 keys! {
     [Dynamics, Statics]
-    /// Number of steps between records, default 1.
+    /// Number of steps between records; default 1, or several records in each adaptive step.
     output_every: usize = "output_every";
     /// Frames of the recorded motion per simulated second; default at most 600 over the run \[1/s\].
     frames_per_second: f64 = "frames_per_second";
