@@ -1,8 +1,14 @@
 //! Elements of a drawing.
 
 use crate::png::{self, PngError};
-use crate::raster::Image;
+use crate::raster::Raster;
 use crate::svg;
+
+/// Width of the edge that is drawn around polygons.
+pub(crate) const EDGE: f64 = 0.8;
+
+/// Lengths of a dash and of the gap after it.
+pub(crate) const DASH: [f64; 2] = [8.0, 4.0];
 
 /// Red, green and blue in screen values, 0 to 255.
 pub type Shade = [u8; 3];
@@ -117,17 +123,13 @@ impl Drawing {
     /// # Errors
     /// If a position is not a finite number, or the drawing is too large.
     pub fn png(&self) -> Result<Vec<u8>, DrawingError> {
-        Ok(png::picture(&self.image(2.0)?)?)
+        Ok(png::picture(&self.raster(2.0)?)?)
     }
 
-    /// The drawing as pixels, `scale` of them for each of the drawing.
-    pub(crate) fn image(&self, scale: f64) -> Result<Image, DrawingError> {
+    /// The drawing as outlines, `scale` pixels for each of its own.
+    pub(crate) fn raster(&self, scale: f64) -> Result<Raster, DrawingError> {
         self.check()?;
-        let mut image = Image::new(self.size, scale)?;
-        for shape in &self.shapes {
-            image.draw(shape);
-        }
-        Ok(image)
+        Ok(Raster::new(self, scale)?)
     }
 
     fn check(&self) -> Result<(), DrawingError> {

@@ -14,14 +14,13 @@
 
 mod axis;
 mod chart;
-mod dashes;
 mod drawing;
 mod lettering;
 mod png;
 mod raster;
 mod svg;
 
+pub use self::png::{PngError, animation};
 pub use axis::{Axis, Scale};
 pub use chart::{Chart, Curve, Mark, Panel};
 pub use drawing::{Align, Drawing, DrawingError, Shade, palette};
-pub use png::{PngError, animation};

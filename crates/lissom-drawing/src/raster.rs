@@ -1,250 +1,181 @@
-//! Drawings as pixels, antialiased: the weight of a shape's colour in a pixel is the area that it covers.
+//! Drawings as pixels, antialiased.
 
-use crate::dashes::dashes;
-use crate::drawing::{Align, Shade, Shape};
+use std::io::Write;
+
+use png::EncodingError;
+use tiny_skia::{
+    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform,
+};
+
+use crate::drawing::{Align, DASH, Drawing, EDGE, Shade, Shape};
 use crate::lettering;
 use crate::png::PngError;
 
 /// Maximum number of pixels of a picture.
 const MAX_PIXELS: f64 = 1e8;
 
-/// Rows of pixels, red, green and blue.
-#[derive(Clone, Debug)]
-pub(crate) struct Image {
-    pub(crate) width: usize,
-    pub(crate) height: usize,
-    pub(crate) pixels: Vec<u8>,
-    /// Pixels for each of the drawing.
-    scale: f64,
-    /// Coverage of each pixel by the present shape, zero before and after.
-    cover: Vec<f32>,
+/// Number of rows that are drawn at once. They stay in the cache, whereas for a whole picture the system would provide
+/// new memory, which takes longer than drawing.
+const BAND: u32 = 64;
+
+/// A drawing as outlines in pixels.
+pub(crate) struct Raster {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    outlines: Vec<Outline>,
 }
 
-/// Pixels from a position up to another, the latter excluded.
-#[derive(Clone, Copy)]
-struct Bounds {
-    from: [usize; 2],
-    to: [usize; 2],
+struct Outline {
+    path: Path,
+    paint: Paint<'static>,
 }
 
-impl Image {
-    /// A white picture.
-    pub(crate) fn new(size: [f64; 2], scale: f64) -> Result<Self, PngError> {
-        let [width, height] = size.map(|side| (side * scale).ceil());
+impl Raster {
+    /// The drawing, `scale` pixels for each of its own.
+    pub(crate) fn new(drawing: &Drawing, scale: f64) -> Result<Self, PngError> {
+        let [width, height] = drawing.size.map(|side| (side * scale).ceil().max(0.0));
         if width * height > MAX_PIXELS {
             return Err(PngError::TooLarge { width: width as u64, height: height as u64 });
         }
-        let [width, height] = [width, height].map(|side| side.max(0.0) as usize);
-        if width == 0 || height == 0 {
+        if width * height == 0.0 {
             return Err(PngError::Nothing);
         }
-        Ok(Image {
-            width,
-            height,
-            pixels: vec![255; 3 * width * height],
-            scale,
-            cover: vec![0.0; width * height],
-        })
+        let mut raster = Self { width: width as u32, height: height as u32, outlines: Vec::new() };
+        for shape in &drawing.shapes {
+            raster.add(shape, scale as f32);
+        }
+        Ok(raster)
     }
 
-    pub(crate) fn draw(&mut self, shape: &Shape) {
-        let scale = self.scale;
-        let scaled = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
-            points.iter().map(|place| place.map(|number| scale * number)).collect()
-        };
+    fn add(&mut self, shape: &Shape, scale: f32) {
+        let scaling = Transform::from_scale(scale, scale);
         match shape {
             Shape::Polygon { points, shade } => {
-                let mut outline = scaled(points);
-                self.fill(std::slice::from_ref(&outline), *shade);
-                outline.extend(outline.first().copied());
-                self.stroke(&outline, 0.8 * scale, *shade);
+                let outline = path(points, true).and_then(|path| path.transform(scaling));
+                self.stroke(outline.as_ref(), *shade, EDGE as f32 * scale, None);
+                self.fill(outline, *shade);
             }
-            Shape::Disc { center, radius, shade } => {
-                let corner = |k: u32| {
-                    let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos();
-                    [center[0] + radius * cosine, center[1] + radius * sine].map(|number| scale * number)
-                };
-                self.fill(&[(0..24).map(corner).collect()], *shade);
+            Shape::Disc { center: [x, y], radius, shade } => {
+                let circle = PathBuilder::from_circle(*x as f32, *y as f32, *radius as f32);
+                self.fill(circle.and_then(|path| path.transform(scaling)), *shade);
+            }
+            Shape::Line { points, shade, width, is_dashed: false } if is_rectilinear(points) => {
+                for pair in points.windows(2) {
+                    self.bar(pair, *shade, 0.5 * width, f64::from(scale));
+                }
             }
             Shape::Line { points, shade, width, is_dashed } => {
-                let pieces = if *is_dashed { dashes(points) } else { vec![points.clone()] };
-                for piece in pieces {
-                    self.stroke(&scaled(&piece), width * scale, *shade);
-                }
+                let line = path(points, false).and_then(|path| path.transform(scaling));
+                let dash = is_dashed.then(|| DASH.map(|length| length as f32 * scale).to_vec());
+                self.stroke(line.as_ref(), *shade, *width as f32 * scale, dash);
             }
-            Shape::Words { at, text, height, align, shade, is_upright } => {
-                let height = scale * f64::from(*height);
-                let shift = lettering::width(text, height)
-                    * match align {
-                        Align::Start => 0.0,
-                        Align::Middle => 0.5,
-                        Align::End => 1.0,
-                    };
-                let place = |[x, y]: [f64; 2]| {
-                    let [x, y] = if *is_upright { [y, shift - x] } else { [x - shift, y] };
-                    [scale * at[0] + x, scale * at[1] + y]
+            Shape::Words { at: [x, y], text, height, align, shade, is_upright } => {
+                let share = match align {
+                    Align::Start => 0.0,
+                    Align::Middle => 0.5,
+                    Align::End => 1.0,
                 };
-                let outlines: Vec<Vec<[f64; 2]>> = lettering::outlines(text, height)
-                    .into_iter()
-                    .map(|outline| outline.into_iter().map(place).collect())
-                    .collect();
-                self.fill(&outlines, *shade);
+                let start = -share * lettering::width(text, f64::from(*height));
+                let place = scaling
+                    .pre_translate(*x as f32, *y as f32)
+                    .pre_rotate(if *is_upright { -90.0 } else { 0.0 })
+                    .pre_translate(start as f32, 0.0);
+                let letters = lettering::outlines(text, f64::from(*height));
+                self.fill(letters.and_then(|path| path.transform(place)), *shade);
             }
         }
     }
 
-    /// Pixels that positions within `reach` may touch, if there are any in the picture.
-    fn bounds<'a>(&self, places: impl Iterator<Item = &'a [f64; 2]>, reach: f64) -> Option<Bounds> {
-        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for place in places {
-            for axis in 0..2 {
-                least[axis] = least[axis].min(place[axis] - reach);
-                most[axis] = most[axis].max(place[axis] + reach);
-            }
-        }
-        let sides = [self.width, self.height];
-        // Numbers beyond the picture are clamped to it.
-        let from = std::array::from_fn(|axis| (least[axis].floor().max(0.0) as usize).min(sides[axis]));
-        let to = std::array::from_fn(|axis| (most[axis].ceil().max(0.0) as usize).min(sides[axis]));
-        (from[0] < to[0] && from[1] < to[1]).then_some(Bounds { from, to })
+    fn fill(&mut self, path: Option<Path>, shade: Shade) {
+        self.outlines.extend(path.map(|path| Outline { path, paint: paint(shade) }));
     }
 
-    /// Fills closed outlines; holes have the opposite orientation.
-    ///
-    /// Every edge adds its change of coverage to the pixels that it crosses, so that sums along rows are the covered
-    /// area.
-    fn fill(&mut self, outlines: &[Vec<[f64; 2]>], shade: Shade) {
-        let Some(bounds) = self.bounds(outlines.iter().flatten(), 1.0) else { return };
-        for outline in outlines {
-            for (index, &to) in outline.iter().enumerate() {
-                let from = outline[(index + outline.len() - 1) % outline.len()];
-                self.edge(from, to, bounds);
-            }
-        }
-        for row in bounds.from[1]..bounds.to[1] {
-            let mut sum = 0.0;
-            for column in bounds.from[0]..bounds.to[0] {
-                let index = row * self.width + column;
-                sum += std::mem::take(&mut self.cover[index]);
-                self.blend(index, sum.abs().min(1.0), shade);
-            }
-        }
+    fn stroke(&mut self, path: Option<&Path>, shade: Shade, width: f32, dash: Option<Vec<f32>>) {
+        let (line_cap, line_join) = (LineCap::Round, LineJoin::Round);
+        let line = Stroke { width, line_cap, line_join, ..Stroke::default() };
+        let dashed = dash.and_then(|lengths| path?.dash(&StrokeDash::new(lengths, 0.0)?, 1.0));
+        self.fill(dashed.as_ref().or(path).and_then(|path| path.stroke(&line, 1.0)), shade);
     }
 
-    fn edge(&mut self, from: [f64; 2], to: [f64; 2], bounds: Bounds) {
-        let (sign, top, bottom) = if from[1] < to[1] { (1.0, from, to) } else { (-1.0, to, from) };
-        if bottom[1] <= top[1] {
-            return;
-        }
-        let slope = (bottom[0] - top[0]) / (bottom[1] - top[1]);
-        let [left, right] = [bounds.from[0] as f64, bounds.to[0] as f64];
-        let first = (top[1].floor().max(bounds.from[1] as f64)) as usize;
-        let last = (bottom[1].ceil().clamp(0.0, bounds.to[1] as f64)) as usize;
-        for row in first..last {
-            let (y0, y1) = (top[1].max(row as f64), bottom[1].min(row as f64 + 1.0));
-            if y1 <= y0 {
-                continue;
-            }
-            let x = [y0, y1].map(|y| (top[0] + slope * (y - top[1])).clamp(left, right));
-            let (x0, x1) = (x[0].min(x[1]), x[0].max(x[1]));
-            let area = sign * (y1 - y0);
-            let (start, end) = (x0.floor() as usize, x1.ceil().max(x0.floor() + 1.0) as usize);
-            // Fraction of the edge's height that is left of the right end of each pixel.
-            let mut before = 0.0;
-            for column in start..=end {
-                if column >= bounds.to[0] {
-                    break;
-                }
-                let covered = covered_share(x0, x1, column as f64);
-                self.cover[row * self.width + column] += (area * (covered - before)) as f32;
-                before = covered;
-            }
-        }
+    /// Adds a line along an axis, of whole pixels: sharp, and drawn in a fraction of the time.
+    fn bar(&mut self, ends: &[[f64; 2]], shade: Shade, half: f64, scale: f64) {
+        let sides = [self.width, self.height].map(f64::from);
+        let [[left, right], [top, bottom]] = [0, 1].map(|axis| {
+            let [from, to] = [ends[0][axis], ends[1][axis]];
+            let low = (scale * (from.min(to) - half)).round();
+            let length = (scale * ((from - to).abs() + 2.0 * half)).round().max(1.0);
+            [low, low + length].map(|number| number.clamp(0.0, sides[axis]) as f32)
+        });
+        let paint = Paint { anti_alias: false, ..paint(shade) };
+        let bar = Rect::from_ltrb(left, top, right, bottom).map(PathBuilder::from_rect);
+        self.outlines.extend(bar.map(|path| Outline { path, paint }));
     }
 
-    /// Draws a line of a width, with round ends and corners.
-    fn stroke(&mut self, points: &[[f64; 2]], width: f64, shade: Shade) {
-        let reach = 0.5 * width + 1.0;
-        let Some(bounds) = self.bounds(points.iter(), reach) else { return };
-        for pair in points.windows(2) {
-            self.segment(pair[0], pair[1], width);
-        }
-        for row in bounds.from[1]..bounds.to[1] {
-            for column in bounds.from[0]..bounds.to[0] {
-                let index = row * self.width + column;
-                let cover = std::mem::take(&mut self.cover[index]);
-                if cover > 0.0 {
-                    self.blend(index, cover, shade);
+    /// Writes red, green and blue of all pixels, row by row from above, on white.
+    pub(crate) fn write(&self, target: &mut impl Write) -> Result<(), PngError> {
+        let mut band = Pixmap::new(self.width, BAND.min(self.height)).ok_or(PngError::Nothing)?;
+        let mut colours = vec![[0; 3]; self.width as usize];
+        for top in (0..self.height).step_by(BAND as usize) {
+            let rows = BAND.min(self.height - top);
+            let [from, to] = [top, top + rows].map(|row| row as f32);
+            band.data_mut().fill(255);
+            for Outline { path, paint } in &self.outlines {
+                if path.bounds().top() < to && path.bounds().bottom() > from {
+                    let place = Transform::from_translate(0.0, -from);
+                    band.fill_path(path, paint, FillRule::Winding, place, None);
                 }
             }
-        }
-    }
-
-    /// Records the coverage of pixels by a straight segment, unless another segment covers more.
-    fn segment(&mut self, from: [f64; 2], to: [f64; 2], width: f64) {
-        let reach = 0.5 * width + 1.0;
-        let Some(bounds) = self.bounds([from, to].iter(), reach) else { return };
-        // Lines thinner than a pixel are paler.
-        let most = width.min(1.0);
-        let along = [to[0] - from[0], to[1] - from[1]];
-        let square = along[0] * along[0] + along[1] * along[1];
-        for row in bounds.from[1]..bounds.to[1] {
-            let y = row as f64 + 0.5;
-            // The part within reach of this row.
-            let x = [y - reach, y + reach].map(|y| {
-                let share = if along[1] == 0.0 { 0.0 } else { ((y - from[1]) / along[1]).clamp(0.0, 1.0) };
-                from[0] + share * along[0]
-            });
-            let (left, right) = if along[1] == 0.0 {
-                (from[0].min(to[0]) - reach, from[0].max(to[0]) + reach)
-            } else {
-                (x[0].min(x[1]) - reach, x[0].max(x[1]) + reach)
-            };
-            let first = (left.floor().max(0.0) as usize).max(bounds.from[0]);
-            let last = (right.ceil().max(0.0) as usize).min(bounds.to[0]);
-            for column in first..last {
-                let offset = [column as f64 + 0.5 - from[0], y - from[1]];
-                let share = (offset[0] * along[0] + offset[1] * along[1]) / square;
-                let share = if square > 0.0 { share.clamp(0.0, 1.0) } else { 0.0 };
-                let distance = (offset[0] - share * along[0]).hypot(offset[1] - share * along[1]);
-                let cover = (0.5 * width.max(1.0) + 0.5 - distance).clamp(0.0, 1.0) * most;
-                let known = &mut self.cover[row * self.width + column];
-                *known = known.max(cover as f32);
+            let pixels = band.data().as_chunks::<4>().0;
+            for row in pixels.chunks_exact(colours.len()).take(rows as usize) {
+                for (colour, [red, green, blue, _]) in colours.iter_mut().zip(row) {
+                    *colour = [*red, *green, *blue];
+                }
+                target.write_all(colours.as_flattened()).map_err(EncodingError::from)?;
             }
         }
-    }
-
-    fn blend(&mut self, index: usize, cover: f32, shade: Shade) {
-        if cover <= 0.0 {
-            return;
-        }
-        for (pixel, shade) in self.pixels[3 * index..3 * index + 3].iter_mut().zip(shade) {
-            let mixed = f32::from(*pixel) + cover * (f32::from(shade) - f32::from(*pixel));
-            *pixel = mixed.round() as u8;
-        }
+        Ok(())
     }
 }
 
-/// Fraction of a pixel's width, from `column` on, that is right of an edge from `x0` to `x1`, averaged over its height; the part
-/// further left counts as whole.
-fn covered_share(x0: f64, x1: f64, column: f64) -> f64 {
-    let right = column + 1.0;
-    if x1 - x0 < 1e-9 {
-        return (right - x0).clamp(0.0, 1.0);
+fn paint([red, green, blue]: Shade) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(red, green, blue, 255);
+    paint
+}
+
+fn is_rectilinear(points: &[[f64; 2]]) -> bool {
+    points.windows(2).all(|pair| pair[0][0] == pair[1][0] || pair[0][1] == pair[1][1])
+}
+
+fn path(points: &[[f64; 2]], is_closed: bool) -> Option<Path> {
+    let mut builder = PathBuilder::with_capacity(points.len() + 1, points.len());
+    for (index, [x, y]) in points.iter().enumerate() {
+        let (x, y) = (*x as f32, *y as f32);
+        if index == 0 { builder.move_to(x, y) } else { builder.line_to(x, y) }
     }
-    // Integral over the edge of the part to its right within the pixel.
-    let part = |from: f64, to: f64| 0.5 * (to - from).max(0.0) * ((right - from) + (right - to).max(0.0));
-    let before = (x1.min(column) - x0).max(0.0);
-    let inside = part(x0.max(column), x1.min(right));
-    (before + if x1.min(right) > x0.max(column) { inside } else { 0.0 }) / (x1 - x0)
+    if is_closed {
+        builder.close();
+    }
+    builder.finish()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn darkness(image: &Image) -> f64 {
-        image.pixels.iter().map(|pixel| 1.0 - f64::from(*pixel) / 255.0).sum::<f64>() / 3.0
+    fn empty(width: f64, height: f64) -> Raster {
+        Raster::new(&Drawing::new("empty", [width, height]), 1.0).unwrap()
+    }
+
+    fn pixels(raster: &Raster) -> Vec<u8> {
+        let mut pixels = Vec::new();
+        raster.write(&mut pixels).unwrap();
+        pixels
+    }
+
+    /// Sum over the pixels, one for a black one.
+    fn darkness(raster: &Raster) -> f64 {
+        pixels(raster).iter().map(|pixel| 1.0 - f64::from(*pixel) / 255.0).sum::<f64>() / 3.0
     }
 
     #[test]
@@ -254,50 +185,86 @@ mod tests {
             vec![[2.25, 2.5], [9.75, 2.5], [9.75, 12.75], [2.25, 12.75]],
             vec![[2.0, 2.0], [2.0, 18.0], [18.0, 18.0], [18.0, 17.0], [3.0, 17.0], [3.0, 2.0]],
         ] {
-            let mut image = Image::new([20.0, 20.0], 1.0).unwrap();
-            image.fill(std::slice::from_ref(&points), [0; 3]);
+            let mut raster = empty(20.0, 20.0);
+            raster.fill(path(&points, true), [0; 3]);
             let next = |index: usize| points[(index + 1) % points.len()];
             let twice: f64 =
                 points.iter().enumerate().map(|(i, a)| a[0] * next(i)[1] - a[1] * next(i)[0]).sum();
-            assert!((darkness(&image) - 0.5 * twice.abs()).abs() < 0.1, "{} {twice}", darkness(&image));
+            let found = darkness(&raster) / (0.5 * twice.abs());
+            assert!((found - 1.0).abs() < 0.01, "{found} {twice}");
         }
     }
 
     #[test]
     fn lines_cover_length_times_width() {
-        for (to, width) in
-            [([40.0, 10.0], 3.0), ([10.0, 40.0], 1.5), ([45.0, 38.0], 2.0), ([45.0, 38.0], 0.5)]
-        {
-            let mut image = Image::new([50.0, 50.0], 1.0).unwrap();
-            image.stroke(&[[10.0, 10.0], to], width, [0; 3]);
+        // The last ones cross several bands.
+        for (to, width) in [
+            ([40.0, 10.0], 3.0),
+            ([10.0, 40.0], 1.5),
+            ([45.0, 38.0], 2.0),
+            ([45.0, 38.0], 0.5),
+            ([45.0, 190.0], 2.0),
+            ([45.0, 190.0], 9.0),
+        ] {
+            let mut raster = empty(60.0, 200.0);
+            raster.stroke(path(&[[10.0, 10.0], to], false).as_ref(), [0; 3], width, None);
             let length = f64::hypot(to[0] - 10.0, to[1] - 10.0);
-            let found = darkness(&image) / (length * width + 0.25 * std::f64::consts::PI * width * width);
+            let width = f64::from(width);
+            let found = darkness(&raster) / (length * width + 0.25 * std::f64::consts::PI * width * width);
             assert!((found - 1.0).abs() < 0.06, "{to:?} {width}: {found}");
         }
     }
 
     #[test]
+    fn lines_along_an_axis_are_whole_pixels() {
+        let mut drawing = Drawing::new("corner", [20.0, 20.0]);
+        drawing.line(vec![[3.3, 2.0], [3.3, 16.2], [18.0, 16.2]], [0; 3], 1.0);
+        let raster = Raster::new(&drawing, 2.0).unwrap();
+        let found = pixels(&raster);
+        assert!(found.iter().all(|pixel| [0, 255].contains(pixel)));
+        assert_eq!(darkness(&raster), 2.0 * 30.0 + 2.0 * 29.0);
+    }
+
+    #[test]
+    fn dashes_go_on_along_a_curve_of_many_points() {
+        let mut drawing = Drawing::new("dashes", [60.0, 6.0]);
+        let points = (0..=1000).map(|k| [0.0599 * f64::from(k), 3.0]).collect();
+        drawing.dashed_line(points, [0; 3], 2.0);
+        let found = pixels(&Raster::new(&drawing, 1.0).unwrap());
+        // Dashes begin at 0, 12, 24, 36 and 48, and each is 8 long.
+        for dash in 0..5 {
+            let row = |column: usize| found[3 * (3 * 60 + 12 * dash + column)];
+            assert_eq!([row(2), row(6), row(10)], [0, 0, 255], "{dash}");
+        }
+    }
+
+    #[test]
     fn what_lies_outside_is_cut_off() {
-        let mut image = Image::new([10.0, 10.0], 1.0).unwrap();
-        image.fill(&[vec![[-50.0, -50.0], [60.0, -50.0], [60.0, 60.0], [-50.0, 60.0]]], [0; 3]);
-        assert!((darkness(&image) - 100.0).abs() < 1e-9, "{}", darkness(&image));
-        let mut image = Image::new([10.0, 10.0], 1.0).unwrap();
-        image.fill(&[vec![[-50.0, -50.0], [5.0, -50.0], [5.0, 60.0], [-50.0, 60.0]]], [0; 3]);
-        assert!((darkness(&image) - 50.0).abs() < 1e-9, "{}", darkness(&image));
-        image.stroke(&[[20.0, 20.0], [30.0, 30.0]], 2.0, [0; 3]);
-        image.stroke(&[[-1e9, 5.0], [1e9, 5.0]], 2.0, [255; 3]);
-        assert!((darkness(&image) - 40.0).abs() < 0.1, "{}", darkness(&image));
+        let square = |right: f64| path(&[[-50.0, -50.0], [right, -50.0], [right, 60.0], [-50.0, 60.0]], true);
+        let mut raster = empty(10.0, 10.0);
+        raster.fill(square(60.0), [0; 3]);
+        assert!((darkness(&raster) - 100.0).abs() < 1e-9, "{}", darkness(&raster));
+        let mut raster = empty(10.0, 10.0);
+        raster.fill(square(5.0), [0; 3]);
+        assert!((darkness(&raster) - 50.0).abs() < 1e-9, "{}", darkness(&raster));
+        let mut line = |points: [[f64; 2]; 2], shade| {
+            let points = points.to_vec();
+            raster.add(&Shape::Line { points, shade, width: 2.0, is_dashed: false }, 1.0);
+        };
+        line([[20.0, 20.0], [30.0, 30.0]], [0; 3]);
+        line([[-1e9, 5.0], [1e9, 5.0]], [255; 3]);
+        assert!((darkness(&raster) - 40.0).abs() < 0.1, "{}", darkness(&raster));
     }
 
     #[test]
     fn words_are_as_dark_upright_as_level() {
         let words = |is_upright| {
-            let mut image = Image::new([120.0, 120.0], 1.0).unwrap();
+            let mut raster = empty(120.0, 120.0);
             let at = if is_upright { [60.3, 110.0] } else { [10.0, 60.3] };
             let text = "displacement [m]".to_owned();
             let (height, align, shade) = (12, Align::Start, [0; 3]);
-            image.draw(&Shape::Words { at, text, height, align, shade, is_upright });
-            darkness(&image)
+            raster.add(&Shape::Words { at, text, height, align, shade, is_upright }, 1.0);
+            darkness(&raster)
         };
         let [level, upright] = [words(false), words(true)];
         assert!(level > 100.0 && (upright / level - 1.0).abs() < 0.02, "{level} {upright}");

@@ -2,8 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::dashes::DASH;
-use crate::drawing::{Align, Drawing, Shade, Shape};
+use crate::drawing::{Align, DASH, Drawing, EDGE, Shade, Shape};
 
 /// The text of an SVG file.
 pub(crate) fn text(drawing: &Drawing) -> String {
@@ -20,7 +19,7 @@ pub(crate) fn text(drawing: &Drawing) -> String {
                 let (path, colour) = (path(points), hexadecimal(*shade));
                 writeln!(
                     svg,
-                    "<path d=\"{path}Z\" fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.8\" stroke-linejoin=\"round\"/>"
+                    "<path d=\"{path}Z\" fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"{EDGE}\" stroke-linejoin=\"round\"/>"
                 )
             }
             Shape::Disc { center, radius, shade } => {
