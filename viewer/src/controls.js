@@ -84,7 +84,9 @@ export const connect = (viewer) => {
   document.addEventListener("keydown", (event) => {
     const isTyping = event.target.matches("select, textarea, input:not([type=range]):not([type=checkbox])");
     const action = actions[event.key];
-    if (!action || isTyping || event.ctrlKey || event.metaKey || event.altKey || $("keys").open || !viewer.history) return;
+    // Space on a button of a notice presses it.
+    const isPressing = event.key === " " && event.target.closest("#notices");
+    if (!action || isTyping || isPressing || event.ctrlKey || event.metaKey || event.altKey || $("keys").open || !viewer.history) return;
     event.preventDefault();
     action(event);
   });

@@ -161,6 +161,15 @@ export class ModelView {
     glow(this.parts.get(this.selected), new THREE.Color(this.theme.selected).multiplyScalar(0.45));
   }
 
+  /** The part that a diagnostic names: itself, the one that contains a node or coordinate, or the one of an output. */
+  partOf(name) {
+    const output = this.scene.outputs.find((each) => each.name === name);
+    for (let part = output?.of ?? name; part; part = part.slice(0, Math.max(part.search(/[.@][^.@]*$/), 0))) {
+      if (this.parts.has(part)) return part;
+    }
+    return null;
+  }
+
   /** The name of what is drawn at a pixel. */
   pick(x, y) {
     const { clientWidth: width, clientHeight: height } = this.stage.holder;

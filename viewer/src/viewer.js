@@ -7,6 +7,7 @@ import { fields } from "./fields.js";
 import { Kinematics } from "./kinematics.js";
 import { ModelView } from "./model.js";
 import { Modes } from "./modes.js";
+import { Notices } from "./notices.js";
 import { Panel } from "./panel.js";
 import { Player } from "./player.js";
 import { Plots } from "./plots.js";
@@ -39,6 +40,7 @@ export class Viewer {
     this.player = new Player(() => (this.isMoved = true));
     this.plots = new Plots($("plots"), (time) => this.player.seek(time));
     this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name));
+    this.shown = new Notices($("notices"), (notice) => this.point(notice));
     this.modes = new Modes($("modes"), (index) => this.showMode(index));
     this.choices = { bodyShape: "box", colour: "part", magnification: 1, against: "", traces: false, follow: false };
     requestAnimationFrame((now) => this.draw(now));
@@ -81,7 +83,6 @@ export class Viewer {
     $("title").textContent = result.title || result.name || "results";
     document.title = `${result.title || result.name} — Lissom`;
     $("facts").textContent = result.facts ?? "";
-    this.notices(result.notices ?? []);
     this.kinematics = motion && motion.frames > 0 ? new Kinematics(motion) : null;
     if (this.kinematics) this.kinematics.magnification = this.choices.magnification;
     this.modes.load(this.kinematics ? result.modes ?? [] : []);
@@ -103,6 +104,7 @@ export class Viewer {
     if (this.modes.current) this.player.speed = 0.5;
     this.offerColours();
     this.select(selected);
+    this.notices(result.notices ?? []);
     $("scrub").disabled = $("play").disabled = !this.player.canPlay;
     this.isMoved = true;
   }
@@ -146,12 +148,25 @@ export class Viewer {
     this.isMoved = true;
   }
 
+  /** Shows notices, with what the picture has of the part and the time that they name. */
   notices(list) {
-    $("notices").replaceChildren(
-      ...list.map(({ kind, text, is_code: isCode }) =>
-        Object.assign(document.createElement("p"), { className: `${kind}${isCode ? " code" : ""}`, textContent: text }),
-      ),
-    );
+    // Modes have no time, and along a path the clock shows its length.
+    const hasTime = this.history && !this.modes.current && !this.result.scene?.path;
+    const at = ({ time }) => hasTime && Number.isFinite(time) && (this.isStatic ? `load ${spelled(time, 4)}` : `${spelled(time, 4)} s`);
+    const found = list.map((notice) => {
+      const part = notice.part && this.model?.partOf(notice.part);
+      const shown = [part, at(notice)].filter(Boolean).join(", ");
+      return { ...notice, part, time: hasTime ? notice.time : null, shown };
+    });
+    this.shown.load(found);
+  }
+
+  /** Shows the part and the time of a notice. */
+  point({ part, time }) {
+    if (part) this.select(part);
+    if (!Number.isFinite(time)) return;
+    this.player.play(false);
+    this.player.seek(time);
   }
 
   /**

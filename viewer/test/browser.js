@@ -424,6 +424,30 @@ frames_per_second = 1000
     assert.match(await second.page.locator("#notices .error").textContent(), /failed/);
     assert.deepEqual(second.complaints(), []);
   },
+  "warnings come first": async (browser) => {
+    const own = mkdtempSync(join(folder, "new-"));
+    const model = join(own, "press.toml");
+    execFileSync(program, ["new", "press"], { cwd: own });
+    const bodies = Array.from({ length: 7 }, (_, k) => `\n[bodies.loose${k}]\nmass = 0.1\ninertia = [1e-5, 1e-5, 1e-5]\nposition = [${0.1 * k}, 0.5, 0]\n`);
+    writeFileSync(model, readFileSync(model, "utf8") + bodies.join(""));
+    const { page, complaints } = await open(browser, join(view(model, "analysis.step=0.01", "analysis.end=1"), "view.html"));
+    const first = page.locator("#notices p").first();
+    assert.match(await first.textContent(), /model.*`loose0` is not connected to anything.*Remedy: add a joint/s);
+    await first.getByRole("button").click();
+    assert.equal(await page.evaluate(() => lissom.model.selected), "loose0");
+    assert.equal(await page.locator("#notices > p").count(), 5);
+    const rest = page.locator("#notices details");
+    const of = rest.locator("p", { hasText: "unresolved-motion" }).getByRole("button");
+    assert.equal(await of.isVisible(), false);
+    await rest.locator("summary").press("Enter");
+    await of.press("Space");
+    const { part, time } = await page.evaluate(() => ({ part: lissom.model.selected, time: lissom.player.time }));
+    const { time: wanted } = await page.evaluate(() => lissom.result.notices.find(({ code }) => code === "unresolved-motion"));
+    assert.deepEqual([part, time], ["pin", wanted]);
+    const [top, below] = await page.evaluate(() => ["notices", "plots"].map((id) => document.getElementById(id).getBoundingClientRect().top));
+    assert.ok(top < below);
+    assert.deepEqual(complaints(), []);
+  },
   "a model that is saved and dragged": async (browser) => {
     const model = join(folder, "live.toml");
     const text = readFileSync(join(root, "examples/tip-crank.toml"), "utf8").replace("end = 0.4", "end = 0.05");

@@ -342,15 +342,13 @@ pub(crate) mod tests {
             "relaxed-equilibrium",
             "jump",
             "unresolved-rates",
-            "reactions-not-unique",
-            "model",
             "time-not-finite",
             "interrupted",
             "normal-forces",
         ];
         let without_time =
             ["velocity-replaced", "starts-with-jolt", "reactions-not-unique", "model", "time-not-finite"];
-        let without_remedy = ["model", "interrupted"];
+        let without_remedy = ["interrupted"];
         let codes_of_starts: Vec<&str> =
             InitialError::ENTRIES.iter().chain(InputError::ENTRIES).map(|entry| entry.code).collect();
         let of_analyses: Vec<&str> = crate::catalogue::of_analyses().map(|entry| entry.code).collect();

@@ -2,12 +2,14 @@
 //! Independent of the meaning of keys.
 
 use lissom_core::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
+use lissom_core::judge::Warning;
 use lissom_core::kinematics::Subject;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::context::singular;
 use crate::excerpt::{Excerpt, Label, Mark, Painter};
 
 /// A stretch of the model's text: byte offsets, the end excluded. Overrides count as text behind the file.
@@ -446,6 +448,25 @@ impl Report {
         self.shown.iter().map(of).collect()
     }
 
+    /// Every problem as a warning of the catalogue.
+    pub fn warnings(&self) -> impl Iterator<Item = Warning> {
+        let of = |shown: &Shown| {
+            let Shown { problem, piece, .. } = shown;
+            let table =
+                piece.as_ref().and_then(|piece| table_at(&piece.text, local(problem.span, piece).start));
+            let entry = table.as_deref().and_then(|table| table.split_once('.'));
+            let outer = piece.as_ref().and_then(|piece| piece.origin.as_ref());
+            let outer = outer.map_or_else(String::new, |origin| format!("{}.", origin.part));
+            let part = entry.map_or_else(
+                || Subject::nameless(""),
+                |(kind, name)| Subject::new(singular(kind), outer + name.trim_matches('"')),
+            );
+            let (message, help) = (problem.message.clone(), problem.help.clone().unwrap_or_default());
+            Warning::Model { part, message, help }
+        };
+        self.shown.iter().map(of)
+    }
+
     /// Problems with file, line, underlined text and remedy, as a text for a terminal: the first fifty, errors
     /// before warnings, and how many more there are.
     pub fn render(&self, colour: bool) -> String {
@@ -536,6 +557,21 @@ mod tests {
         assert_eq!(at("2").as_deref(), Some("springs"));
         assert_eq!(table_at("points = [\n[1],\n[2, 3]]\n", 15).as_deref(), None);
         assert_eq!(table_at("analysis.step = 0", 16).as_deref(), Some("analysis"));
+    }
+
+    #[test]
+    fn a_warning_names_its_entry_within_its_part() {
+        let text = "[joints.\"a hinge\"]\naxis = 1\n";
+        let mut sources = Sources::new("a.toml", text);
+        let origin = Origin { part: "arm".to_owned(), place: Span::default() };
+        let start = sources.push_shared("b.toml", text.into(), Some(origin));
+        let warning =
+            |start: usize| Problem::warning(Span { start, end: start + 4 }, "wrong").help("mend it");
+        let report = Report::new(vec![warning(19), warning(start + 19)], &sources);
+        let found: Vec<_> = report.warnings().map(|warning| warning.diagnostic()).collect();
+        let parts: Vec<_> = found.iter().map(Diagnostic::part).collect();
+        assert_eq!(parts, [Some("a hinge"), Some("arm.a hinge")]);
+        assert_eq!((found[0].to_string().as_str(), found[0].remedy()), ("wrong; mend it", Some("mend it")));
     }
 
     #[test]

@@ -160,8 +160,8 @@ impl BucklingReport {
         insert("completeness", json!(self.buckling.completeness.name()));
         insert("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
         insert("largest_turn", json!(self.turn));
-        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.warnings);
         summary
     }
 }

@@ -415,8 +415,8 @@ impl CampbellReport {
             })
         };
         insert("critical_speeds", self.crossings.iter().map(crossing).collect());
-        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.warnings);
         summary
     }
 }

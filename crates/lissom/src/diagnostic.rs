@@ -22,7 +22,7 @@ pub fn with_code(warning: &impl Diagnose) -> String {
     format!("{}: {diagnostic}", diagnostic.code)
 }
 
-/// A failure for `summary.json`, without the message.
+/// A warning or failure, for `summary.json` and the page.
 pub(crate) fn facts(error: &impl Diagnose) -> serde_json::Value {
     let diagnostic = error.diagnostic();
     let value = |(name, value): &(&str, Value)| {
@@ -37,6 +37,7 @@ pub(crate) fn facts(error: &impl Diagnose) -> serde_json::Value {
     let values: serde_json::Map<_, _> = diagnostic.values.iter().map(value).collect();
     json!({
         "code": diagnostic.code,
+        "cause": diagnostic.cause,
         "time": diagnostic.time,
         "part": diagnostic.part(),
         "kind": diagnostic.subject.as_ref().map(|subject| &subject.kind).filter(|kind| !kind.is_empty()),
@@ -58,17 +59,17 @@ mod tests {
     fn what_contains_a_failure_has_its_diagnostic() {
         let step = StepError::TurnsTooFar { time: 0.5, node: "a`; b = c".to_owned(), angle: 2.0 };
         assert_eq!(RunError::Step(step.clone()).diagnostic(), step.diagnostic());
-        let facts = facts(&CampbellError::Modes {
+        let error = CampbellError::Modes {
             path: "parameters.speed".to_owned(),
             value: 3.0,
             error: Box::new(ModesError::Step(step)),
-        });
+        };
         let remedy = "use a smaller step, or set `relative_tolerance`";
         let values = json!({ "node": "a`; b = c", "angle": 2.0 });
         let expected = json!({
-            "code": "rotation-per-step", "time": 0.5, "part": "a`; b = c", "kind": "node", "values": values, "remedy": remedy,
+            "code": "rotation-per-step", "cause": error.diagnostic().cause, "time": 0.5, "part": "a`; b = c", "kind": "node", "values": values, "remedy": remedy,
         });
-        assert_eq!(facts, expected);
+        assert_eq!(facts(&error), expected);
     }
 
     #[test]
@@ -81,7 +82,7 @@ mod tests {
     fn failures_of_requests_have_codes_values_and_remedies() {
         let error = ModesError::Time { time: 0.5, reason: "a reason".to_owned() };
         let expected = json!({
-            "code": "linearization-time", "time": 0.5, "part": null, "kind": null, "values": { "reason": "a reason" },
+            "code": "linearization-time", "cause": "the model cannot be linearised at t = 0.5 s: a reason", "time": 0.5, "part": null, "kind": null, "values": { "reason": "a reason" },
             "remedy": "choose a time of the analysis, `static` or `undeformed`",
         });
         assert_eq!(facts(&error), expected);

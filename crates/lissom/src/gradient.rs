@@ -5,7 +5,7 @@ mod method;
 mod output_history;
 mod runs;
 
-use lissom_core::diagnostics::Diagnose;
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -434,18 +434,17 @@ impl GradientReport {
         text
     }
 
-    /// A warning about the derivatives, if there is one, as the text after its code.
-    pub fn doubt(&self) -> Option<&'static str> {
-        match self.confirmation {
-            Some(Confirmation::Confirmed { .. }) => None,
-            Some(Confirmation::Untold { .. }) => Some(
-                "gradient-unconfirmed: runs of the model with perturbed numbers neither confirm nor refute the derivatives: the output changes by \
-                 less than the error of a run, or is not smooth",
-            ),
-            None => Some(
-                "gradient-unconfirmed: the derivatives were not compared with runs of the model with perturbed numbers",
-            ),
-        }
+    /// A warning about the derivatives, if there is one.
+    pub fn doubt(&self) -> Option<Diagnostic> {
+        let cause = match self.confirmation {
+            Some(Confirmation::Confirmed { .. }) => return None,
+            Some(Confirmation::Untold { .. }) => {
+                "runs of the model with perturbed numbers neither confirm nor refute the derivatives: the output changes by \
+                 less than the error of a run, or is not smooth"
+            }
+            None => "the derivatives were not compared with runs of the model with perturbed numbers",
+        };
+        Some(Diagnostic::of(&ENTRIES[0], cause, ""))
     }
 
     /// The contents of `summary.json`.
@@ -465,13 +464,8 @@ impl GradientReport {
             Confirmation::Untold { runs } => json!({ "missed": null, "runs": runs }),
         };
         insert("confirmed", self.confirmation.as_ref().map_or(Value::Null, confirmed));
-        if let Some(words) = self.doubt() {
-            let mut warnings: Vec<Value> =
-                document.warnings.problems().map(|problem| json!(problem.message)).collect();
-            warnings.push(json!(words));
-            insert("warnings", Value::Array(warnings));
-        }
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.doubt());
         summary
     }
 }

@@ -229,8 +229,8 @@ impl LinearizeReport {
             Err(reason) => insert("without_state_space", json!(reason.to_string())),
         }
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.warnings);
         summary
     }
 }

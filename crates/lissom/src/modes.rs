@@ -412,8 +412,8 @@ impl ModeReport {
             })
         };
         insert("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
-        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.warnings);
         summary
     }
 

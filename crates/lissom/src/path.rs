@@ -25,7 +25,6 @@ use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
 use crate::diagnostic;
-use crate::diagnostic::with_code;
 use crate::model::{Model, Override};
 use crate::session::columns;
 use number::Varied;
@@ -326,11 +325,9 @@ impl PathSession {
 
     /// The contents of `summary.json`.
     pub fn summary(&self, mut summary: Summary, report: &PathReport) -> Summary {
-        let mut warnings = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
-        warnings.extend(self.doubts.iter().map(|doubt| json!(with_code(doubt))));
+        crate::summary::add_warnings(&mut summary, &self.doubts);
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         insert("stopped", json!(report.end.name()));
-        insert("warnings", Value::Array(warnings));
         if let PathEnd::Failed(error) = &report.end {
             insert("error", json!(error.to_string()));
             insert("failure", diagnostic::facts(error));

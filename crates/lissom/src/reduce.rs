@@ -584,8 +584,8 @@ impl ReduceReport {
         insert("mass", json!(self.mass));
         insert("preloaded", json!(self.is_preloaded));
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.warnings);
         summary
     }
 }

@@ -396,8 +396,8 @@ impl ResponseReport {
             })
         };
         insert("transfers", self.transfers.iter().map(peak).collect());
-        insert("warnings", crate::summary::warnings(document, &self.warnings));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
+        crate::summary::add_warnings(&mut summary, &self.warnings);
         summary
     }
 

@@ -14,7 +14,6 @@ use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
-use crate::analysis_warning::AnalysisWarning;
 use crate::diagnostic;
 use crate::diagnostic::with_code;
 use crate::model::{Model, Override};
@@ -35,12 +34,12 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
     insert("analysis", json!(analysis));
     insert("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
     insert("stopped", json!("failed"));
-    insert("warnings", document.warnings.problems().map(|problem| json!(problem.message)).collect());
     if document.assembly.is_some()
         && let Ok(Lowered { assembly: Some(assembly), .. }) = lower(document)
     {
         insert("assembly", of_assembly(&assembly));
     }
+    add_warnings_of_model(&mut summary, document);
     summary
 }
 
@@ -99,11 +98,10 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
         json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "unique": is_unique })
     };
     insert("columns", columns.iter().map(column).collect());
-    let warnings = document.warnings.problems().map(|problem| json!(problem.message));
-    insert("warnings", warnings.collect());
     if let Some(assembly) = &lowered.assembly {
         insert("assembly", of_assembly(assembly));
     }
+    add_warnings_of_model(&mut summary, document);
     summary
 }
 
@@ -123,10 +121,28 @@ pub(crate) fn of_assembly(assembly: &Assembly) -> Value {
     })
 }
 
-/// Warnings of the model, then those of an analysis.
-pub(crate) fn warnings(document: &Document, of_analysis: &[AnalysisWarning]) -> Value {
-    let of_document = document.warnings.problems().map(|problem| json!(problem.message));
-    of_document.chain(of_analysis.iter().map(|warning| json!(with_code(warning)))).collect()
+/// Adds warnings as texts and, in the same order, as data.
+pub(crate) fn add_warnings<'w, W: Diagnose + 'w>(
+    summary: &mut Summary,
+    warnings: impl IntoIterator<Item = &'w W>,
+) {
+    append(summary, warnings.into_iter().map(|warning| (with_code(warning), diagnostic::facts(warning))));
+}
+
+fn add_warnings_of_model(summary: &mut Summary, document: &Document) {
+    let texts = document.warnings.problems().map(|problem| problem.message.clone());
+    append(summary, texts.zip(document.warnings.warnings().map(|warning| diagnostic::facts(&warning))));
+}
+
+fn append(summary: &mut Summary, warnings: impl Iterator<Item = (String, Value)>) {
+    let known = |name: &str| summary.get(name).and_then(Value::as_array).cloned().unwrap_or_default();
+    let (mut texts, mut facts) = (known("warnings"), known("diagnostics"));
+    for (text, fact) in warnings {
+        texts.push(json!(text));
+        facts.push(fact);
+    }
+    insert(summary, "warnings", Value::Array(texts));
+    insert(summary, "diagnostics", Value::Array(facts));
 }
 
 /// Records that a run has begun, which remains in the summary if it is killed.
@@ -138,9 +154,7 @@ pub fn of_beginning(summary: &mut Summary) {
 pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let simulation = session.simulation();
     let totals = &report.totals;
-    let known = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
-    let warnings = session.warnings().map(|warning| json!(with_code(warning)));
-    insert(summary, "warnings", known.into_iter().chain(warnings).collect());
+    add_warnings(summary, session.warnings());
     let mut insert = |name: &str, fact: Value| insert(summary, name, fact);
     insert("stopped", json!(report.stopped.name()));
     insert("stopped_by", json!(session.stopped_by()));

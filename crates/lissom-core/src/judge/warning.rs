@@ -314,9 +314,10 @@ diagnostics! {
         ReactionsNotUnique {
             /// Names of the columns, in words.
             columns: String,
-            /// The redundant directions, in words.
-            repeated: String,
+            /// The redundant directions.
+            repeated: Subject,
         } => "reactions-not-unique" {
+            subject: repeated,
             cause: ("{columns} not unique: constraints are redundant there ({repeated}), and the reported reactions are those of minimum \
                     norm; in a real mechanism they depend \
                     on the stiffness"),
@@ -439,11 +440,16 @@ diagnostics! {
         }
         /// A warning from the model file.
         Model {
+            /// The part.
+            part: Subject,
             /// Its text.
             message: String,
+            /// The remedy; may be empty.
+            help: String,
         } => "model" {
+            subject: part,
             cause: ("{message}"),
-            remedy: "",
+            remedy: "{help}",
             meaning: "Something in the model file is allowed but probably unintended, such as a drive whose speed jumps at the rows of a table.",
             advice: "See the message.",
         }

@@ -2,7 +2,7 @@
 
 use lissom_core::analysis::Settings;
 use lissom_core::judge::Warning;
-use lissom_core::kinematics::Quantity;
+use lissom_core::kinematics::{Quantity, Subject};
 use lissom_core::linear::{LinearModel, steady};
 use lissom_core::system::{Drive, State, System};
 
@@ -130,11 +130,13 @@ fn jumps(component: &Component, drive: &Drive, (start, end): (f64, f64)) -> Opti
     let jumps: Vec<f64> = function.breakpoints().into_iter().filter(inside).filter(is_jump).collect();
     let first = jumps.first()?;
     Some(Warning::Model {
+        part: Subject::new("drive", &*component.name.value),
         message: format!(
             "what the drive `{}` prescribes jumps in position or speed at t = {first} s{}: forces there have no limit and \
-             depend on the step; give a table `interpolation = \"spline\"`, or another function",
+             depend on the step",
             component.name.value,
             if jumps.len() > 1 { format!(" and {} more times", jumps.len() - 1) } else { String::new() }
         ),
+        help: "give a table `interpolation = \"spline\"`, or another function".to_owned(),
     })
 }

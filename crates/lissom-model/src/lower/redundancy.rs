@@ -3,6 +3,7 @@
 
 use lissom_core::analysis::mobility::{has_loops, mobility};
 use lissom_core::judge::Warning;
+use lissom_core::kinematics::Subject;
 use lissom_core::system::{State, System};
 
 use crate::channels::Channel;
@@ -20,7 +21,7 @@ pub(super) fn not_unique(
     channels: &[Channel],
 ) -> (Vec<String>, Option<Warning>) {
     let mut columns = Vec::new();
-    let mut repeated = Vec::new();
+    let (mut repeated, mut joint) = (Vec::new(), None);
     let is_asked = channels.iter().any(|channel| channel.kind == OutputKind::Reaction);
     if !is_asked || !has_loops(system) {
         return (columns, None);
@@ -55,14 +56,15 @@ pub(super) fn not_unique(
         }
         if touches {
             repeated.push(redundant.words());
+            joint.get_or_insert(redundant.joint);
         }
     }
     columns.extend(names.into_iter().zip(is_unique).filter(|(_, unique)| !unique).map(|(name, _)| name));
-    let doubt = doubt(&columns, &repeated);
+    let doubt = joint.and_then(|joint| doubt(&columns, joint, &repeated));
     (columns, doubt)
 }
 
-fn doubt(columns: &[String], repeated: &[String]) -> Option<Warning> {
+fn doubt(columns: &[String], joint: String, repeated: &[String]) -> Option<Warning> {
     let named = |names: &[String]| {
         let more = names.len().saturating_sub(MAX_LISTED);
         let first = names[..names.len() - more].join(", ");
@@ -71,6 +73,6 @@ fn doubt(columns: &[String], repeated: &[String]) -> Option<Warning> {
     let is = if columns.len() == 1 { "is" } else { "are" };
     (!columns.is_empty()).then(|| Warning::ReactionsNotUnique {
         columns: format!("{} {is}", named(columns)),
-        repeated: named(repeated),
+        repeated: Subject::new("joint", joint).called(named(repeated)),
     })
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use lissom::gradient::{Confirmation, GradientError, GradientReport, Target, gradient};
 use lissom::{FolderError, ResultFolder, summary};
 
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Compute derivatives of an output with respect to numbers of the model file.
@@ -75,8 +75,8 @@ impl Gradient {
             let heading = document.title.as_deref().unwrap_or(model.name());
             terminal::print(&render(heading, &self.of, &found, &path));
         }
-        if let Some(words) = found.doubt() {
-            terminal::complain(&format!("warning: {words}\n"));
+        if let Some(doubt) = found.doubt() {
+            warn(&doubt);
         }
         Ok(Exit::Done)
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use lissom::motion::MotionRecorder;
+use lissom::view::Notice;
 use lissom::{Model, Override, Session};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
@@ -21,6 +22,8 @@ pub(super) struct InitialScene {
     pub(super) scene: Scene,
     /// A motion file of one frame.
     pub(super) motion: Vec<u8>,
+    /// Warnings of the model.
+    pub(super) warnings: Vec<Notice>,
 }
 
 impl InitialScene {
@@ -45,7 +48,9 @@ impl InitialScene {
         };
         recorder.write_still(&start.kinematics).map_err(writing_failed)?;
         let title = document.title.clone().unwrap_or_default();
-        Ok(Self { name: model.name().to_owned(), title, scene, motion })
+        let warnings = document.warnings.warnings().chain(lowered.warnings);
+        let warnings = warnings.map(|warning| Notice::of(&warning)).collect();
+        Ok(Self { name: model.name().to_owned(), title, scene, motion, warnings })
     }
 }
 

@@ -102,10 +102,11 @@ impl View {
 
     /// Writes the page of a model at its start.
     fn view_start(&self, folder: &Path) -> Result<Exit, Failure> {
-        let InitialScene { name, title, scene, motion } =
+        let InitialScene { name, title, scene, motion, warnings } =
             InitialScene::of(&self.what, &self.set, self.quiet)?;
         let results = Results::new(&name)
             .with_title(&title)
+            .with_notices(warnings)
             .with_scene(&scene, &motion)
             .map_err(|error| Failure::new(Exit::Failed, &error))?;
         let target = if let Some(file) = &self.html {

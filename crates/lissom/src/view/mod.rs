@@ -5,11 +5,13 @@
 pub(crate) mod modes;
 mod packed;
 
+use lissom_core::diagnostics::{Diagnose, Severity};
 use lissom_model::output::{Column, Record};
 use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::diagnostic::facts;
 use crate::motion::{Motion, MotionError};
 
 pub(crate) use packed::base64;
@@ -20,7 +22,7 @@ const PAGE: &str = include_str!("viewer.html");
 const MAX_NUMBERS: usize = 1_500_000;
 
 /// A note for the reader of a page about the results.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Notice {
     /// `warning` or `error`.
     kind: &'static str,
@@ -28,17 +30,35 @@ pub struct Notice {
     text: String,
     /// Whether it is an excerpt of a file, shown verbatim.
     is_code: bool,
+    /// Code, remedy, part and time of a diagnostic, as in `summary.json`.
+    code: Value,
+    remedy: Value,
+    part: Value,
+    time: Value,
 }
 
 impl Notice {
     /// A warning.
     pub fn warning(text: impl Into<String>) -> Self {
-        Self { kind: "warning", text: text.into(), is_code: false }
+        Self { kind: "warning", text: text.into(), ..Self::default() }
     }
 
     /// An error.
     pub fn error(text: impl Into<String>) -> Self {
-        Self { kind: "error", text: text.into(), is_code: false }
+        Self { kind: "error", text: text.into(), ..Self::default() }
+    }
+
+    /// A warning or failure with its code, remedy, part and time.
+    pub fn of(diagnostic: &impl Diagnose) -> Self {
+        let contents = diagnostic.diagnostic();
+        let is_warning = contents.severity == Severity::Warning;
+        let notice = if is_warning { Self::warning(contents.cause) } else { Self::error(contents.cause) };
+        notice.with_facts(&facts(diagnostic))
+    }
+
+    fn with_facts(self, facts: &Value) -> Self {
+        let of = |name: &str| facts[name].clone();
+        Self { code: of("code"), remedy: of("remedy"), part: of("part"), time: of("time"), ..self }
     }
 
     /// The same, with lines of the model in it.
@@ -85,7 +105,7 @@ impl Results {
         Self { title: title.to_owned(), ..self }
     }
 
-    /// With contents of `summary.json`: title, counts, and the reason if a run has ended early.
+    /// With contents of `summary.json`: title, counts, the reason if a run has ended early, and warnings.
     #[must_use]
     pub fn with_summary(mut self, summary: &Value) -> Self {
         let word = |name: &str| summary[name].as_str().unwrap_or_default();
@@ -98,12 +118,24 @@ impl Results {
         }
         let time = summary["time"].as_f64().unwrap_or_default();
         match word("stopped") {
-            "failed" => self.notices.push(Notice::error(format!("The run failed: {}", word("error")))),
+            "failed" => {
+                let failure = &summary["failure"];
+                let cause = failure["cause"].as_str().unwrap_or(word("error"));
+                self.notices.push(Notice::error(format!("The run failed: {cause}")).with_facts(failure));
+            }
             "interrupted" => {
                 self.notices.push(Notice::warning(format!("The run was interrupted at t = {time} s.")));
             }
             _ => {}
         }
+        let list = |name: &str| summary[name].as_array().into_iter().flatten();
+        // Summaries of earlier versions have the texts only.
+        let diagnostics = list("diagnostics").chain(std::iter::repeat(&Value::Null));
+        let warnings = list("warnings").zip(diagnostics).map(|(text, facts)| {
+            let text = facts["cause"].as_str().or(text.as_str()).unwrap_or_default();
+            Notice::warning(text).with_facts(facts)
+        });
+        self.notices.extend(warnings);
         self
     }
 
@@ -158,8 +190,14 @@ impl Results {
 
     /// With a note for the reader.
     #[must_use]
-    pub fn with_notice(mut self, notice: Notice) -> Self {
-        self.notices.push(notice);
+    pub fn with_notice(self, notice: Notice) -> Self {
+        self.with_notices([notice])
+    }
+
+    /// With notes for the reader.
+    #[must_use]
+    pub fn with_notices(mut self, notices: impl IntoIterator<Item = Notice>) -> Self {
+        self.notices.extend(notices);
         self
     }
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::support::{CANTILEVER, Folder, Live, held};
+use crate::support::{CANTILEVER, Folder, Live, SPARE_SECTION, held};
 
 impl Live {
     /// What is sent after `version`.
@@ -73,6 +73,19 @@ fn a_model_is_simulated_again_when_it_is_saved_and_mistakes_are_reported_meanwhi
     let gone = live.after(version(&failed));
     assert!(gone["notice"]["text"].as_str().unwrap().contains("no such file"), "{gone}");
     assert!(!folder.path().join("out").exists(), "no file is written");
+}
+
+#[test]
+fn warnings_are_those_of_the_last_results() {
+    let folder = Folder::new("live-warnings");
+    folder.write("bar.toml", &format!("{}{SPARE_SECTION}", model()));
+    let live = Live::start("bar.toml", folder.path());
+    let first = live.after(0);
+    let found = &first["result"]["notices"];
+    assert_eq!((&found[0]["code"], &found[0]["part"]), (&"model".into(), &"spare".into()), "{found}");
+    save(&folder, &model());
+    let second = live.after(version(&first));
+    assert_eq!(second["result"]["notices"], serde_json::json!([]));
 }
 
 #[test]

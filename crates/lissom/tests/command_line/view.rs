@@ -7,9 +7,9 @@ use std::path::Path;
 use flate2::read::ZlibDecoder;
 use lissom::Record;
 use lissom::motion::Motion;
-use serde_json::Value;
+use serde_json::{Value, json};
 
-use crate::support::{CANTILEVER, Folder, example, lissom};
+use crate::support::{CANTILEVER, Folder, SPARE_SECTION, example, lissom};
 
 /// The results in a page.
 fn results(page: &str) -> Value {
@@ -185,6 +185,8 @@ fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     let reported = notices("out/bar/view.html");
     assert_eq!(reported[0]["kind"], "error");
     assert!(reported[0]["text"].as_str().unwrap().contains("failed"), "{reported}");
+    assert_eq!(reported[0]["code"], "not-converged", "{reported}");
+    assert!(reported[0]["remedy"].is_string() && reported[0]["part"].is_string(), "{reported}");
     // Without motion the plots are left.
     let run = lissom(&["run", "bar.toml", "--no-plots", "-q"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
@@ -208,6 +210,48 @@ fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     let view = lissom(&["view", "out/bar"], folder.path());
     assert_eq!(view.code, 2);
     assert!(view.errors.contains("not a motion file"), "{}", view.errors);
+}
+
+#[test]
+fn warnings_are_in_the_page_with_code_part_time_and_remedy() {
+    let folder = Folder::new("view-warnings");
+    assert_eq!(lissom(&["new", "press"], folder.path()).code, 0);
+    let text = fs::read_to_string(folder.path().join("press.toml")).unwrap();
+    folder.write("press.toml", &format!("{text}{SPARE_SECTION}"));
+    let notices =
+        |page: &str| results(&fs::read_to_string(folder.path().join(page)).unwrap())["notices"].clone();
+    let long = ["--set", "analysis.step=0.01", "--set", "analysis.end=1", "-q"];
+    let view = lissom(&[&["view", "press.toml"], &long[..]].concat(), folder.path());
+    assert_eq!(view.code, 0, "{}", view.errors);
+    let found = notices("out/press/view.html");
+    let of_model = |found: &Value| {
+        assert_eq!(
+            (&found["kind"], &found["code"], &found["part"]),
+            (&json!("warning"), &json!("model"), &json!("spare"))
+        );
+        assert!(found["text"].as_str().unwrap().contains("no beam has the section"), "{found}");
+    };
+    of_model(&found[0]);
+    let of_run = found.as_array().unwrap().iter().find(|notice| notice["code"] == "unresolved-motion");
+    let of_run = of_run.unwrap_or_else(|| panic!("{found}"));
+    assert!(
+        of_run["part"].as_str().unwrap().starts_with("pin.") && of_run["time"].as_f64().unwrap() > 0.0,
+        "{found}"
+    );
+    let [text, remedy] = ["text", "remedy"].map(|name| of_run[name].as_str().unwrap());
+    assert!(remedy.contains("relative_tolerance") && !text.contains(remedy), "{found}");
+    let initial = lissom(&["view", "press.toml", "--initial", "-q"], folder.path());
+    assert_eq!(initial.code, 0, "{}", initial.errors);
+    of_model(&notices("out/press/initial.html")[0]);
+    // The results of an earlier version have texts alone.
+    let path = folder.path().join("out/press/summary.json");
+    let mut facts: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    facts.as_object_mut().unwrap().remove("diagnostics");
+    fs::write(&path, facts.to_string()).unwrap();
+    assert_eq!(lissom(&["view", "out/press", "-q"], folder.path()).code, 0);
+    let earlier = notices("out/press/view.html");
+    assert_eq!(earlier.as_array().unwrap().len(), found.as_array().unwrap().len());
+    assert_eq!((&earlier[0]["text"], &earlier[0]["code"]), (&found[0]["text"], &Value::Null));
 }
 
 #[test]

@@ -16,7 +16,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-pub(crate) use cantilever::CANTILEVER;
+pub(crate) use cantilever::{CANTILEVER, SPARE_SECTION};
 pub(crate) use live::{Live, held};
 pub(crate) use program::{Ended, Folder, Run, lissom};
 

@@ -183,17 +183,14 @@ fn simulate(
     is_current: &dyn Fn() -> bool,
 ) -> Option<Message> {
     let began = Instant::now();
-    let failed = |text: String, is_code: bool| {
-        let notice = if is_code { Notice::error(text).with_code() } else { Notice::error(text) };
-        Some(Message { notice: Some(notice), ..Message::default() })
-    };
+    let failed = |notice: Notice| Some(Message { notice: Some(notice), ..Message::default() });
     let model = match model {
         Ok(model) => model,
-        Err(error) => return failed(error.to_string(), false),
+        Err(error) => return failed(Notice::of(&error)),
     };
     match model.document(set) {
         Ok(document) => *bases = document.parameters,
-        Err(report) => return failed(report.render(false), true),
+        Err(report) => return failed(wrong(&report)),
     }
     let mut overrides = set.to_vec();
     for (name, value) in sliders.iter().filter(|(name, _)| bases.contains_key(*name)) {
@@ -211,45 +208,37 @@ fn simulate(
             seconds: began.elapsed().as_secs_f64(),
             ..Message::default()
         }),
-        Err(Fault { text, is_code }) => failed(text, is_code),
+        Err(notice) => failed(notice),
     }
 }
 
-/// Why there are no results.
-struct Fault {
-    text: String,
-    is_code: bool,
+/// Errors of the model, underlined.
+fn wrong(report: &lissom::Report) -> Notice {
+    Notice::error(report.render(false)).with_code()
 }
 
-impl Fault {
-    fn plain(error: impl std::fmt::Display) -> Self {
-        Self { text: error.to_string(), is_code: false }
-    }
-}
-
-/// A run in memory. None if the model has changed in the meantime.
+/// A run in memory, or why there is none. None if the model has changed in the meantime.
 fn results(
     model: &Model,
     overrides: &[Override],
     is_current: &dyn Fn() -> bool,
-) -> Result<Option<Results>, Fault> {
-    let wrong = |report: lissom::Report| Fault { text: report.render(false), is_code: true };
-    let document = model.document(overrides).map_err(wrong)?;
+) -> Result<Option<Results>, Notice> {
+    let document = model.document(overrides).map_err(|report| wrong(&report))?;
     match &document.analysis.kind {
         AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
         AnalysisKind::Path { .. } => return path(model, overrides, &document, is_current),
         kind => {
             let text =
                 format!("An analysis of kind `{}` is not simulated here: use `lissom run`.", kind.name());
-            return Err(Fault { text, is_code: false });
+            return Err(Notice::error(text));
         }
     }
-    let lowered = lower(&document).map_err(wrong)?;
+    let lowered = lower(&document).map_err(|report| wrong(&report))?;
     let scene = Scene::of(&document, &lowered);
     let mut summary = summary::of_model(model.name(), overrides, &document, &lowered);
     let motion = Buffer::default();
     let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, motion.clone());
-    let mut session = Session::start(lowered).map_err(Fault::plain)?;
+    let mut session = Session::start(lowered).map_err(|error| Notice::of(&error))?;
     session.write_states_to(Box::new(recorder));
     let mut record = Record::default();
     let mut looked = Instant::now();
@@ -266,12 +255,8 @@ fn results(
     }
     summary::of_run(&mut summary, &session, &report);
     let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
-    let mut results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
-    if !document.warnings.is_empty() {
-        results = results.with_notice(Notice::warning(document.warnings.render(false)).with_code());
-    }
-    let bytes = motion.take();
-    results.with_scene(&scene, &bytes).map(Some).map_err(Fault::plain)
+    let results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
+    results.with_scene(&scene, &motion.take()).map(Some).map_err(|error| Notice::of(&error))
 }
 
 /// An equilibrium path in memory. None if the model has changed in the meantime.
@@ -280,13 +265,11 @@ fn path(
     overrides: &[Override],
     document: &Document,
     is_current: &dyn Fn() -> bool,
-) -> Result<Option<Results>, Fault> {
+) -> Result<Option<Results>, Notice> {
     let motion = Buffer::default();
     let session = match PathSession::new(model, overrides) {
-        Err(PathSessionError::Model(report)) => {
-            return Err(Fault { text: report.render(false), is_code: true });
-        }
-        other => other.map_err(Fault::plain)?,
+        Err(PathSessionError::Model(report)) => return Err(wrong(&report)),
+        other => other.map_err(|error| Notice::of(&error))?,
     };
     let mut session = session.with_motion(Box::new(motion.clone()));
     let mut record = Record::default();
@@ -297,11 +280,8 @@ fn path(
     }
     let summary = session.summary(lissom::path::of_request(model.name(), overrides, document), &report);
     let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
-    let mut results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
-    if !document.warnings.is_empty() {
-        results = results.with_notice(Notice::warning(document.warnings.render(false)).with_code());
-    }
-    results.with_scene(&session.scene(), &motion.take()).map(Some).map_err(Fault::plain)
+    let results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
+    results.with_scene(&session.scene(), &motion.take()).map(Some).map_err(|error| Notice::of(&error))
 }
 
 /// Bytes in memory with two owners.
