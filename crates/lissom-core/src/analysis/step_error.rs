@@ -129,6 +129,26 @@ diagnostics! {
             meaning: "The estimated error exceeds `relative_tolerance` with the shortest steps, as at a discontinuous load or drive.",
             advice: "Look for a load or drive that jumps at that time, or allow a larger error.",
         }
+        /// The motion is inaccurate however short the step, and constraints depend on each other.
+        ConstraintsDependent {
+            /// Start of the step [s].
+            time: f64,
+            /// Size of the last attempt [s].
+            size: f64,
+            /// Multiplier of the constraint that repeats others.
+            unknown: Subject,
+        } => "constraints-dependent" {
+            time: *time,
+            subject: unknown,
+            cause: ("from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, and \
+                    constraints depend on each other, detected at the {unknown}: in a singular position, such as a dead centre or links in \
+                    line, the smallest violations are large motions"),
+            remedy: "start farther from the singular position, or replace joints whose directions are guided twice (in a plane loop \
+                of four bars a spherical and a universal joint instead of two of the revolute joints)",
+            meaning: "Constraints that repeat each other yield by round-off. Beside a singular position that is a considerable motion, which \
+                the error estimate reports.",
+            advice: "Start farther from the singular position, or remove redundant constraints, which `lissom check` lists.",
+        }
         /// Something passes through zero again and again.
         Chatters {
             /// Time [s].

@@ -340,7 +340,15 @@ impl Simulation {
     }
 
     fn too_inaccurate(&self, size: f64) -> StepError {
+        let time = self.state.kinematics.time;
+        if let Some(row) = self.integrator.work.tangent.redundant() {
+            return StepError::ConstraintsDependent {
+                time,
+                size,
+                unknown: self.system.layout().subject_of(row),
+            };
+        }
         let unknown = self.integrator.most_inaccurate(&self.system);
-        StepError::TooInaccurate { time: self.state.kinematics.time, size, unknown }
+        StepError::TooInaccurate { time, size, unknown }
     }
 }
