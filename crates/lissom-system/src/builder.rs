@@ -434,6 +434,7 @@ impl Builder {
             gravity: self.model.gravity,
             feedback,
             readings: Vec::new(),
+            section_errors: Vec::new(),
             functions: self.functions,
         };
         Ok((system, state))

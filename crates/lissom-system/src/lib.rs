@@ -30,6 +30,7 @@ use lissom_solver::Structure;
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
 pub use feedback::{DrivenBatch, Feedback, ScaledPower};
+use lissom_mechanics::elements::beam::section_error::SectionError;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
 use lissom_mechanics::elements::{Energy, LinearLimit, LinearRange};
@@ -38,10 +39,13 @@ use lissom_mechanics::evaluation::scatter_map::ScatterMap;
 use lissom_mechanics::joints::Constraint;
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::blocks::{Batches, JointBatch};
+use lissom_mechanics::joints::constraint::{Port, ports_of};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
-use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId, Subject, Switch};
+use lissom_mechanics::kinematics::{
+    self, CoordinateId, HeldId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch,
+};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
@@ -82,6 +86,8 @@ pub struct System {
     pub feedback: DrivenBatch,
     /// Quantities that sampled signals depend on at samples alone.
     pub readings: Vec<Reading>,
+    /// Section forces that are recorded.
+    pub section_errors: Vec<SectionError>,
 }
 
 impl System {
@@ -140,6 +146,29 @@ impl System {
     /// Whether forces of elements depend on multipliers.
     pub fn sees_multipliers(&self) -> bool {
         self.batches.iter().any(|batch| batch.sees_multipliers())
+    }
+
+    /// Number of elements and constraints that act on each node.
+    pub fn attached(&self) -> Vec<usize> {
+        let mut of_row = vec![None; self.layout.size()];
+        for (node, rows) in self.layout.node_rows.iter().enumerate() {
+            rows.iter().filter(|&&row| row != LOCKED).for_each(|&row| of_row[row as usize] = Some(node));
+        }
+        let mut counts = vec![0; self.layout.node_rows.len()];
+        let of_elements = self.batches.iter().flat_map(|batch| batch.cliques());
+        let nodes_of =
+            |rows: Vec<usize>| rows.into_iter().filter_map(|row| of_row[row]).collect::<Vec<usize>>();
+        let of_constraints = self.constraints().map(|constraint| {
+            let own = ports_of(constraint).into_iter();
+            own.filter_map(|port| if let Port::Node(node) = port { Some(node.index()) } else { None })
+                .collect()
+        });
+        for mut nodes in of_elements.map(nodes_of).chain(of_constraints) {
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes.into_iter().for_each(|node| counts[node] += 1);
+        }
+        counts
     }
 
     /// Whether forces depend on the motion through signals, or there are states.

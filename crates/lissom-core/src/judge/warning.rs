@@ -166,6 +166,28 @@ diagnostics! {
                 with a larger one. Recorded outputs are recovered from the positions and do not have it.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
+        /// The elements of a beam do not resolve section forces.
+        SectionForces {
+            /// When it was first significant [s].
+            time: f64,
+            /// The beam.
+            beam: String,
+            /// Number of its elements.
+            elements: usize,
+            /// Estimated error over the largest force or moment there.
+            error: f64,
+        } => "coarse-section-forces" {
+            time: *time,
+            subject: Subject::new("beam", beam),
+            cause: ("the {elements} elements of beam `{beam}` do not resolve its section forces: they differ by up to {:.1} % from \
+                    equilibrium with the neighbouring elements", 100.0 * error),
+            remedy: "use more elements, or record the reaction of the joint at its end, which converges faster",
+            meaning: "A recorded section force or moment, which follows from the strains of one element, differs by more than 1 % of its \
+                largest value from the one in equilibrium with the forces of the neighbouring elements and their loads. Forces with a \
+                steep slope, such as those beside the root of a fast blade, need short elements.",
+            advice: "Use more elements (half the length reduces the error to a quarter or less), a higher `order`, or record the reaction of \
+                the joint at the end of the beam.",
+        }
         /// Steps of planned size do not resolve the motion.
         Unresolved {
             /// When it was first significant [s].

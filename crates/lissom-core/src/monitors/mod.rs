@@ -14,6 +14,7 @@ mod linear_range;
 mod monitor;
 mod pairs;
 mod resolution;
+mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;
 
@@ -47,6 +48,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "equilibrium-jump", begin: equilibrium_jump::begin },
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
+    Kind { name: "section-forces", begin: section_forces::begin },
     Kind { name: "stability", begin: stability::begin },
 ];
 

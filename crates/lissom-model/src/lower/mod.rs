@@ -24,6 +24,7 @@ use std::sync::Arc;
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::accumulated::Accumulated;
 use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::elements::beam::section_error::SectionError;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::judge::Warning;
 use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
@@ -34,7 +35,7 @@ use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
 use crate::channels::Channel;
-use crate::document::{Component, Document, NodeReference, interface_name};
+use crate::document::{Component, Document, NodeReference, Output, OutputSource, Subject, interface_name};
 use crate::functions::Ramp;
 use crate::output_channels;
 use crate::outputs::Resolver;
@@ -224,6 +225,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
     system.assign_readings(readings::bind(&names.readings, &channels, accumulated.len(), &mut problems));
     stop_at(document, &mut problems)?;
+    system.section_errors = section_errors(document, &names, &system);
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     let system = Arc::new(system);
@@ -239,6 +241,30 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         warnings,
         assembly,
     })
+}
+
+/// Of all section forces and moments that are recorded.
+fn section_errors(document: &Document, names: &Names, system: &System) -> Vec<SectionError> {
+    let recorded = document.outputs.iter().filter(|output| output.kind.subject() == Subject::Section);
+    let on_beam = |output: &Output| match &output.source {
+        OutputSource::Node {
+            node: Located { value: NodeReference::Beam { beam, fraction }, .. }, ..
+        } => {
+            let first = if output.kind.name() == "section_moment" { 3 } else { 0 };
+            Some((beam.clone(), (*fraction, first)))
+        }
+        _ => None,
+    };
+    let sections: Vec<_> = recorded.filter_map(on_beam).collect();
+    if sections.is_empty() {
+        return Vec::new();
+    }
+    let attached = system.attached();
+    let of = |(beam, place): (String, (f64, usize))| {
+        let line = names.lines.get(&beam)?;
+        Some(SectionError::new(&beam, line, place, |node| attached[node.index()]))
+    };
+    sections.into_iter().filter_map(of).collect()
 }
 
 impl Names {

@@ -19,6 +19,8 @@ pub trait BeamProbe: Send + Sync {
     fn twist_at(&self, at: &Kinematics, xi: f64) -> Vector6;
     /// Section forces and moments at ξ in the section's frame [N, N m].
     fn section_forces_at(&self, at: &Kinematics, xi: f64) -> Vector6;
+    /// Internal forces on the two end nodes, section axes [N, N m].
+    fn end_forces(&self, at: &Kinematics) -> [Vector6; 2];
     /// Derivatives of the section forces and moments with respect to the element's nodes.
     fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6>;
     /// Strains and curvatures at ξ [-, 1/m].
@@ -34,6 +36,9 @@ impl<const N: usize> BeamProbe for Beam<N> {
     }
     fn section_forces_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         Self::section_forces_at(self, at, xi)
+    }
+    fn end_forces(&self, at: &Kinematics) -> [Vector6; 2] {
+        Self::end_forces(self, at)
     }
     fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6> {
         Self::section_force_derivatives_at(self, at, xi)

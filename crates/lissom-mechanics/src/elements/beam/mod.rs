@@ -21,6 +21,7 @@ mod blocks;
 mod forces;
 pub mod line;
 mod linearize;
+pub mod section_error;
 mod section_gradient;
 mod step_stages;
 mod stiffness;
@@ -183,6 +184,14 @@ impl<const N: usize> Beam<N> {
         let twist = |d: &Relative<N>| tangent_times(&combine(&shape, d), &combine(&slope, d));
         let natural = twist(&self.natural);
         (twist(&self.relative(at)) - natural) / natural.fixed_rows::<3>(0).norm()
+    }
+
+    /// Internal forces on the two end nodes, section axes [N, N m].
+    pub(crate) fn end_forces(&self, at: &Kinematics) -> [Vector6; 2] {
+        let frames: [_; N] = std::array::from_fn(|i| Pose::from(&self.section_frame(at, i)));
+        let twists = self.is_damped().then(|| std::array::from_fn(|i| (&self.section_twist(at, i)).into()));
+        let forces = forces(self, &frames, twists.as_ref());
+        [0, N - 1].map(|i| forces[i].into())
     }
 
     /// Section forces and moments at ξ in the section's frame [N, N m], from those at the Gauss points, where they are most

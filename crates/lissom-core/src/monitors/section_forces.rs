@@ -1,0 +1,78 @@
+//! Whether the elements of a beam resolve the section forces that are recorded.
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::bytes::{from_bytes, to_bytes};
+use crate::judge::{Warning, report};
+
+/// Errors above this fraction of the largest axial force, shear force, torsion or bending moment are reported.
+const NOTEWORTHY: f64 = 0.01;
+/// A smaller part of the whole force, or moment, counts as so large a part of it.
+const LEAST: f64 = 0.05;
+/// So many steps are all examined, and one in as many afterwards.
+const ALL: usize = 64;
+const STRIDE: usize = 16;
+
+/// Largest sizes and errors so far.
+#[derive(Default)]
+struct SectionForces {
+    steps: usize,
+    /// By section, of the axial and the shear force, or of the torsion and the bending moment.
+    largest: Vec<[[f64; 2]; 2]>,
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let count = beginning.problem.system.section_errors.len();
+    let monitor = SectionForces { steps: 0, largest: vec![[[0.0; 2]; 2]; count] };
+    (count > 0).then(|| Box::new(monitor) as Box<dyn Monitor>)
+}
+
+impl Monitor for SectionForces {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        self.steps += 1;
+        if self.steps > ALL && !self.steps.is_multiple_of(STRIDE) {
+            return;
+        }
+        let at = &step.end.kinematics;
+        let mut worst: Option<(f64, usize)> = None;
+        let sections = &step.problem.system.section_errors;
+        for (index, (section, largest)) in sections.iter().zip(&mut self.largest).enumerate() {
+            let Some(found) = section.of(at) else { continue };
+            for (largest, found) in largest.iter_mut().zip(found) {
+                largest.iter_mut().zip(found).for_each(|(largest, found)| *largest = largest.max(found));
+            }
+            let whole = largest[0][0].hypot(largest[1][0]);
+            if whole == 0.0 {
+                continue;
+            }
+            let part =
+                largest.map(|[size, error]| error / size.max(LEAST * whole)).into_iter().fold(0.0, f64::max);
+            if worst.is_none_or(|(most, _)| part > most) {
+                worst = Some((part, index));
+            }
+        }
+        let Some((error, index)) = worst else { return };
+        report(
+            warnings,
+            |warning| matches!(warning, Warning::SectionForces { .. }),
+            |known| {
+                let time = match known {
+                    Some(Warning::SectionForces { time, .. }) => *time,
+                    _ => at.time,
+                };
+                let (beam, elements) = (sections[index].beam.clone(), sections[index].element_count);
+                (error > NOTEWORTHY).then_some(Warning::SectionForces { time, beam, elements, error })
+            },
+        );
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&(self.steps, &self.largest))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let mut learned = (self.steps, std::mem::take(&mut self.largest));
+        let is_read = from_bytes(saved, &mut learned);
+        (self.steps, self.largest) = learned;
+        is_read
+    }
+}
