@@ -435,6 +435,7 @@ impl Builder {
             feedback,
             readings: Vec::new(),
             section_errors: Vec::new(),
+            beams: Vec::new(),
             functions: self.functions,
         };
         Ok((system, state))

@@ -30,6 +30,7 @@ use lissom_solver::Structure;
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
 pub use feedback::{DrivenBatch, Feedback, ScaledPower};
+use lissom_mechanics::elements::beam::line::BeamProbe;
 use lissom_mechanics::elements::beam::section_error::SectionError;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
@@ -88,6 +89,8 @@ pub struct System {
     pub readings: Vec<Reading>,
     /// Section forces that are recorded.
     pub section_errors: Vec<SectionError>,
+    /// Names of the beams, with their elements.
+    pub beams: Vec<(String, Vec<Arc<dyn BeamProbe>>)>,
 }
 
 impl System {

@@ -465,11 +465,6 @@ impl Equations for StepEquations<'_> {
         self.work.force_round_off = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
         self.work.tangent.factor(self.system.structure(), self.scaled.scale())?;
-        if let Some(compliance) = self.work.tangent.compliance() {
-            let factor = self.scaled.multiplier_factor() * self.scaled.scale();
-            let undetermined = compliance.undetermined(factor, f64::EPSILON * representative.length);
-            self.work.force_round_off = self.work.force_round_off.max(undetermined);
-        }
         self.note_scales();
         self.watch.begin(Phase::Rest);
         Ok(())

@@ -166,6 +166,25 @@ diagnostics! {
                 with a larger one. Recorded outputs are recovered from the positions and do not have it.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
+        /// A beam is strained more than a beam can be.
+        LargeStrain {
+            /// When it was first significant [s].
+            time: f64,
+            /// The beam with the largest strain.
+            beam: String,
+            /// That strain [-].
+            strain: f64,
+        } => "large-strain" {
+            time: *time,
+            subject: Subject::new("beam", beam),
+            cause: ("from t = {time:.6e} s on beam `{beam}` is strained by up to {:.1} %, more than its linear law describes",
+                    100.0 * strain),
+            remedy: "check lengths, units, stiffnesses and drives: a mechanism may be driven to a position that it cannot reach",
+            meaning: "A beam is stretched or sheared by more than 10 %, or bent or twisted so much that a fibre changes its length by more \
+                than 50 %. At 100 % neighbouring sections overlap. The height of a section is estimated from its stiffnesses.",
+            advice: "Check units, lengths and stiffnesses. A mechanism that is driven beyond a dead centre strains its parts instead of \
+                moving. Rubber is strained so much, but not by a linear law.",
+        }
         /// The elements of a beam do not resolve section forces.
         SectionForces {
             /// When it was first significant [s].

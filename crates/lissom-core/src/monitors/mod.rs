@@ -3,6 +3,7 @@
 //! A monitor is one file and one line of `KINDS`. Its state is part of snapshots, under its name: a snapshot that was taken
 //! without a monitor can be restored with it.
 
+mod beam_strains;
 pub(crate) mod constraint_rates;
 mod constraints_yield;
 pub(crate) mod contact;
@@ -48,6 +49,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "equilibrium-jump", begin: equilibrium_jump::begin },
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
+    Kind { name: "beam-strains", begin: beam_strains::begin },
     Kind { name: "section-forces", begin: section_forces::begin },
     Kind { name: "stability", begin: stability::begin },
 ];

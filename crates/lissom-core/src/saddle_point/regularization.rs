@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 use super::equilibration::Equilibration;
 
 /// δ: violations stay below what is solved for, also beside singular positions, where small ones are large motions; multipliers
-/// keep the five digits that round-off of violations over δ leaves, and recorded reactions are refined.
-const COMPLIANCE: f64 = 1e-11;
+/// keep the seven digits that round-off of violations over δ leaves, and recorded reactions are refined.
+const COMPLIANCE: f64 = 1e-9;
 
 /// The compliance of all constraints.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,12 +59,6 @@ impl Regularization {
         multipliers: &'a [f64],
     ) -> impl Iterator<Item = f64> + 'a {
         self.of.iter().zip(multipliers).map(move |(of, multiplier)| (of * multiplier / factor).abs())
-    }
-
-    /// Largest multiplier that violations of this size, such as round-off, cause where constraints repeat each other.
-    pub(crate) fn undetermined(&self, factor: f64, violation: f64) -> f64 {
-        let least = self.of.iter().copied().filter(|of| *of > 0.0).fold(f64::INFINITY, f64::min);
-        violation * factor / least
     }
 
     /// Lets residuals of the constraints yield to the multipliers; `factor` is what a scaled residual times a unit of

@@ -226,6 +226,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     system.assign_readings(readings::bind(&names.readings, &channels, accumulated.len(), &mut problems));
     stop_at(document, &mut problems)?;
     system.section_errors = section_errors(document, &names, &system);
+    system.beams = names.lines.iter().map(|(name, line)| (name.clone(), line.elements.clone())).collect();
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     let system = Arc::new(system);

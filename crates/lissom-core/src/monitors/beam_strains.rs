@@ -1,0 +1,63 @@
+//! Whether beams are strained more than a beam can be.
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::bytes::{from_bytes, to_bytes};
+use crate::judge::{Warning, report};
+
+/// Strains of the line above this are reported, and of fibres by curvature: thin strips that are rolled up have a fifth [-].
+const NOTEWORTHY: [f64; 2] = [0.1, 0.5];
+/// So many steps are all examined, and one in as many afterwards.
+const ALL: usize = 16;
+const STRIDE: usize = 16;
+
+/// The largest strain so far.
+#[derive(Default)]
+struct BeamStrains {
+    steps: usize,
+    largest: f64,
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let has_beams = !beginning.problem.system.beams.is_empty();
+    has_beams.then(|| Box::<BeamStrains>::default() as Box<dyn Monitor>)
+}
+
+impl Monitor for BeamStrains {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        self.steps += 1;
+        if self.steps > ALL && !self.steps.is_multiple_of(STRIDE) {
+            return;
+        }
+        let at = &step.end.kinematics;
+        for (beam, elements) in &step.problem.system.beams {
+            let found = elements.iter().map(|element| element.largest_strains(at));
+            let noteworthy = found.filter(|[line, fibres]| *line > NOTEWORTHY[0] || *fibres > NOTEWORTHY[1]);
+            let strain = noteworthy.flatten().fold(0.0, f64::max);
+            if strain > self.largest {
+                self.largest = strain;
+                report(
+                    warnings,
+                    |warning| matches!(warning, Warning::LargeStrain { .. }),
+                    |known| {
+                        let time = match known {
+                            Some(Warning::LargeStrain { time, .. }) => *time,
+                            _ => at.time,
+                        };
+                        Some(Warning::LargeStrain { time, beam: beam.clone(), strain })
+                    },
+                );
+            }
+        }
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&(self.steps, self.largest))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let mut learned = (self.steps, self.largest);
+        let is_read = from_bytes(saved, &mut learned);
+        (self.steps, self.largest) = learned;
+        is_read
+    }
+}
