@@ -50,6 +50,11 @@ impl Channel {
         }
     }
 
+    /// The same for one of its components.
+    pub fn need_of(&self, component: usize) -> Need {
+        if self.quantity.is_of_positions(component) { Need::Positions } else { self.need() }
+    }
+
     /// Whether it reports forces of springs or within beams.
     pub fn reports_internal_forces(&self) -> bool {
         self.has(Feature::InternalForces)

@@ -88,6 +88,11 @@ pub(crate) trait OutputQuantity: Send + Sync {
         (!all.is_empty()).then(|| all.iter().map(of).collect())
     }
 
+    /// Whether a component depends on positions only, although others need more.
+    fn is_of_positions(&self, _component: usize) -> bool {
+        false
+    }
+
     /// The unknowns that it depends on, where its derivatives are differences.
     fn touched(&self, _system: &System) -> Option<Touched> {
         None

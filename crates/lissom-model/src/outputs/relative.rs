@@ -64,4 +64,8 @@ impl OutputQuantity for Relative {
     fn measurements(&self) -> &[Arc<dyn Measurement>] {
         &self.measured
     }
+
+    fn is_of_positions(&self, component: usize) -> bool {
+        component.is_multiple_of(2)
+    }
 }

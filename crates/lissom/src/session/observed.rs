@@ -46,14 +46,20 @@ impl Observed {
 
     /// The value of a column, counted over all channels.
     pub(crate) fn value(&self, column: usize, state: &State, step: f64) -> f64 {
-        let found = self.channel_of(column);
-        found.map_or(f64::NAN, |(channel, component)| self.values_of(channel, state, step)[component])
+        let Some((channel, component)) = self.channel_of(column) else { return f64::NAN };
+        let mut values = Vec::new();
+        self.with_recovered(channel.need_of(component), state, step, |recovered| {
+            self.evaluate(channel, (state, recovered), &mut values);
+        });
+        values[component]
     }
 
     /// Whether a column is recovered from the positions.
     pub(crate) fn recovers(&self, column: usize) -> bool {
         self.recovery.is_some()
-            && self.channel_of(column).is_some_and(|(channel, _)| channel.need() > Need::Positions)
+            && self
+                .channel_of(column)
+                .is_some_and(|(channel, component)| channel.need_of(component) > Need::Positions)
     }
 
     /// Channel and component of a column.
