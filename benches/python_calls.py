@@ -9,7 +9,11 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+
 import lissom
+from lissom import entries
+from lissom.entries import Body
 
 PENDULUM = Path(__file__).resolve().parents[1] / "examples" / "pendulum.toml"
 ROUNDS = 7
@@ -72,6 +76,53 @@ def driving() -> None:
     print(f"a function as an input: {1e6 * (constant - plain) / 2000:.2f} µs per sample; where the input changes {1e6 * (changing - plain) / 2000:.2f} µs")
 
 
+def arm(joints: int = 7) -> lissom.Model:
+    """An arm whose joints turn about the vertical and across in turn, with a torque at each."""
+    model = lissom.Model("An arm", gravity=[0, 0, -9.81])
+    for i in range(joints):
+        model.inputs[f"u{i}"] = 0
+        model.bodies[f"link{i}"] = Body(mass=2, inertia=[0.02, 0.02, 0.01], position=[0, 0, 0.3 * i + 0.15])
+        base, axis = f"link{i - 1}" if i else "ground", [0, 1, 0] if i % 2 else [0, 0, 1]
+        model.joints[f"j{i}"] = entries.joints.Revolute(base=base, tip=f"link{i}", at=[0, 0, 0.3 * i], axis=axis)
+        model.loads[f"motor{i}"] = entries.loads.JointTorque(joint=f"j{i}", torque=f"u{i}")
+        model.outputs[f"q{i}"] = entries.outputs.Relative(of=f"j{i}")
+    model.analysis = entries.analyses.Dynamics(end=1000, step=1e-3)
+    return model
+
+
+def controlling() -> None:
+    """PD control of seven joints: seven inputs, a step, angles and rates; alone and in a batch."""
+    model, count, periods = arm(), 64, 300
+    torques = [f"u{i}" for i in range(7)]
+    angles, rates = ([f"q{i}.{what}" for i in range(7)] for what in ("angle", "rate"))
+    target = 0.1 * np.arange(7)
+
+    def sample(read_rates: bool) -> Callable[[], float]:
+        def control() -> None:
+            sim = model.simulation()
+            rate = np.zeros(7)
+            for _ in range(periods):
+                sim.set(torques, 20 * (target - sim[angles]) - 2 * rate)
+                sim.step()
+                if read_rates:
+                    rate = sim[rates]
+
+        return lambda: timed(control)
+
+    def batch() -> float:
+        sims = model.simulations(count)
+
+        def control() -> None:
+            for _ in range(periods // 10):
+                sims.set(torques, 20 * (target - sims[angles]))
+                sims.step()
+
+        return timed(control)
+
+    print(f"seven torques, a step and seven angles of an arm: {1e6 * least(sample(False)) / periods:.0f} µs, with seven rates {1e6 * least(sample(True)) / periods:.0f} µs")
+    print(f"in a batch of {count}: {1e6 * least(batch) / (periods // 10) / count:.0f} µs per arm")
+
+
 def sweeping() -> None:
     """Members of a sweep against their steps."""
     model = lissom.load(PENDULUM)
@@ -93,6 +144,7 @@ def sweeping() -> None:
 if __name__ == "__main__":
     call = stepping()
     driving()
+    controlling()
     sweeping()
     verdict = "reached" if call < MOST else "missed"
     print(f"a call of sim.step() beyond its step: {1e6 * call:.2f} µs, aim less than {1e6 * MOST:.0f} µs: {verdict}")

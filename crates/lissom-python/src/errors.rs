@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 
+use lissom::core::analysis::InputError;
 use lissom::core::diagnostics::Value;
 use lissom::sweep::{SweepError, SweepFolderError};
 use lissom::{CommandError, Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};
@@ -98,6 +99,19 @@ fn request(error: &(impl Diagnose + Display)) -> PyErr {
 /// A model without a solution.
 pub(crate) fn solution(error: &(impl Diagnose + Display)) -> PyErr {
     with(SolutionError::new_err(error.to_string()), &error.diagnostic())
+}
+
+/// An input that cannot be set.
+pub(crate) fn of_input(error: &InputError) -> PyErr {
+    match error {
+        InputError::Unknown { .. } | InputError::NotFinite { .. } => value_error(error),
+        other => solution(other),
+    }
+}
+
+/// The same of a failure that was stored.
+pub(crate) fn of_failure((text, diagnostic): &(String, Diagnostic)) -> PyErr {
+    with(SolutionError::new_err(text.clone()), diagnostic)
 }
 
 /// An invalid request, or a model without a solution.

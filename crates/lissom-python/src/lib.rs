@@ -3,6 +3,8 @@
 
 mod analyses;
 mod animation;
+mod batch;
+mod cached_session;
 mod errors;
 mod model;
 mod results;
@@ -19,6 +21,7 @@ fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     errors::add_to(module)?;
     module.add_class::<model::NativeModel>()?;
     module.add_class::<simulation::Simulation>()?;
+    module.add_class::<batch::Batch>()?;
     module.add_class::<sweep::NativeSweep>()?;
     module.add_function(wrap_pyfunction!(analyses::modes, module)?)?;
     module.add_function(wrap_pyfunction!(analyses::buckling, module)?)?;

@@ -13,6 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::batch::Batch;
 use crate::errors::{self, SolutionError, of_report, of_session, solution};
 use crate::results::{Parts, json, parts};
 use crate::simulation::Simulation;
@@ -176,6 +177,15 @@ impl NativeModel {
             Ok((session, document))
         })?;
         Ok(Simulation::new(session, document, slf.unbind()))
+    }
+
+    /// So many sessions at the start of the model.
+    fn simulations(&self, py: Python<'_>, count: NonZero<usize>) -> PyResult<Batch> {
+        let own = self.clone();
+        interruptible(py, move || {
+            let prepared = own.model.prepare(&own.overrides).map_err(|error| of_session(&error))?;
+            Batch::new(&prepared, count.get())
+        })
     }
 }
 

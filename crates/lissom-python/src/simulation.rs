@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use lissom::core::analysis::InputError;
 use lissom::core::stepping::SnapshotError;
 use lissom::{Document, Session, SessionSnapshot, with_code};
 use numpy::PyArray1;
@@ -12,19 +11,20 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyFloat};
 
 use crate::analyses::linearize_here;
-use crate::errors::{solution, value_error};
+use crate::cached_session::{CachedSession, ColumnNames};
+use crate::errors::{of_input, solution, value_error};
 use crate::model::NativeModel;
 use crate::watch::Watch;
 
 /// A name, or several.
 #[derive(FromPyObject)]
-enum Names {
+pub(crate) enum Names {
     One(String),
     Several(Vec<String>),
 }
 
 impl Names {
-    fn all(self) -> Vec<String> {
+    pub(crate) fn all(self) -> Vec<String> {
         match self {
             Self::One(name) => vec![name],
             Self::Several(names) => names,
@@ -40,52 +40,12 @@ enum Inputs {
     Named(Vec<String>),
 }
 
-/// A session and the values of its columns.
-struct Inner {
-    session: Session,
-    values: Vec<f64>,
-    are_current: bool,
-    /// Number of the session's warnings that Python has received.
-    reported: usize,
-}
-
-impl Inner {
-    /// Of one column. Columns that need nothing but positions are evaluated alone.
-    fn value(&mut self, column: usize) -> f64 {
-        if self.are_current || self.session.recovers(column) {
-            return self.values()[column];
-        }
-        self.session.column_value(column)
-    }
-
-    fn values(&mut self) -> &[f64] {
-        if !self.are_current {
-            self.values.clear();
-            self.session.values(&mut self.values);
-            self.are_current = true;
-        }
-        &self.values
-    }
-
-    /// Warnings that Python has not received.
-    fn news(&mut self) -> Vec<String> {
-        let count = self.session.warnings().count();
-        let news = if count > self.reported {
-            self.session.warnings().skip(self.reported).map(with_code).collect()
-        } else {
-            Vec::new()
-        };
-        self.reported = count;
-        news
-    }
-}
-
-/// Issues these warnings.
-fn warn(py: Python<'_>, news: &[String]) -> PyResult<()> {
+/// Issues these warnings of a category of the package.
+pub(crate) fn warn(py: Python<'_>, category: &str, news: &[String]) -> PyResult<()> {
     if news.is_empty() {
         return Ok(());
     }
-    let category = py.import("lissom")?.getattr("ModelWarning")?;
+    let category = py.import("lissom")?.getattr(category)?;
     let warn = py.import("warnings")?.getattr("warn")?;
     news.iter().try_for_each(|words| warn.call1((words, &category)).map(|_| ()))
 }
@@ -95,35 +55,25 @@ fn warn(py: Python<'_>, news: &[String]) -> PyResult<()> {
 /// `sim["arm.angle"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
 #[pyclass(frozen, module = "lissom")]
 pub(crate) struct Simulation {
-    inner: Mutex<Inner>,
+    inner: Mutex<CachedSession>,
     model: Py<NativeModel>,
     document: Document,
-    names: Vec<String>,
-    indices: HashMap<String, usize>,
+    names: ColumnNames,
 }
 
 impl Simulation {
     pub(crate) fn new(session: Session, document: Document, model: Py<NativeModel>) -> Self {
-        let names: Vec<String> = session.columns().iter().map(lissom::Column::name).collect();
-        let indices = names.iter().enumerate().map(|(index, name)| (name.clone(), index)).collect();
-        let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false, reported: 0 });
-        Self { inner, model, document, names, indices }
+        let names = ColumnNames::of(&session);
+        Self { inner: Mutex::new(CachedSession::new(session)), model, document, names }
     }
 
-    fn lock(&self) -> MutexGuard<'_, Inner> {
+    fn lock(&self) -> MutexGuard<'_, CachedSession> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Present value of a column, a signal, an input or a state.
-    fn value(&self, inner: &mut Inner, name: &str) -> PyResult<f64> {
-        let value = match self.indices.get(name) {
-            Some(&column) => Some(inner.value(column)),
-            None => inner.session.value(name),
-        };
-        value.ok_or_else(|| {
-            let known = self.names.join(", ");
-            PyKeyError::new_err(format!("`{name}` is no column; the columns are {known}"))
-        })
+    fn value(&self, inner: &mut CachedSession, name: &str) -> PyResult<f64> {
+        self.names.value(inner, name).ok_or_else(|| PyKeyError::new_err(self.names.unknown(name)))
     }
 }
 
@@ -147,11 +97,10 @@ impl Simulation {
                     "the simulation is at its end, t = {end} s: set a later `analysis.end`, or go on by `step_to`"
                 )));
             }
-            inner.are_current = false;
-            inner.session.advance().map_err(|error| solution(&error))?;
-            Ok(inner.news())
+            inner.change().advance().map_err(|error| solution(&error))?;
+            Ok(inner.news().map(with_code).collect::<Vec<_>>())
         })?;
-        warn(py, &news)
+        warn(py, "ModelWarning", &news)
     }
 
     /// Advances to `time` [s] exactly, also beyond the end of the model's analysis. Stops before it
@@ -169,14 +118,13 @@ impl Simulation {
                     "the simulation is at t = {now} s: it cannot go to {time} s"
                 )));
             }
-            inner.are_current = false;
             let mut go_on = |_: &lissom::Progress| watch.ask(0.0, 0.0);
-            let reached = inner.session.step_to_watched(time, &mut go_on);
+            let reached = inner.change().step_to_watched(time, &mut go_on);
             reached.map(|_| ()).map_err(|error| solution(&error))?;
-            Ok(inner.news())
+            Ok(inner.news().map(with_code).collect::<Vec<_>>())
         });
         watch.finish()?;
-        warn(py, &outcome?)
+        warn(py, "ModelWarning", &outcome?)
     }
 
     /// Warnings so far, as in `summary.json`. Each is also reported by a `ModelWarning` when it occurs.
@@ -218,7 +166,7 @@ impl Simulation {
     /// Names of the columns, in the order of `values`.
     #[getter]
     fn names(&self) -> Vec<String> {
-        self.names.clone()
+        self.names.all.clone()
     }
 
     /// Units of the columns, in the order of `values`.
@@ -256,12 +204,8 @@ impl Simulation {
         };
         py.detach(|| {
             let mut inner = self.lock();
-            inner.are_current = false;
             let given = given.iter().map(|(name, value)| (&**name, *value));
-            inner.session.set_inputs(given).map_err(|error| match error {
-                InputError::Unknown { .. } | InputError::NotFinite { .. } => value_error(&error),
-                other => solution(&other),
-            })
+            inner.change().set_inputs(given).map_err(|error| of_input(&error))
         })
     }
 
@@ -271,7 +215,8 @@ impl Simulation {
         match names {
             Names::One(name) => Ok(PyFloat::new(py, self.value(&mut inner, &name)?).into_any()),
             Names::Several(names) => {
-                let values: PyResult<Vec<f64>> = names.iter().map(|name| self.value(&mut inner, name)).collect();
+                let values: PyResult<Vec<f64>> =
+                    names.iter().map(|name| self.value(&mut inner, name)).collect();
                 Ok(PyArray1::from_vec(py, values?).into_any())
             }
         }
@@ -288,7 +233,7 @@ impl Simulation {
         let model = self.model.get();
         let files =
             py.detach(|| linearize_here(&self.lock().session, model, &self.document, (&inputs, &outputs)))?;
-        warn(py, &files.2)?;
+        warn(py, "ModelWarning", &files.2)?;
         py.import("lissom._linear")?.getattr("LinearModel")?.call_method1("_of", files)
     }
 
@@ -319,8 +264,7 @@ impl Simulation {
                 ));
             }
             let mut inner = self.lock();
-            inner.session.restore(&read).map_err(refused)?;
-            inner.are_current = false;
+            inner.change().restore(&read).map_err(refused)?;
             Ok(())
         })
     }

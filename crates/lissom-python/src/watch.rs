@@ -12,7 +12,7 @@ use lissom::core::interrupt;
 use pyo3::prelude::*;
 
 /// Interval of calls of Python.
-const EVERY: Duration = Duration::from_millis(50);
+pub(crate) const EVERY: Duration = Duration::from_millis(50);
 
 /// Stack of a worker thread, as large as that of a main thread.
 const STACK: usize = 8 << 20;
@@ -50,7 +50,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
 }
 
 /// Raises pending Python exceptions, such as that of Ctrl-C.
-fn asked() -> PyResult<()> {
+pub(crate) fn asked() -> PyResult<()> {
     Python::attach(|py| {
         py.check_signals()?;
         Ok(())

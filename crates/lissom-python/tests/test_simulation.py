@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -180,7 +181,8 @@ step = 0.1
     sim.set(["thrust"], np.array([3.0]))
     thrust, x = sim[["thrust", "cart.x"]]
     assert (thrust, x) == (3.0, sim["cart.x"])
-    for wrong in (lambda: sim.set("thrust"), lambda: sim.set(["thrust"], [1.0, 2.0]), lambda: sim.set({"thrust": 1.0}, 2.0)):
+    wrong: list[tuple[Any, ...]] = [("thrust",), (["thrust"], [1.0, 2.0]), ({"thrust": 1.0}, 2.0)]
+    for arguments in wrong:
         with pytest.raises(ValueError):
-            wrong()
+            sim.set(*arguments)
     assert sim["thrust"] == 3.0

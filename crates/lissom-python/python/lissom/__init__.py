@@ -11,7 +11,7 @@ All quantities are in SI units. Exceptions are `ModelError` and `SolutionError`,
 from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
 from ._animation import Animation
 from ._linear import LinearModel, StateSpace
-from ._lissom import LissomError, ModelError, Simulation, SolutionError, __version__
+from ._lissom import Batch, LissomError, ModelError, Simulation, SolutionError, __version__
 from ._model import Model, ModelWarning, load, loads
 from ._result import Result, read
 from ._sweep import SolutionWarning, SweepTable, sweep
@@ -19,6 +19,7 @@ from ._tables import Table
 
 __all__ = [
     "Animation",
+    "Batch",
     "Buckling",
     "Campbell",
     "Gradient",

@@ -2,10 +2,15 @@
 
 from typing import Any, Callable, Mapping, Optional, Sequence, Union, final, overload
 
+import numpy as np
+import numpy.typing as npt
+
 from ._linear import LinearModel
 from ._tables import Files
 from ._types import Array, Outcome, Parts
 
+#: Numbers in an array, a list or alone.
+_Numbers = Union[float, Sequence[float], Sequence[Sequence[float]], npt.NDArray[Any]]
 _Progress = Optional[Callable[[float, float], object]]
 
 __version__: str
@@ -60,6 +65,7 @@ class NativeModel:
     def check(self) -> dict[str, Any]: ...
     def run(self, progress: _Progress, threads: Optional[int]) -> tuple[Parts, Optional[SolutionError]]: ...
     def simulation(self) -> Simulation: ...
+    def simulations(self, count: int) -> Batch: ...
 
 @final
 class Simulation:
@@ -108,14 +114,14 @@ class Simulation:
     def values(self) -> Array:
         """Present values of all columns: an array of shape (number of columns,), in SI units."""
     @overload
-    def __getitem__(self, names: str, /) -> float: ...
+    def __getitem__(self, names: str, /) -> float: ...  # type: ignore[overload-overlap]
     @overload
     def __getitem__(self, names: Sequence[str], /) -> Array:
         """Present value of a column, a signal, an input or a state, in SI units; with a list of names an array of their values."""
     @overload
     def set(self, inputs: str, value: float) -> None: ...
     @overload
-    def set(self, inputs: Mapping[str, float]) -> None: ...
+    def set(self, inputs: Mapping[str, float], value: None = None) -> None: ...
     @overload
     def set(self, inputs: Sequence[str], value: Union[Sequence[float], Array]) -> None:
         """Sets inputs of the model from now on, until they are set again: `set("torque", 0.5)`, `set({"torque": 0.5, "brake": 1})`,
@@ -138,6 +144,75 @@ class Simulation:
         """Goes back, or on, to where a snapshot of the same model was taken; from there to the same results, bit by bit.
 
         Raises `ValueError` if the bytes are no snapshot of this model and version; the simulation is then as it was.
+        """
+
+@final
+class Batch:
+    """Simulations of one model that advance together, made by `Model.simulations(count)`.
+
+    All processors work on them, with the interpreter lock released. A simulation without a solution stays where it was, with NaN
+    as its values, until it is reset; the others continue. `failed` and `errors` report it, and a `SolutionWarning` is issued.
+    """
+
+    def __len__(self) -> int: ...
+    @overload
+    def set(self, inputs: Union[Mapping[str, _Numbers], _Numbers], values: None = None) -> None: ...
+    @overload
+    def set(self, inputs: Union[str, Sequence[str]], values: _Numbers) -> None:
+        """Sets inputs of all simulations from now on, until they are set again: `set(array)` with an array of shape (count, number of
+        inputs), in the order of `inputs`; `set(names, array)` with some of them; `set("torque", values)` and `set({"torque": values})`
+        with one value per simulation. Arrays of fewer dimensions, and single numbers, are the same for all.
+
+        Raises `ValueError` if the model has no such input, a shape does not fit or a value is not finite; then none is set.
+        """
+    def step(self) -> None:
+        """Performs one step of every simulation: the next planned one, or one whose size is limited by its error.
+
+        Raises `ValueError` if a simulation is at the end of the model's analysis or at an event that ends the run; then none is
+        advanced.
+        """
+    def step_to(self, time: _Numbers) -> None:
+        """Advances all simulations to `time` [s] exactly, one time for all or one for each: `step_to(batch.time + 0.01)`. A simulation
+        stops before it at an event that ends its run, which `stopped_by` names.
+
+        Raises `ValueError` if a time is before the present time of its simulation or not finite; then none is advanced.
+        """
+    def reset(self, members: Union[None, Sequence[int], npt.NDArray[np.bool_], npt.NDArray[np.integer[Any]]] = None) -> None:
+        """Restores the start of simulations, with the inputs of the model: of all, or of those that a mask or a list of indices
+        selects. This is also how a simulation without a solution continues.
+        """
+    @property
+    def time(self) -> Array:
+        """Present times [s], of shape (count,)."""
+    @property
+    def is_finished(self) -> npt.NDArray[np.bool_]:
+        """Which simulations are at the end of the model's analysis, or at an event that ends the run; of shape (count,)."""
+    @property
+    def stopped_by(self) -> list[Optional[str]]:
+        """Name of the event at which each simulation is, if that is to end the run."""
+    @property
+    def failed(self) -> npt.NDArray[np.bool_]:
+        """Which simulations have no solution, of shape (count,)."""
+    @property
+    def errors(self) -> dict[int, SolutionError]:
+        """A `SolutionError` for each of these, by the index of the simulation."""
+    @property
+    def warnings(self) -> list[list[str]]:
+        """Warnings so far of each simulation. Each code is reported once by a `ModelWarning`, for the first simulation concerned."""
+    @property
+    def inputs(self) -> list[str]:
+        """Names of the inputs, in the order of `set(array)`."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the columns, in the order of `values`."""
+    @property
+    def units(self) -> list[str]:
+        """Units of the columns, in the order of `values`."""
+    def values(self) -> Array:
+        """Present values of all columns: an array of shape (count, number of columns), in SI units."""
+    def __getitem__(self, names: Union[str, Sequence[str]], /) -> Array:
+        """Present values of a column, a signal, an input or a state, in SI units: of shape (count,); with a list of names of shape
+        (count, number of names).
         """
 
 @final

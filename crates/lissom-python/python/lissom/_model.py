@@ -15,7 +15,7 @@ from . import _lissom, _toml
 from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
 from ._driven import InputFunction, driven
 from ._linear import LinearModel, linear_model
-from ._lissom import NativeModel, Simulation
+from ._lissom import Batch, NativeModel, Simulation
 from ._result import Result
 from .entries._entry import written
 from .entries._model_tables import ORDER, ModelTables
@@ -198,6 +198,16 @@ class Model(ModelTables):
         sim = self._native.simulation()
         self._warn(sim.warnings)
         return sim
+
+    def simulations(self, count: int) -> Batch:
+        """So many simulations of the model, which are advanced together on all processors.
+
+        Raises:
+            SolutionError: if there are no consistent initial values.
+        """
+        batch = self._native.simulations(_at_least(1, count, "count") or 1)
+        self._warn(batch.warnings[0])
+        return batch
 
     def modes(self, count: int | None = None, *, about: About | None = None, shift: float | None = None) -> Modes:
         """Natural modes, as `lissom modes` finds them.

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class SolutionWarning(UserWarning):
-    """Members of a sweep are not solved."""
+    """Members of a sweep, or simulations of a batch, have no solution."""
 
 
 class SweepTable:

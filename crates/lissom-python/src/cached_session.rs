@@ -1,0 +1,83 @@
+//! A session, and the present values of its columns.
+
+use std::collections::HashMap;
+
+use lissom::core::judge::Warning;
+use lissom::{Column, Session};
+
+/// A session and the values of its columns.
+pub(crate) struct CachedSession {
+    pub(crate) session: Session,
+    values: Vec<f64>,
+    are_current: bool,
+    /// Number of the session's warnings that Python has received.
+    reported: usize,
+}
+
+impl CachedSession {
+    pub(crate) fn new(session: Session) -> Self {
+        Self { session, values: Vec::new(), are_current: false, reported: 0 }
+    }
+
+    /// The session, which the caller changes.
+    pub(crate) fn change(&mut self) -> &mut Session {
+        self.are_current = false;
+        &mut self.session
+    }
+
+    /// Of one column. Columns that need nothing but positions are evaluated alone.
+    pub(crate) fn value(&mut self, column: usize) -> f64 {
+        if self.are_current || self.session.recovers(column) {
+            return self.values()[column];
+        }
+        self.session.column_value(column)
+    }
+
+    /// Of all columns.
+    pub(crate) fn values(&mut self) -> &[f64] {
+        if !self.are_current {
+            self.values.clear();
+            self.session.values(&mut self.values);
+            self.are_current = true;
+        }
+        &self.values
+    }
+
+    /// Warnings that Python has not received.
+    pub(crate) fn news(&mut self) -> impl Iterator<Item = &Warning> {
+        let reported = std::mem::replace(&mut self.reported, self.session.warnings().count());
+        self.session.warnings().skip(reported)
+    }
+}
+
+/// Names of columns, and their indices.
+pub(crate) struct ColumnNames {
+    pub(crate) all: Vec<String>,
+    indices: HashMap<String, usize>,
+}
+
+impl ColumnNames {
+    pub(crate) fn of(session: &Session) -> Self {
+        let all: Vec<String> = session.columns().iter().map(Column::name).collect();
+        let indices = all.iter().enumerate().map(|(index, name)| (name.clone(), index)).collect();
+        Self { all, indices }
+    }
+
+    /// Present value of a column, a signal, an input or a state.
+    pub(crate) fn value(&self, of: &mut CachedSession, name: &str) -> Option<f64> {
+        match self.indices.get(name) {
+            Some(&column) => Some(of.value(column)),
+            None => of.session.value(name),
+        }
+    }
+
+    /// Whether a column needs more than positions.
+    pub(crate) fn recovers(&self, session: &Session, name: &str) -> bool {
+        self.indices.get(name).is_some_and(|&column| session.recovers(column))
+    }
+
+    /// The message about a name that is none of them.
+    pub(crate) fn unknown(&self, name: &str) -> String {
+        format!("`{name}` is no column; the columns are {}", self.all.join(", "))
+    }
+}
