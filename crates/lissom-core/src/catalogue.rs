@@ -1,6 +1,7 @@
 //! All codes of warnings and failures of the core, for the manual and `lissom explain`.
 
 use crate::analysis::assembly::AssemblyError;
+use crate::analysis::joint_space::JointSpaceError;
 use crate::analysis::path::PathError;
 use crate::analysis::{InitialError, InputError, StepError, signal_failure};
 use crate::diagnostics::Entry;
@@ -20,6 +21,7 @@ pub fn entries() -> impl Iterator<Item = &'static Entry> {
 pub(crate) fn of_analyses() -> impl Iterator<Item = &'static Entry> {
     let parts = [
         AssemblyError::ENTRIES,
+        JointSpaceError::ENTRIES,
         PathError::ENTRIES,
         LinearError::ENTRIES,
         ModeError::ENTRIES,

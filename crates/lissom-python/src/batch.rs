@@ -18,6 +18,7 @@ use rayon::prelude::*;
 
 use crate::cached_session::{CachedSession, ColumnNames};
 use crate::errors::{of_failure, solution, value_error};
+use crate::joints::{JointValues, Joints, begin};
 use crate::simulation::{Names, warn};
 use crate::watch::{EVERY, asked};
 
@@ -66,15 +67,17 @@ impl Member {
 pub(crate) struct Batch {
     members: Mutex<Vec<Member>>,
     count: usize,
+    prepared: Prepared,
     start: SessionSnapshot,
     names: ColumnNames,
     inputs: Vec<String>,
+    joints: Mutex<Joints>,
     /// Codes of warnings that Python has received.
     reported: Mutex<BTreeSet<&'static str>>,
 }
 
 impl Batch {
-    pub(crate) fn new(prepared: &Prepared, count: usize) -> PyResult<Self> {
+    pub(crate) fn new(prepared: Prepared, count: usize) -> PyResult<Self> {
         let session = || prepared.session().map_err(|error| solution(&error));
         let first = session()?;
         let start = first.snapshot();
@@ -83,9 +86,22 @@ impl Batch {
         let others = (1..count).into_par_iter().map(|_| session());
         let sessions: Vec<Session> =
             std::iter::once(Ok(first)).chain(others.collect::<Vec<_>>()).collect::<PyResult<_>>()?;
-        let member = |session| Member { cached: CachedSession::new(session), failure: None };
+        let member = |session| Member { cached: CachedSession::new(session, None), failure: None };
         let members = Mutex::new(sessions.into_iter().map(member).collect());
-        Ok(Self { members, count, start, names, inputs, reported: Mutex::default() })
+        Ok(Self {
+            members,
+            count,
+            prepared,
+            start,
+            names,
+            inputs,
+            joints: Mutex::default(),
+            reported: Mutex::default(),
+        })
+    }
+
+    fn lock_joints(&self, py: Python<'_>) -> MutexGuard<'_, Joints> {
+        self.joints.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner)
     }
 
     fn lock(&self, py: Python<'_>) -> MutexGuard<'_, Vec<Member>> {
@@ -157,24 +173,23 @@ impl Batch {
     }
 
     /// Indices of `members`, all by default.
-    fn chosen(&self, members: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<bool>> {
-        let Some(members) = members else { return Ok(vec![true; self.count]) };
+    fn chosen(&self, members: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<usize>> {
+        let Some(members) = members else { return Ok((0..self.count).collect()) };
         let members = members.py().import("numpy")?.call_method1("asarray", (members,))?;
         if let Ok(mask) = members.extract::<PyReadonlyArray1<'_, bool>>() {
-            let mask = mask.as_array().to_vec();
+            let mask = mask.as_array();
             if mask.len() == self.count {
-                return Ok(mask);
+                return Ok((0..self.count).filter(|&index| mask[index]).collect());
             }
             let counts =
                 format!("the mask has {} entries, but there are {} simulations", mask.len(), self.count);
             return Err(PyValueError::new_err(counts));
         }
-        let mut mask = vec![false; self.count];
-        for &index in members.extract::<PyArrayLike1<'_, i64, AllowTypeChange>>()?.as_array() {
-            let own = usize::try_from(index).ok().and_then(|index| mask.get_mut(index));
-            *own.ok_or_else(|| self.no_member(index))? = true;
-        }
-        Ok(mask)
+        let known = |&index: &i64| {
+            let own = usize::try_from(index).ok().filter(|index| *index < self.count);
+            own.ok_or_else(|| self.no_member(index))
+        };
+        members.extract::<PyArrayLike1<'_, i64, AllowTypeChange>>()?.as_array().iter().map(known).collect()
     }
 
     fn no_member(&self, index: impl Display) -> PyErr {
@@ -302,17 +317,53 @@ impl Batch {
         self.advance(py, &mut members, |index, session| session.step_to(times[index]))
     }
 
-    /// Restores the start of simulations, with the inputs of the model: of all, or of those that a mask or a list of indices
-    /// selects. This is also how a simulation without a solution continues.
-    #[pyo3(signature = (members = None))]
-    fn reset(&self, py: Python<'_>, members: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+    /// Names of the independent joint coordinates; with `names` these are chosen, as `Simulation.coordinates` does.
+    #[pyo3(signature = (names = None))]
+    fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
+        Ok(self.lock_joints(py).choose(&self.prepared, names.as_deref())?.names().to_vec())
+    }
+
+    /// Starts simulations again, with the inputs of the model: all, or those that a mask or a list of indices selects. This is also
+    /// how a simulation without a solution continues. With values `q` of joint coordinates and rates `v`, arrays of shape (number of
+    /// selected simulations, number of `coordinates()`) or dictionaries of arrays, as `Simulation.reset` does; arrays of fewer
+    /// dimensions, and single numbers, are the same for all.
+    ///
+    /// Raises `ValueError` if a name is unknown or a shape does not fit.
+    #[pyo3(signature = (members = None, q = None, v = None))]
+    fn reset(
+        &self,
+        py: Python<'_>,
+        members: Option<&Bound<'_, PyAny>>,
+        q: Option<JointValues<'_>>,
+        v: Option<JointValues<'_>>,
+    ) -> PyResult<()> {
         let chosen = self.chosen(members)?;
-        each(py, &mut self.lock(py), |index, member| {
-            if chosen[index] {
-                member.failure = None;
+        let is_model = q.is_none() && v.is_none();
+        let mut joints = self.lock_joints(py);
+        let values = joints.rows(&self.prepared, q, Some(chosen.len()))?;
+        let rates = joints.rows(&self.prepared, v, Some(chosen.len()))?;
+        let coordinates = if is_model { None } else { joints.with_rates(&self.prepared, &rates)? };
+        drop(joints);
+        let mut rows = vec![None; self.count];
+        chosen.iter().enumerate().for_each(|(row, &index)| rows[index] = Some(row));
+        let mut members = self.lock(py);
+        for &index in &chosen {
+            members[index].failure = None;
+        }
+        self.active(py, &mut members, |index, member| {
+            let Some(row) = rows[index] else { return };
+            if is_model && member.cached.beginning.is_none() {
                 if let Err(error) = member.cached.change().restore(&self.start) {
                     member.fail(&error);
                 }
+                return;
+            }
+            let beginning = (!is_model).then(|| (values.row(row), coordinates.clone(), rates.row(row)));
+            match begin(&self.prepared, &beginning) {
+                Ok(session) => {
+                    member.cached.replace(session, beginning);
+                }
+                Err(error) => member.fail(&error),
             }
         })
     }

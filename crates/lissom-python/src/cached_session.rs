@@ -3,11 +3,15 @@
 use std::collections::HashMap;
 
 use lissom::core::judge::Warning;
-use lissom::{Column, Session};
+use lissom::{Column, Session, with_code};
+
+use crate::joints::Beginning;
 
 /// A session and the values of its columns.
 pub(crate) struct CachedSession {
     pub(crate) session: Session,
+    /// Where it began: what depends on the start of a session, such as tolerances, is not part of its snapshots.
+    pub(crate) beginning: Beginning,
     values: Vec<f64>,
     are_current: bool,
     /// Number of the session's warnings that Python has received.
@@ -15,14 +19,21 @@ pub(crate) struct CachedSession {
 }
 
 impl CachedSession {
-    pub(crate) fn new(session: Session) -> Self {
-        Self { session, values: Vec::new(), are_current: false, reported: 0 }
+    pub(crate) fn new(session: Session, beginning: Beginning) -> Self {
+        Self { session, beginning, values: Vec::new(), are_current: false, reported: 0 }
     }
 
     /// The session, which the caller changes.
     pub(crate) fn change(&mut self) -> &mut Session {
         self.are_current = false;
         &mut self.session
+    }
+
+    /// Continues with another session of the model. Returns the warnings that the former one did not have.
+    pub(crate) fn replace(&mut self, session: Session, beginning: Beginning) -> Vec<String> {
+        let known: Vec<String> = self.session.warnings().map(with_code).collect();
+        *self = Self::new(session, beginning);
+        self.news().map(with_code).filter(|warning| !known.contains(warning)).collect()
     }
 
     /// Of one column. Columns that need nothing but positions are evaluated alone.

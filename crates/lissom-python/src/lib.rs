@@ -6,6 +6,7 @@ mod animation;
 mod batch;
 mod cached_session;
 mod errors;
+mod joints;
 mod model;
 mod results;
 mod simulation;

@@ -6,7 +6,7 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use lissom::core::analysis::mobility::{Redundant, mobility};
-use lissom::{Document, Model, Override, Record, Session, SessionError, Stopped, Summary, summary};
+use lissom::{Document, Model, Override, Prepared, Record, Session, SessionError, Stopped, Summary, summary};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use pyo3::exceptions::PyValueError;
@@ -173,8 +173,9 @@ impl NativeModel {
         let model = slf.get().clone();
         let (session, document) = interruptible(slf.py(), move || {
             let document = model.document()?;
-            let session = Session::new(&document).map_err(|error| of_session(&error))?;
-            Ok((session, document))
+            let prepared = Prepared::of(&document).map_err(|error| of_session(&error))?;
+            let session = prepared.session().map_err(|error| solution(&error))?;
+            Ok((session, (document, prepared)))
         })?;
         Ok(Simulation::new(session, document, slf.unbind()))
     }
@@ -184,7 +185,7 @@ impl NativeModel {
         let own = self.clone();
         interruptible(py, move || {
             let prepared = own.model.prepare(&own.overrides).map_err(|error| of_session(&error))?;
-            Batch::new(&prepared, count.get())
+            Batch::new(prepared, count.get())
         })
     }
 }

@@ -4,15 +4,17 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lissom::core::stepping::SnapshotError;
-use lissom::{Document, Session, SessionSnapshot, with_code};
+use lissom::{Document, Prepared, Session, SessionSnapshot, with_code};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
 use pyo3::types::{PyBytes, PyFloat};
 
 use crate::analyses::linearize_here;
 use crate::cached_session::{CachedSession, ColumnNames};
 use crate::errors::{of_input, solution, value_error};
+use crate::joints::{JointValues, Joints, begin, of_joints};
 use crate::model::NativeModel;
 use crate::watch::Watch;
 
@@ -58,13 +60,24 @@ pub(crate) struct Simulation {
     inner: Mutex<CachedSession>,
     model: Py<NativeModel>,
     document: Document,
+    prepared: Prepared,
     names: ColumnNames,
+    joints: Mutex<Joints>,
 }
 
 impl Simulation {
-    pub(crate) fn new(session: Session, document: Document, model: Py<NativeModel>) -> Self {
+    pub(crate) fn new(
+        session: Session,
+        (document, prepared): (Document, Prepared),
+        model: Py<NativeModel>,
+    ) -> Self {
         let names = ColumnNames::of(&session);
-        Self { inner: Mutex::new(CachedSession::new(session)), model, document, names }
+        let inner = Mutex::new(CachedSession::new(session, None));
+        Self { inner, model, document, prepared, names, joints: Mutex::default() }
+    }
+
+    fn lock_joints(&self) -> MutexGuard<'_, Joints> {
+        self.joints.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn lock(&self) -> MutexGuard<'_, CachedSession> {
@@ -209,6 +222,43 @@ impl Simulation {
         })
     }
 
+    /// Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as many
+    /// as degrees of freedom. By default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all
+    /// joints with one coordinate.
+    ///
+    /// Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
+    #[pyo3(signature = (names = None))]
+    fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
+        py.detach(|| Ok(self.lock_joints().choose(&self.prepared, names.as_deref())?.names().to_vec()))
+    }
+
+    /// Starts again at the start time, with these values `q` of joint coordinates [rad, m] and rates `v` [rad/s, m/s]: dictionaries, or
+    /// arrays in the order of `coordinates()`. Parts are moved such that all joints close. Coordinates that are not named stay where
+    /// they were at the model's start if they can, and rates that are not named are zero. Inputs are those of the model. Without
+    /// arguments this is the start of the model, with its velocities.
+    ///
+    /// Raises `SolutionError` if the joints do not close with these values, or coordinates are not independent there; `ValueError`
+    /// if a name is unknown or a value not finite. The simulation is then as it was.
+    #[pyo3(signature = (q = None, v = None))]
+    fn reset(&self, py: Python<'_>, q: Option<JointValues<'_>>, v: Option<JointValues<'_>>) -> PyResult<()> {
+        let is_model = q.is_none() && v.is_none();
+        let (values, rates) = {
+            let mut joints = self.joints.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner);
+            (joints.rows(&self.prepared, q, None)?.row(0), joints.rows(&self.prepared, v, None)?)
+        };
+        let news = py.detach(|| {
+            let beginning = if is_model {
+                None
+            } else {
+                let coordinates = self.lock_joints().with_rates(&self.prepared, &rates)?;
+                Some((values, coordinates, rates.row(0)))
+            };
+            let session = begin(&self.prepared, &beginning).map_err(|error| of_joints(&error))?;
+            Ok::<_, PyErr>(self.lock().replace(session, beginning))
+        })?;
+        warn(py, "ModelWarning", &news)
+    }
+
     /// Present value of a column, a signal, an input or a state, in SI units; with a list of names an array of their values.
     fn __getitem__<'py>(&self, py: Python<'py>, names: Names) -> PyResult<Bound<'py, PyAny>> {
         let mut inner = self.lock();
@@ -240,8 +290,12 @@ impl Simulation {
     /// Where the simulation is, as bytes that can be kept, sent and pickled.
     fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let bytes = py.detach(|| {
+            let inner = self.lock();
             let mut bytes = self.model.get().fingerprint().to_le_bytes().to_vec();
-            bytes.extend(self.lock().session.snapshot().to_bytes());
+            let beginning = serde_json::to_vec(&inner.beginning).unwrap_or_default();
+            bytes.extend((beginning.len() as u64).to_le_bytes());
+            bytes.extend(beginning);
+            bytes.extend(inner.session.snapshot().to_bytes());
             bytes
         });
         PyBytes::new(py, &bytes)
@@ -253,18 +307,27 @@ impl Simulation {
     fn restore(&self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
         py.detach(|| {
             let refused = |error: SnapshotError| value_error(&error);
-            let (of, bytes) = snapshot
-                .split_first_chunk()
-                .ok_or_else(|| PyValueError::new_err("the bytes are no snapshot: there are too few"))?;
-            let read = SessionSnapshot::from_bytes(bytes).map_err(refused)?;
+            let too_few = || PyValueError::new_err("the bytes are no snapshot: there are too few");
+            let (of, bytes) = snapshot.split_first_chunk().ok_or_else(too_few)?;
+            let (length, bytes) = bytes.split_first_chunk().ok_or_else(too_few)?;
             if u64::from_le_bytes(*of) != self.model.get().fingerprint() {
                 return Err(PyValueError::new_err(
                     "the snapshot belongs to another model: its text, or values put into it, are not those of this one; restore it \
                      where it was taken (`step_to` goes beyond the end of an analysis)",
                 ));
             }
+            let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(usize::MAX);
+            let (beginning, bytes) = bytes.split_at_checked(length).ok_or_else(too_few)?;
+            let read = SessionSnapshot::from_bytes(bytes).map_err(refused)?;
+            let beginning = serde_json::from_slice(beginning).map_err(|_| refused(SnapshotError::Damaged {}))?;
             let mut inner = self.lock();
-            inner.change().restore(&read).map_err(refused)?;
+            if inner.beginning == beginning {
+                inner.change().restore(&read).map_err(refused)?;
+            } else {
+                let mut session = begin(&self.prepared, &beginning).map_err(|error| of_joints(&error))?;
+                session.restore(&read).map_err(refused)?;
+                inner.replace(session, beginning);
+            }
             Ok(())
         })
     }

@@ -16,6 +16,7 @@ use crate::fmu::FmuError;
 use crate::folder::FolderError;
 use crate::gradient::GradientError;
 use crate::import::ImportError;
+use crate::joint_coordinates::JointCoordinateError;
 use crate::modes::ModesError;
 use crate::motion::{MotionError, VERSION};
 use crate::path::{PathRunError, PathSessionError};
@@ -71,6 +72,43 @@ catalogued! {
         }
     } wraps {
         Initial { 0 => error } => error.diagnostic(),
+    }
+
+    Failure JointCoordinateError {
+        Unknown { name => name, known => known } => "unknown-joint-coordinate" {
+            cause: "`{name}` is not one of the joint coordinates",
+            remedy: "they are: {known}",
+            meaning: "A joint coordinate was named that the model does not have, or a rate of a coordinate that is not among the chosen independent ones.",
+            advice: "Coordinates are named after their joints, such as `elbow.angle` or `rail.displacement`.",
+        }
+        NoDefault { actuated => actuated, single => single, freedoms => freedoms } => "no-joint-coordinates" {
+            cause: "the motion has {freedoms} degrees of freedom, but {actuated} joint coordinates have an actuator, and {single} joints have a single coordinate",
+            remedy: "choose as many independent joint coordinates as degrees of freedom",
+            meaning: "Joint coordinates are chosen by default if those of actuators, or of joints with one coordinate, are as many as the degrees of freedom.",
+            advice: "Choose the coordinates by name. Models with beams or free bodies have more degrees of freedom than joint coordinates.",
+        }
+        NotFinite { name => name, value => value } => "joint-coordinate-not-finite" {
+            cause: "joint coordinate `{name}` cannot be {value}",
+            remedy: "specify a finite number",
+            meaning: "A value or rate of a joint coordinate is infinite or not a number.",
+            advice: "Use a finite number.",
+        }
+        Output { name => name, known => known } => "jacobian-output" {
+            cause: "the model has no output `{name}`",
+            remedy: "its outputs are: {known}",
+            meaning: "The Jacobian of an output was requested that the model does not have.",
+            advice: "Use a name of the section `[outputs]`.",
+        }
+        NoJacobian { 0 => name } => "no-jacobian" {
+            cause: "output `{name}` has no derivatives with respect to joint coordinates or rates",
+            remedy: "use an output of positions or velocities",
+            meaning: "Accelerations, forces and accumulated outputs are no functions of joint coordinates and rates.",
+            advice: "Use an output of positions or velocities.",
+        }
+    } wraps {
+        Assembly { 0 => error } => error.diagnostic(),
+        Space { 0 => error } => error.diagnostic(),
+        Start { 0 => error } => error.diagnostic(),
     }
 
     Failure RunError {

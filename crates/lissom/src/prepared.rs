@@ -75,12 +75,20 @@ impl Prepared {
     ///
     /// # Errors
     /// If the model is invalid, or its analysis has no time history.
+    pub fn of(document: &Document) -> Result<Self, SessionError> {
+        Self::new(document, None)
+    }
+
     pub(crate) fn new(document: &Document, ids: Option<Arc<IdNames>>) -> Result<Self, SessionError> {
         let kind = &document.analysis.kind;
         if !matches!(kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
             return Err(SessionError::NotInTime(kind.name()));
         }
         Ok(Self { lowered: lower(document)?, ids })
+    }
+
+    pub(crate) fn lowered(&self) -> &Lowered {
+        &self.lowered
     }
 
     /// The shared system.

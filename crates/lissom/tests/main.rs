@@ -24,6 +24,7 @@ mod force_laws;
 mod frames;
 mod generalized_coordinates;
 mod gradient;
+mod joint_space;
 mod joints;
 mod latches;
 mod machines;

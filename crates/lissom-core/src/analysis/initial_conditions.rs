@@ -183,6 +183,11 @@ impl ConsistentInitialConditions {
         right.copy_from_slice(&solution);
     }
 
+    /// M x of the matrix factorised last.
+    pub(super) fn multiply_mass(&self, system: &System, x: &[f64], out: &mut [f64]) {
+        system.structure().pattern.multiply(&self.linearization.mass, x, out);
+    }
+
     /// rest -= [M Bᵀ; B 0] x.
     pub(super) fn subtract_product(&self, system: &System, x: &[f64], rest: &mut [f64]) {
         let pattern = &system.structure().pattern;
@@ -382,7 +387,7 @@ impl ConsistentInitialConditions {
     /// The same with the matrix factorised last.
     ///
     /// Where forces depend on multipliers, these are found by repetition: friction is small against what presses.
-    fn acceleration_with_factors(
+    pub(super) fn acceleration_with_factors(
         &mut self,
         system: &System,
         state: &State,
@@ -421,7 +426,9 @@ impl ConsistentInitialConditions {
         system.begin_step(at, &mut self.starts);
         let accelerations = &mut right[layout.coordinate_count()..];
         system.violation_rates(at, &self.starts, [&mut rates, accelerations]);
-        right.iter_mut().for_each(|value| *value = -*value);
+        for value in &mut right {
+            *value = -*value;
+        }
         right
     }
 
@@ -535,6 +542,21 @@ fn gather(
     }
     for (&row, coordinate) in layout.coordinate_rows.iter().zip(&at.coordinates) {
         out[row as usize] = of_coordinate(coordinate);
+    }
+}
+
+/// Sets twists and rates; those of impulses, which are forces, to zero.
+pub(super) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.twist[k] = values[row as usize];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
+        coordinate.rate = values[row as usize];
+    }
+    for (_, impulse) in layout.impulses() {
+        at.coordinates[impulse].rate = 0.0;
     }
 }
 

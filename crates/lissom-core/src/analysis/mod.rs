@@ -14,6 +14,7 @@ pub mod factorization_study;
 mod held_values;
 pub mod initial_conditions;
 mod initial_error;
+pub mod joint_space;
 pub(crate) mod loops;
 pub mod mobility;
 pub mod path;

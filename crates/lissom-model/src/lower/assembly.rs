@@ -87,6 +87,35 @@ impl Assembly {
     }
 }
 
+/// Nodes of a part.
+fn nodes_of<'a>(names: &'a Names, part: &str) -> &'a [NodeId] {
+    let node = names.nodes.get(part).map(std::slice::from_ref);
+    let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
+    nodes.or(names.superelements.get(part).map(Vec::as_slice)).unwrap_or_default()
+}
+
+/// Nodes that are to stay where they are.
+pub(super) fn fixed_nodes(asked: &AssemblyRequest, names: &Names) -> Vec<NodeId> {
+    asked.fixed.iter().flat_map(|(part, _)| nodes_of(names, part)).copied().collect()
+}
+
+/// An assembly of a model with these nodes fixed, and these values of coordinates.
+pub(super) fn request<'a>(
+    names: &'a Names,
+    fixed: &[NodeId],
+    values: &[(CoordinateId, f64)],
+    tolerance: f64,
+) -> Request<'a> {
+    Request {
+        rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
+            .chain(names.superelements.values().map(Vec::as_slice))
+            .collect(),
+        fixed: fixed.to_vec(),
+        values: values.to_vec(),
+        tolerance,
+    }
+}
+
 /// Assembles the model.
 pub(super) fn assembled(
     document: &Document,
@@ -95,19 +124,8 @@ pub(super) fn assembled(
     values: &[(CoordinateId, f64)],
     at: &mut Kinematics,
 ) -> Result<Assembly, Problem> {
-    let nodes_of = |part: &str| -> Vec<NodeId> {
-        let node = names.nodes.get(part).map(std::slice::from_ref);
-        let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
-        nodes.or(names.superelements.get(part).map(Vec::as_slice)).unwrap_or_default().to_vec()
-    };
-    let request = Request {
-        rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
-            .chain(names.superelements.values().map(Vec::as_slice))
-            .collect(),
-        fixed: asked.fixed.iter().flat_map(|(part, _)| nodes_of(part)).collect(),
-        values: values.to_vec(),
-        tolerance: asked.tolerance,
-    };
+    let fixed = fixed_nodes(asked, names);
+    let request = request(names, &fixed, values, asked.tolerance);
     let before = at.clone();
     let found = assemble(system, at, &request).map_err(|error| problem(document, asked, &error))?;
     let parts = (document.bodies.iter().map(|body| &body.name.value))
@@ -116,7 +134,7 @@ pub(super) fn assembled(
         .chain(document.superelements.iter().map(|element| &element.name.value));
     let size = before.nodes.iter().map(|node| node.frame.position.norm()).fold(0.0, f64::max);
     let moved = parts.filter_map(|part| {
-        let of_nodes = nodes_of(part).into_iter().map(|node| found.moved[node.index()]);
+        let of_nodes = nodes_of(names, part).iter().map(|node| found.moved[node.index()]);
         let (distance, turn) =
             of_nodes.fold((0.0, 0.0), |most: (f64, f64), own| (most.0.max(own.0), most.1.max(own.1)));
         let is_moved = distance > NOTHING * size || turn > NOTHING;

@@ -323,6 +323,7 @@ fn element(
             Attached::Coordinate(coordinate(component, joint, wanted, builder, names)?)
         }
     };
+    let coordinate = if let Attached::Coordinate(coordinate) = attached { Some(coordinate) } else { None };
     // A size that depends on the motion is no constant load.
     let ramp = ramp.filter(|_| component.signal.is_none());
     let ramped = ramp.and_then(|span| ramped(kind, &component.parameters, span));
@@ -341,6 +342,7 @@ fn element(
     };
     let is_spring = SPRINGS.iter().any(|spring| spring.name == kind.name);
     names.powers.extend(element.map(|element| (component.name.value.clone(), element)));
+    names.actuators.extend(coordinate.filter(|_| !is_spring).map(|coordinate| (coordinate, element)));
     if let Some(element) = element.filter(|_| is_spring) {
         let quantity = match kind.attachment {
             elements::Attachment::Coordinate(quantity) => quantity,

@@ -23,11 +23,12 @@ use std::sync::Arc;
 
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::accumulated::Accumulated;
+use lissom_core::analysis::assembly::{AssemblyError, assemble};
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::beam::section_error::SectionError;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::judge::Warning;
-use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
+use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, SignalId};
 use lissom_core::system::{Builder, ElementId, State, System};
@@ -35,7 +36,10 @@ use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
 use crate::channels::Channel;
-use crate::document::{Component, Document, NodeReference, Output, OutputSource, Subject, interface_name};
+use crate::document::{
+    Component, DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output, OutputSource,
+    Subject, interface_name,
+};
 use crate::functions::Ramp;
 use crate::output_channels;
 use crate::outputs::Resolver;
@@ -68,9 +72,25 @@ pub struct Lowered {
     pub warnings: Vec<Warning>,
     /// Result of the assembly, if requested.
     pub assembly: Option<Assembly>,
+    /// Nodes that assemblies leave where they are.
+    fixed: Vec<NodeId>,
 }
 
 impl Lowered {
+    /// The positions at the start, changed so that coordinates of joints have these values [rad, m] and all joints close.
+    ///
+    /// # Errors
+    /// If there are none nearby.
+    pub fn positions_with(&self, values: &[(CoordinateId, f64)]) -> Result<Kinematics, AssemblyError> {
+        let mut at = self.state.kinematics.clone();
+        assemble(
+            &self.system,
+            &mut at,
+            &assembly::request(&self.names, &self.fixed, values, ASSEMBLY_TOLERANCE),
+        )?;
+        Ok(at)
+    }
+
     /// Frame of a node as the model describes it, which an assembly may have moved.
     pub fn drawn_frame(&self, node: NodeId) -> Motion {
         let at_start = || self.state.kinematics.nodes[node].frame;
@@ -104,6 +124,8 @@ pub struct Names {
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
     /// Springs, loads and joints' friction, whose power can be determined.
     pub powers: BTreeMap<String, ElementId>,
+    /// Loads on coordinates of joints; those of size zero have no element.
+    pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,
     /// Those of the signals that are straight lines of time, a + b t.
@@ -230,6 +252,8 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     let system = Arc::new(system);
+    let asked = document.assembly.as_ref();
+    let fixed = asked.map(|asked| assembly::fixed_nodes(asked, &names)).unwrap_or_default();
     Ok(Lowered {
         system,
         state,
@@ -241,6 +265,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         names,
         warnings,
         assembly,
+        fixed,
     })
 }
 

@@ -31,7 +31,7 @@ impl Channel {
 
     /// Derivatives of its components by positions, velocities, accelerations, multipliers and held values at a state; exact
     /// where there are formulas, otherwise by differences. `length` [m] is of the size of the model.
-    pub(crate) fn derivatives_at(
+    pub fn derivatives_at(
         &self,
         system: &System,
         state: &State,

@@ -11,6 +11,7 @@ from ._types import Array, Outcome, Parts
 
 #: Numbers in an array, a list or alone.
 _Numbers = Union[float, Sequence[float], Sequence[Sequence[float]], npt.NDArray[Any]]
+_JointValues = Union[Mapping[str, _Numbers], _Numbers]
 _Progress = Optional[Callable[[float, float], object]]
 
 __version__: str
@@ -131,6 +132,22 @@ class Simulation:
         Raises `ValueError` if the model has no such input or a value is not finite, `SolutionError` if there is no
         consistent start with them; then none is set.
         """
+    def coordinates(self, names: Optional[Sequence[str]] = None) -> list[str]:
+        """Names of the independent joint coordinates, such as `["shoulder.angle", "elbow.angle"]`; with `names` these are chosen, as many
+        as degrees of freedom. By default they are those of joints with a `joint_torque` or `joint_force`, or otherwise those of all
+        joints with one coordinate.
+
+        Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
+        """
+    def reset(self, q: Optional[_JointValues] = None, v: Optional[_JointValues] = None) -> None:
+        """Starts again at the start time, with these values `q` of joint coordinates [rad, m] and rates `v` [rad/s, m/s]: dictionaries, or
+        arrays in the order of `coordinates()`. Parts are moved such that all joints close. Coordinates that are not named stay where
+        they were at the model's start if they can, and rates that are not named are zero. Inputs are those of the model. Without
+        arguments this is the start of the model, with its velocities.
+
+        Raises `SolutionError` if the joints do not close with these values, or coordinates are not independent there; `ValueError`
+        if a name is unknown or a value not finite. The simulation is then as it was.
+        """
     def linearize(self, inputs: Union[str, Sequence[str]] = ..., outputs: Union[str, Sequence[str]] = ...) -> LinearModel:
         """The model linearised where the simulation stands, a `lissom.LinearModel`: what `model.linearize` gives about this
         time. `inputs` name inputs, loads and prescribed motions, `outputs` outputs or columns of them.
@@ -177,9 +194,20 @@ class Batch:
 
         Raises `ValueError` if a time is before the present time of its simulation or not finite; then none is advanced.
         """
-    def reset(self, members: Union[None, Sequence[int], npt.NDArray[np.bool_], npt.NDArray[np.integer[Any]]] = None) -> None:
-        """Restores the start of simulations, with the inputs of the model: of all, or of those that a mask or a list of indices
-        selects. This is also how a simulation without a solution continues.
+    def coordinates(self, names: Optional[Sequence[str]] = None) -> list[str]:
+        """Names of the independent joint coordinates; with `names` these are chosen, as `Simulation.coordinates` does."""
+    def reset(
+        self,
+        members: Union[None, Sequence[int], npt.NDArray[np.bool_], npt.NDArray[np.integer[Any]]] = None,
+        q: Optional[_JointValues] = None,
+        v: Optional[_JointValues] = None,
+    ) -> None:
+        """Starts simulations again, with the inputs of the model: all, or those that a mask or a list of indices selects. This is also
+        how a simulation without a solution continues. With values `q` of joint coordinates and rates `v`, arrays of shape (number of
+        selected simulations, number of `coordinates()`) or dictionaries of arrays, as `Simulation.reset` does; arrays of fewer
+        dimensions, and single numbers, are the same for all.
+
+        Raises `ValueError` if a name is unknown or a shape does not fit.
         """
     @property
     def time(self) -> Array:

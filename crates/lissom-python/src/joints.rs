@@ -1,0 +1,130 @@
+//! Joint coordinates of a model: which ones are chosen, and values of them as Python gives them.
+
+use std::collections::BTreeMap;
+
+use lissom::core::analysis::joint_space::JointSpaceError;
+use lissom::{JointCoordinateError, JointCoordinates, Prepared, Session, StartError};
+use numpy::{AllowTypeChange, PyArrayLikeDyn};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors::{solution, value_error};
+
+/// Values of joint coordinates by name, or in the order of the chosen ones.
+#[derive(FromPyObject)]
+pub(crate) enum JointValues<'py> {
+    Named(BTreeMap<String, PyArrayLikeDyn<'py, f64, AllowTypeChange>>),
+    Ordered(PyArrayLikeDyn<'py, f64, AllowTypeChange>),
+}
+
+/// The same for one or several simulations: a row for each.
+#[derive(Default)]
+pub(crate) struct Rows {
+    names: Vec<String>,
+    values: Vec<f64>,
+}
+
+impl Rows {
+    pub(crate) fn row(&self, row: usize) -> Vec<(String, f64)> {
+        let own = self.values.iter().skip(row * self.names.len());
+        self.names.iter().cloned().zip(own.copied()).collect()
+    }
+}
+
+/// Joint values, chosen coordinates and rates with which a session began; none for the start of the model.
+pub(crate) type Beginning = Option<(Vec<(String, f64)>, Option<Vec<String>>, Vec<(String, f64)>)>;
+
+/// A session that begins there.
+pub(crate) fn begin(prepared: &Prepared, beginning: &Beginning) -> Result<Session, JointCoordinateError> {
+    let Some((values, coordinates, rates)) = beginning else {
+        return prepared.session().map_err(|error| StartError::from(error).into());
+    };
+    let chosen = coordinates.as_ref().map(|names| prepared.joint_coordinates(Some(names))).transpose()?;
+    prepared.session_at(values, chosen.as_ref(), rates)
+}
+
+/// The chosen coordinates of a model.
+#[derive(Default)]
+pub(crate) struct Joints {
+    chosen: Option<JointCoordinates>,
+}
+
+impl Joints {
+    /// Chooses the coordinates of these names.
+    pub(crate) fn choose(
+        &mut self,
+        prepared: &Prepared,
+        names: Option<&[String]>,
+    ) -> PyResult<&JointCoordinates> {
+        if names.is_some() || self.chosen.is_none() {
+            let coordinates = prepared.joint_coordinates(names).map_err(|error| of_joints(&error))?;
+            return Ok(self.chosen.insert(coordinates));
+        }
+        self.chosen(prepared)
+    }
+
+    /// The chosen coordinates, or those that are chosen by default.
+    pub(crate) fn chosen(&mut self, prepared: &Prepared) -> PyResult<&JointCoordinates> {
+        let chosen = match self.chosen.take() {
+            Some(chosen) => chosen,
+            None => prepared.joint_coordinates(None).map_err(|error| of_joints(&error))?,
+        };
+        Ok(self.chosen.insert(chosen))
+    }
+
+    /// Values of so many simulations; arrays of fewer dimensions are the same for all.
+    pub(crate) fn rows(
+        &mut self,
+        prepared: &Prepared,
+        given: Option<JointValues<'_>>,
+        count: Option<usize>,
+    ) -> PyResult<Rows> {
+        let fitting = |given: PyArrayLikeDyn<'_, f64, AllowTypeChange>, columns: Option<usize>| {
+            let shape: Vec<usize> = count.into_iter().chain(columns).collect();
+            let given = given.as_array();
+            let all = given.broadcast(shape.clone()).filter(|_| count.is_some() || given.shape() == shape);
+            let all = all.ok_or_else(|| {
+                let found = given.shape();
+                PyValueError::new_err(format!(
+                    "the joint values have the shape {found:?} instead of {shape:?}"
+                ))
+            })?;
+            Ok::<Vec<f64>, PyErr>(all.iter().copied().collect())
+        };
+        match given {
+            None => Ok(Rows::default()),
+            Some(JointValues::Ordered(values)) => {
+                let names = self.chosen(prepared)?.names().to_vec();
+                let values = fitting(values, Some(names.len()))?;
+                Ok(Rows { names, values })
+            }
+            Some(JointValues::Named(given)) => {
+                let names: Vec<String> = given.keys().cloned().collect();
+                let columns =
+                    given.into_values().map(|values| fitting(values, None)).collect::<PyResult<Vec<_>>>()?;
+                let row = |row: usize| columns.iter().map(move |column| column[row]);
+                Ok(Rows { names, values: (0..count.unwrap_or(1)).flat_map(row).collect() })
+            }
+        }
+    }
+
+    /// Names of the coordinates whose rates are to be given: none where all parts are at rest and there is no choice.
+    pub(crate) fn with_rates(&mut self, prepared: &Prepared, rates: &Rows) -> PyResult<Option<Vec<String>>> {
+        match self.chosen(prepared) {
+            Ok(chosen) => Ok(Some(chosen.names().to_vec())),
+            Err(_) if rates.names.is_empty() => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// A request about joint coordinates that is not met.
+pub(crate) fn of_joints(error: &JointCoordinateError) -> PyErr {
+    use JointCoordinateError as Error;
+    match error {
+        Error::Assembly(_)
+        | Error::Start(_)
+        | Error::Space(JointSpaceError::Dependent { .. } | JointSpaceError::Initial(_)) => solution(error),
+        other => value_error(other),
+    }
+}

@@ -1,0 +1,166 @@
+"""Starts with given joint coordinates."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import lissom
+from lissom import entries
+from lissom.entries import Body
+
+
+def arm(joints: int) -> lissom.Model:
+    """An arm whose joints turn about the vertical and across in turn, with a torque at each."""
+    model = lissom.Model("An arm", gravity=[0, 0, -9.81])
+    for i in range(joints):
+        model.inputs[f"u{i}"] = 0
+        model.bodies[f"link{i}"] = Body(mass=2 - 0.2 * i, inertia=[0.02, 0.03, 0.01], position=[0.05, 0.02, 0.3 * i + 0.15])
+        base, axis = f"link{i - 1}" if i else "ground", [0, 1, 0] if i % 2 else [0, 0, 1]
+        model.joints[f"j{i}"] = entries.joints.Revolute(base=base, tip=f"link{i}", at=[0, 0, 0.3 * i], axis=axis)
+        model.loads[f"motor{i}"] = entries.loads.JointTorque(joint=f"j{i}", torque=f"u{i}")
+        model.outputs[f"q{i}"] = entries.outputs.Relative(of=f"j{i}")
+    model.outputs["tip"] = entries.outputs.Position(of=f"link{joints - 1}")
+    model.outputs["speed"] = entries.outputs.Velocity(of=f"link{joints - 1}")
+    model.analysis = entries.analyses.Dynamics(end=2, step=2e-3)
+    return model
+
+
+def columns(joints: int, what: str) -> list[str]:
+    return [f"q{i}.{what}" for i in range(joints)]
+
+
+#: A parallelogram with cranks of 1 m, 2 m apart.
+FOUR_BAR = """
+lissom = 1
+[bodies.crank]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [0, 0, 0.5]
+[bodies.coupler]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [1, 0, 1]
+[bodies.rocker]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [2, 0, 0.5]
+[joints]
+a = { kind = "revolute", base = "ground", tip = "crank", at = [0, 0, 0], axis = [0, 1, 0] }
+b = { kind = "revolute", base = "crank", tip = "coupler", at = [0, 0, 1], axis = [0, 1, 0] }
+c = { kind = "spherical", base = "coupler", tip = "rocker", at = [2, 0, 1] }
+d = { kind = "revolute", base = "ground", tip = "rocker", at = [2, 0, 0], axis = [0, 1, 0] }
+[outputs]
+crank = { kind = "relative", of = "a" }
+rocker = { kind = "relative", of = "d" }
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-2
+"""
+
+
+def test_an_arm_starts_with_given_angles_and_rates() -> None:
+    model = arm(7)
+    sim = model.simulation()
+    assert sim.coordinates() == [f"j{i}.angle" for i in range(7)]
+    rng = np.random.default_rng(1)
+    q, v = rng.uniform(-2, 2, 7), rng.uniform(-1, 1, 7)
+    sim.step_to(0.1)
+    sim.reset(q, v)
+    assert sim.time == 0 and np.allclose(sim[columns(7, "angle")], q, rtol=0, atol=1e-12)
+    assert np.allclose(sim[columns(7, "rate")], v, rtol=0, atol=1e-12) and sim.warnings == []
+    # The velocity of the tip is that of its position after a short time.
+    before, speed = sim[["tip.x", "tip.y", "tip.z"]], sim[["speed.v1", "speed.v2", "speed.v3"]]
+    sim.step_to(1e-6)
+    assert np.allclose((sim[["tip.x", "tip.y", "tip.z"]] - before) / 1e-6, speed, rtol=0, atol=1e-4)
+    # By name; what is not named stays where it was drawn, at rest.
+    sim.reset({"j3.angle": 0.5}, {"j1.angle": 2.0})
+    assert np.allclose(sim[columns(7, "angle")], [0, 0, 0, 0.5, 0, 0, 0], rtol=0, atol=1e-12)
+    assert np.allclose(sim[columns(7, "rate")], [0, 2, 0, 0, 0, 0, 0], rtol=0, atol=1e-12)
+    sim.set("u0", 1.0)
+    sim.reset()
+    fresh = model.simulation()
+    assert sim.values().tobytes() == fresh.values().tobytes() and sim["u0"] == 0
+    sim.step()
+    fresh.step()
+    assert sim.values().tobytes() == fresh.values().tobytes()
+
+
+def test_a_start_that_is_refused_changes_nothing() -> None:
+    sim = arm(3).simulation()
+    sim.step_to(0.1)
+    before = sim.values()
+    wrong: list[tuple[str, Any, Any]] = [
+        ("shape", [1.0, 2.0], None),
+        ("shape", None, np.zeros((3, 3))),
+        ("j0.angle, j1.angle", {"j4.angle": 1.0}, None),
+        ("j0.angle, j1.angle", None, {"j4.angle": 1.0}),
+        ("cannot be NaN", [0.0, np.nan, 0.0], None),
+    ]
+    for words, q, v in wrong:
+        with pytest.raises(ValueError, match=words):
+            sim.reset(q, v)
+    assert sim.time == 0.1 and np.array_equal(sim.values(), before)
+    with pytest.raises(ValueError, match="3 degrees of freedom, but 2"):
+        sim.coordinates(["j0.angle", "j1.angle"])
+    assert sim.coordinates(["j2.angle", "j0.angle", "j1.angle"])[0] == "j2.angle"
+    sim.reset([1.0, 2.0, 3.0])
+    assert np.allclose(sim[columns(3, "angle")], [2, 3, 1], rtol=0, atol=1e-12)
+
+
+def test_loops_close() -> None:
+    """The rocker of a parallelogram is parallel to its crank."""
+    sim = lissom.loads(FOUR_BAR).simulation()
+    with pytest.raises(ValueError, match="1 degrees of freedom") as caught:
+        sim.coordinates()
+    assert caught.value.code == "no-joint-coordinates"  # type: ignore[attr-defined]
+    assert sim.coordinates(["a.angle"]) == ["a.angle"]
+    sim.reset([0.7], [2.0])
+    assert np.allclose(sim[["crank.angle", "rocker.angle"]], 0.7, rtol=0, atol=1e-9)
+    assert np.allclose(sim[["crank.rate", "rocker.rate"]], 2, rtol=0, atol=1e-9)
+    before = sim.values()
+    with pytest.raises(lissom.SolutionError, match="do not close") as open_joint:
+        sim.reset({"a.angle": 0.7, "d.angle": 0.1})
+    assert open_joint.value.code == "joints-do-not-close" and np.array_equal(sim.values(), before)
+
+
+def test_snapshots_know_where_a_simulation_began() -> None:
+    model = arm(4)
+    sim, other = model.simulation(), model.simulation()
+    sim.reset([0.5, 1.0, -1.0, 2.0], {"j1.angle": 3.0})
+    sim.step_to(0.05)
+    kept = sim.snapshot()
+    sim.step_to(0.1)
+    other.restore(kept)
+    other.step_to(0.1)
+    assert other.values().tobytes() == sim.values().tobytes()
+    sim.reset()
+    sim.restore(kept)
+    sim.step_to(0.1)
+    assert other.values().tobytes() == sim.values().tobytes()
+
+
+def test_a_batch_starts_with_given_angles() -> None:
+    model = arm(3)
+    batch, sim = model.simulations(4), model.simulation()
+    q = np.random.default_rng(2).uniform(-1, 1, (2, 3))
+    batch.step_to(0.01)
+    batch.reset([3, 1], q, {"j2.angle": [1.0, 2.0]})
+    assert batch.time.tolist() == [0.01, 0, 0.01, 0]
+    angles = batch[columns(3, "angle")]
+    assert np.allclose(angles[[3, 1]], q, rtol=0, atol=1e-12) and np.allclose(batch["q2.rate"][[3, 1]], [1, 2], rtol=0, atol=1e-12)
+    sim.reset(q[1], {"j2.angle": 2.0})
+    batch.step_to(0.02)
+    sim.step_to(0.02)
+    assert batch.values()[1].tobytes() == sim.values().tobytes()
+    batch.reset()
+    sim.reset()
+    assert batch.values().tobytes() == np.array([sim.values()] * 4).tobytes()
+    batch.step()
+    sim.step()
+    assert batch.values().tobytes() == np.array([sim.values()] * 4).tobytes()
+    with pytest.raises(ValueError, match="shape"):
+        batch.reset([0], q)

@@ -1,0 +1,200 @@
+//! Independent joint coordinates, and sessions that start with given values and rates of them.
+
+use std::collections::BTreeMap;
+
+use lissom_core::analysis::assembly::AssemblyError;
+use lissom_core::analysis::joint_space::{JointSpace, JointSpaceError, check_number};
+use lissom_core::analysis::mobility::mobility;
+use lissom_core::diagnostics::Diagnose;
+use lissom_core::kinematics::CoordinateId;
+use lissom_core::system::ElementId;
+use lissom_motion::Vector6;
+
+use crate::prepared::{Prepared, StartError};
+use crate::session::Session;
+
+/// Why a request about joint coordinates is not met.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", self.diagnostic())]
+#[non_exhaustive]
+pub enum JointCoordinateError {
+    /// There is no such coordinate, or it is not among the chosen ones.
+    Unknown {
+        /// The name that was given.
+        name: String,
+        /// The names that are possible.
+        known: String,
+    },
+    /// Neither the coordinates of actuators nor the single coordinates of joints are as many as the degrees of freedom.
+    NoDefault {
+        /// Number of coordinates of joints with actuators.
+        actuated: usize,
+        /// Number of coordinates of joints with one coordinate.
+        single: usize,
+        /// Number of degrees of freedom.
+        freedoms: usize,
+    },
+    /// A value is not finite.
+    NotFinite {
+        /// The coordinate.
+        name: String,
+        /// The value that was given.
+        value: f64,
+    },
+    /// The model has no such output.
+    Output {
+        /// The name that was given.
+        name: String,
+        /// Names of all outputs.
+        known: String,
+    },
+    /// An output depends on accelerations or forces, or has no derivatives.
+    NoJacobian(String),
+    /// The joints do not close with these values.
+    Assembly(AssemblyError),
+    /// The coordinates do not describe the motion.
+    Space(#[from] JointSpaceError),
+    /// The model cannot start there.
+    Start(#[from] StartError),
+}
+
+impl From<AssemblyError> for JointCoordinateError {
+    fn from(error: AssemblyError) -> Self {
+        Self::Assembly(error)
+    }
+}
+
+/// Independent joint coordinates, as many as the degrees of freedom.
+#[derive(Clone, Debug)]
+pub struct JointCoordinates {
+    names: Vec<String>,
+    ids: Vec<CoordinateId>,
+    /// Loads on these coordinates.
+    actuators: Vec<ElementId>,
+}
+
+impl JointCoordinates {
+    /// Their names, such as `elbow.angle`.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    pub(crate) fn ids(&self) -> &[CoordinateId] {
+        &self.ids
+    }
+
+    pub(crate) fn actuators(&self) -> &[ElementId] {
+        &self.actuators
+    }
+}
+
+impl Prepared {
+    /// Coordinates of joints by name.
+    fn coordinate_ids(&self) -> BTreeMap<&str, CoordinateId> {
+        let layout = self.system().layout();
+        let of_joints = self.lowered().names.coordinates.values().flatten();
+        of_joints.map(|&own| (layout.coordinate_name(own), own)).collect()
+    }
+
+    fn coordinate(&self, name: &str) -> Result<CoordinateId, JointCoordinateError> {
+        let ids = self.coordinate_ids();
+        let unknown = || JointCoordinateError::Unknown {
+            name: name.to_owned(),
+            known: ids.keys().copied().collect::<Vec<_>>().join(", "),
+        };
+        ids.get(name).copied().ok_or_else(unknown)
+    }
+
+    /// Independent joint coordinates with these names. By default they are those of joints with a `joint_torque` or `joint_force`, or
+    /// otherwise those of all joints with one coordinate that is not prescribed, if they are as many as the degrees of freedom.
+    ///
+    /// # Errors
+    /// If there is no such coordinate, or there are not as many as degrees of freedom.
+    pub fn joint_coordinates(
+        &self,
+        names: Option<&[String]>,
+    ) -> Result<JointCoordinates, JointCoordinateError> {
+        let system = self.system();
+        let check = |ids: &[CoordinateId]| check_number(system, self.state(), ids.len());
+        let ids = if let Some(names) = names {
+            let ids = names.iter().map(|name| self.coordinate(name)).collect::<Result<Vec<_>, _>>()?;
+            check(&ids)?;
+            ids
+        } else {
+            let lowered = &self.lowered().names;
+            let is_driven =
+                |own: &CoordinateId| system.drives().iter().any(|drive| drive.prescribed.coordinate == *own);
+            let actuated = sorted(lowered.actuators.iter().map(|&(own, _)| own));
+            let of_joints = lowered.coordinates.values().filter(|own| own.len() == 1).flatten();
+            let single = sorted(of_joints.copied().filter(|own| !is_driven(own)));
+            let (actuated_count, single_count) = (actuated.len(), single.len());
+            match [actuated, single].into_iter().find(|ids| check(ids).is_ok()) {
+                Some(ids) => ids,
+                None => {
+                    return Err(JointCoordinateError::NoDefault {
+                        actuated: actuated_count,
+                        single: single_count,
+                        freedoms: mobility(system, self.state()).freedoms,
+                    });
+                }
+            }
+        };
+        let layout = system.layout();
+        let actuators = self.lowered().names.actuators.iter().filter(|(own, _)| ids.contains(own));
+        Ok(JointCoordinates {
+            names: ids.iter().map(|&own| layout.coordinate_name(own).to_owned()).collect(),
+            actuators: actuators.filter_map(|&(_, element)| element).collect(),
+            ids,
+        })
+    }
+
+    /// A session at the start time with these `values` of joint coordinates [rad, m], and all parts moved such that joints close. The
+    /// parts have the velocities at which independent `coordinates` have these `rates` [rad/s, m/s]; those that are not named have
+    /// none. Without `coordinates` all parts are at rest. Inputs and states are those of the model's start.
+    ///
+    /// # Errors
+    /// If a name is unknown, if there are no such positions nearby, or the coordinates depend on each other there.
+    pub fn session_at(
+        &self,
+        values: &[(String, f64)],
+        coordinates: Option<&JointCoordinates>,
+        rates: &[(String, f64)],
+    ) -> Result<Session, JointCoordinateError> {
+        if let Some((name, value)) = values.iter().chain(rates).find(|(_, value)| !value.is_finite()) {
+            return Err(JointCoordinateError::NotFinite { name: name.clone(), value: *value });
+        }
+        let wanted = values.iter().map(|(name, value)| Ok((self.coordinate(name)?, *value)));
+        let wanted = wanted.collect::<Result<Vec<_>, JointCoordinateError>>()?;
+        let mut state = self.state().clone();
+        if !wanted.is_empty() {
+            state.kinematics = self.lowered().positions_with(&wanted)?;
+        }
+        for node in &mut state.kinematics.nodes {
+            node.twist = Vector6::zeros();
+        }
+        for own in &mut state.kinematics.coordinates {
+            own.rate = 0.0;
+        }
+        let names = coordinates.map(JointCoordinates::names).unwrap_or_default();
+        if let Some((name, _)) = rates.iter().find(|(name, _)| !names.contains(name)) {
+            return Err(JointCoordinateError::Unknown { name: name.clone(), known: names.join(", ") });
+        }
+        if let Some(coordinates) = coordinates {
+            let rate =
+                |name: &String| rates.iter().find(|(own, _)| own == name).map_or(0.0, |(_, rate)| *rate);
+            let all: Vec<f64> = names.iter().map(rate).collect();
+            let system = self.system();
+            let mut space =
+                JointSpace::new(system, &state, &self.lowered().settings, coordinates.ids.clone());
+            space.set_rates(system, &mut state, &all)?;
+        }
+        Ok(self.session_from(state)?)
+    }
+}
+
+fn sorted(ids: impl Iterator<Item = CoordinateId>) -> Vec<CoordinateId> {
+    let mut ids: Vec<CoordinateId> = ids.collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
