@@ -14,25 +14,33 @@ pub(crate) struct CachedSession {
     pub(crate) beginning: Beginning,
     values: Vec<f64>,
     are_current: bool,
+    /// Increases with every change.
+    revision: u64,
     /// Number of the session's warnings that Python has received.
     reported: usize,
 }
 
 impl CachedSession {
     pub(crate) fn new(session: Session, beginning: Beginning) -> Self {
-        Self { session, beginning, values: Vec::new(), are_current: false, reported: 0 }
+        Self { session, beginning, values: Vec::new(), are_current: false, revision: 0, reported: 0 }
     }
 
     /// The session, which the caller changes.
     pub(crate) fn change(&mut self) -> &mut Session {
         self.are_current = false;
+        self.revision += 1;
         &mut self.session
+    }
+
+    /// A number that differs after every change.
+    pub(crate) fn revision(&self) -> u64 {
+        self.revision
     }
 
     /// Continues with another session of the model. Returns the warnings that the former one did not have.
     pub(crate) fn replace(&mut self, session: Session, beginning: Beginning) -> Vec<String> {
         let known: Vec<String> = self.session.warnings().map(with_code).collect();
-        *self = Self::new(session, beginning);
+        *self = Self { revision: self.revision + 1, ..Self::new(session, beginning) };
         self.news().map(with_code).filter(|warning| !known.contains(warning)).collect()
     }
 

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use lissom::core::analysis::joint_space::JointSpaceError;
-use lissom::{JointCoordinateError, JointCoordinates, Prepared, Session, StartError};
+use lissom::core::analysis::joint_space::{JointMotion, JointSpaceError};
+use lissom::{JointCoordinateError, JointCoordinates, JointDynamics, Prepared, Session, StartError};
 use numpy::{AllowTypeChange, PyArrayLikeDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::cached_session::CachedSession;
 use crate::errors::{solution, value_error};
 
 /// Values of joint coordinates by name, or in the order of the chosen ones.
@@ -47,6 +48,9 @@ pub(crate) fn begin(prepared: &Prepared, beginning: &Beginning) -> Result<Sessio
 #[derive(Default)]
 pub(crate) struct Joints {
     chosen: Option<JointCoordinates>,
+    dynamics: Option<JointDynamics>,
+    /// Equations of motion, and the revision of the session of which they are.
+    motion: Option<(u64, JointMotion)>,
 }
 
 impl Joints {
@@ -58,6 +62,7 @@ impl Joints {
     ) -> PyResult<&JointCoordinates> {
         if names.is_some() || self.chosen.is_none() {
             let coordinates = prepared.joint_coordinates(names).map_err(|error| of_joints(&error))?;
+            (self.dynamics, self.motion) = (None, None);
             return Ok(self.chosen.insert(coordinates));
         }
         self.chosen(prepared)
@@ -70,6 +75,31 @@ impl Joints {
             None => prepared.joint_coordinates(None).map_err(|error| of_joints(&error))?,
         };
         Ok(self.chosen.insert(chosen))
+    }
+
+    /// Motion of a session in the chosen coordinates.
+    pub(crate) fn dynamics(
+        &mut self,
+        prepared: &Prepared,
+        session: &Session,
+    ) -> PyResult<&mut JointDynamics> {
+        let dynamics = match self.dynamics.take() {
+            Some(dynamics) => dynamics,
+            None => JointDynamics::new(session, self.chosen(prepared)?.clone()),
+        };
+        Ok(self.dynamics.insert(dynamics))
+    }
+
+    /// Equations of motion of a session in the chosen coordinates, which are computed once per revision.
+    pub(crate) fn motion(&mut self, prepared: &Prepared, of: &CachedSession) -> PyResult<&JointMotion> {
+        let motion = match self.motion.take() {
+            Some((revision, motion)) if revision == of.revision() => motion,
+            _ => {
+                let dynamics = self.dynamics(prepared, &of.session)?;
+                dynamics.motion(&of.session).map_err(|error| of_joints(&error))?
+            }
+        };
+        Ok(&self.motion.insert((of.revision(), motion)).1)
     }
 
     /// Values of so many simulations; arrays of fewer dimensions are the same for all.

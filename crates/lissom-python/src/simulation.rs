@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use lissom::core::analysis::joint_space::JointMotion;
 use lissom::core::stepping::SnapshotError;
 use lissom::{Document, Prepared, Session, SessionSnapshot, with_code};
-use numpy::PyArray1;
+use numpy::{AllowTypeChange, PyArray1, PyArray2, PyArrayLike1, PyArrayMethods};
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
@@ -76,6 +77,19 @@ impl Simulation {
         Self { inner, model, document, prepared, names, joints: Mutex::default() }
     }
 
+    /// The present equations of motion in joint coordinates.
+    fn with_motion<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl FnOnce(&JointMotion) -> T + Send,
+    ) -> PyResult<T> {
+        py.detach(|| {
+            let inner = self.lock();
+            let mut joints = self.lock_joints();
+            joints.motion(&self.prepared, &inner).map(work)
+        })
+    }
+
     fn lock_joints(&self) -> MutexGuard<'_, Joints> {
         self.joints.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -88,6 +102,12 @@ impl Simulation {
     fn value(&self, inner: &mut CachedSession, name: &str) -> PyResult<f64> {
         self.names.value(inner, name).ok_or_else(|| PyKeyError::new_err(self.names.unknown(name)))
     }
+}
+
+/// A symmetric matrix.
+fn square(py: Python<'_>, values: Vec<f64>) -> PyResult<Bound<'_, PyArray2<f64>>> {
+    let size = values.len().isqrt();
+    PyArray1::from_vec(py, values).reshape([size, size])
 }
 
 #[pymethods]
@@ -230,6 +250,70 @@ impl Simulation {
     #[pyo3(signature = (names = None))]
     fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
         py.detach(|| Ok(self.lock_joints().choose(&self.prepared, names.as_deref())?.names().to_vec()))
+    }
+
+    /// Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`.
+    fn joint_state<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
+        let state = py.detach(|| {
+            let inner = self.lock();
+            Ok::<_, PyErr>(
+                self.lock_joints().dynamics(&self.prepared, &inner.session)?.values_and_rates(&inner.session),
+            )
+        })?;
+        Ok(state.map(|values| PyArray1::from_vec(py, values)))
+    }
+
+    /// Mass matrix H of `H q̈ + h = τ`, the equations of motion in the joint coordinates q, in the order of `coordinates()`; τ are the
+    /// forces of `joint_torque` and `joint_force` loads on them. An array of shape (number of coordinates, number of coordinates).
+    ///
+    /// Raises `ValueError` if there are no joint coordinates, `SolutionError` if they depend on each other in this position.
+    fn mass_matrix<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let mass = self.with_motion(py, |motion| motion.mass.as_slice().to_vec())?;
+        square(py, mass)
+    }
+
+    /// h of `H q̈ + h = τ`: all forces on the joint coordinates that are not τ, with the opposite sign, such as those of gravity,
+    /// velocities, springs, friction and other loads [N m, N]. Friction that depends on normal forces is that of the present ones.
+    ///
+    /// Raises as `mass_matrix`.
+    fn bias<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        Ok(PyArray1::from_vec(py, self.with_motion(py, |motion| motion.bias.as_slice().to_vec())?))
+    }
+
+    /// Forces of `joint_torque` and `joint_force` loads at which the joint coordinates have these accelerations [rad/s², m/s²]:
+    /// `mass_matrix() @ accelerations + bias()` [N m, N].
+    ///
+    /// Raises as `mass_matrix`; `ValueError` if their number is not that of the coordinates.
+    fn inverse_dynamics<'py>(
+        &self,
+        py: Python<'py>,
+        accelerations: PyArrayLike1<'_, f64, AllowTypeChange>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let accelerations = accelerations.as_array().to_vec();
+        let forces = self.with_motion(py, |motion| {
+            let (found, wanted) = (accelerations.len(), motion.bias.len());
+            let is_fitting = found == wanted;
+            is_fitting.then(|| motion.forces(&accelerations)).ok_or((found, wanted))
+        })?;
+        let forces = forces.map_err(|(found, wanted)| {
+            PyValueError::new_err(format!("there are {found} accelerations, but {wanted} joint coordinates"))
+        })?;
+        Ok(PyArray1::from_vec(py, forces))
+    }
+
+    /// Jacobian of an output with respect to the joint coordinates, of one of velocities with respect to their rates: an array of shape
+    /// (number of components, number of coordinates). Outputs of the position and of the velocity of a point have the same one.
+    ///
+    /// Raises as `mass_matrix`; `ValueError` if there is no such output, or it depends on accelerations or forces.
+    fn jacobian<'py>(&self, py: Python<'py>, output: &str) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows = py.detach(|| {
+            let inner = self.lock();
+            let mut joints = self.lock_joints();
+            let dynamics = joints.dynamics(&self.prepared, &inner.session)?;
+            let (_, rows) = dynamics.jacobian(&inner.session, output).map_err(|error| of_joints(&error))?;
+            Ok::<_, PyErr>(rows)
+        })?;
+        Ok(PyArray2::from_vec2(py, &rows)?)
     }
 
     /// Starts again at the start time, with these values `q` of joint coordinates [rad, m] and rates `v` [rad/s, m/s]: dictionaries, or

@@ -1,4 +1,4 @@
-"""Starts with given joint coordinates."""
+"""Starts with given joint coordinates, and equations of motion in them."""
 
 from __future__ import annotations
 
@@ -164,3 +164,49 @@ def test_a_batch_starts_with_given_angles() -> None:
     assert batch.values().tobytes() == np.array([sim.values()] * 4).tobytes()
     with pytest.raises(ValueError, match="shape"):
         batch.reset([0], q)
+
+
+def test_an_arm_has_its_equations_of_motion() -> None:
+    """Kinetic energy, momentum of the tip, and the accelerations of a motion give mass matrix, Jacobian and torques."""
+    model = arm(7)
+    model.outputs["energy"] = entries.outputs.Energy()
+    model.outputs.update({f"a{i}": entries.outputs.Acceleration(of=f"link{i}") for i in range(7)})
+    sim = model.simulation()
+    torques = [f"u{i}" for i in range(7)]
+    rng = np.random.default_rng(3)
+    sim.reset(rng.uniform(-2, 2, 7), rng.uniform(-1, 1, 7))
+    given = rng.uniform(-5, 5, 7)
+    sim.set(torques, given)
+    for _ in range(20):
+        sim.step()
+    q, v = sim.joint_state()
+    assert np.array_equal(q, sim[columns(7, "angle")]) and np.allclose(v, sim[columns(7, "rate")], rtol=0, atol=1e-13)
+    mass, bias = sim.mass_matrix(), sim.bias()
+    assert np.array_equal(mass, mass.T) and 0.5 * v @ mass @ v == pytest.approx(sim["energy.kinetic"], rel=1e-12)
+    jacobian = sim.jacobian("speed")
+    assert np.allclose(jacobian @ v, sim[["speed.v1", "speed.v2", "speed.v3"]], rtol=0, atol=1e-12)
+    assert np.allclose(sim.jacobian("tip"), jacobian, rtol=0, atol=1e-12)
+    # What acts in the motion of the steps comes back from its accelerations, which are differences of recovered rates.
+    accelerations = np.linalg.solve(mass, given - bias)
+    assert np.allclose(sim.inverse_dynamics(accelerations), given, rtol=0, atol=1e-9)
+    step = 1e-4
+    sim.step_to(sim.time + step)
+    after = sim.joint_state()[1]
+    assert np.allclose((after - v) / step, accelerations, rtol=0, atol=2e-2 * np.abs(accelerations).max())
+    with pytest.raises(ValueError, match="2 accelerations, but 7"):
+        sim.inverse_dynamics([1.0, 2.0])
+    with pytest.raises(ValueError, match="no output `hand`"):
+        sim.jacobian("hand")
+
+
+def test_computed_torques_give_the_accelerations() -> None:
+    """With the torques of the inverse dynamics the joints accelerate as asked for."""
+    sim = arm(7).simulation()
+    rng = np.random.default_rng(4)
+    q, v, wanted = rng.uniform(-2, 2, 7), rng.uniform(-1, 1, 7), rng.uniform(-3, 3, 7)
+    sim.reset(q, v)
+    sim.set([f"u{i}" for i in range(7)], sim.inverse_dynamics(wanted))
+    assert np.allclose(np.linalg.solve(sim.mass_matrix(), sim[[f"u{i}" for i in range(7)]] - sim.bias()), wanted, rtol=0, atol=1e-9)
+    step = 1e-5
+    sim.step_to(step)
+    assert np.allclose(sim.joint_state()[1], v + step * wanted, rtol=0, atol=1e-7)

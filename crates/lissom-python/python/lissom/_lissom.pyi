@@ -139,6 +139,32 @@ class Simulation:
 
         Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
         """
+    def joint_state(self) -> tuple[Array, Array]:
+        """Values [rad, m] and rates [rad/s, m/s] of the joint coordinates, two arrays in the order of `coordinates()`."""
+    def mass_matrix(self) -> Array:
+        """Mass matrix H of `H q̈ + h = τ`, the equations of motion in the joint coordinates q, in the order of `coordinates()`; τ are the
+        forces of `joint_torque` and `joint_force` loads on them. An array of shape (number of coordinates, number of coordinates).
+
+        Raises `ValueError` if there are no joint coordinates, `SolutionError` if they depend on each other in this position.
+        """
+    def bias(self) -> Array:
+        """h of `H q̈ + h = τ`: all forces on the joint coordinates that are not τ, with the opposite sign, such as those of gravity,
+        velocities, springs, friction and other loads [N m, N]. Friction that depends on normal forces is that of the present ones.
+
+        Raises as `mass_matrix`.
+        """
+    def inverse_dynamics(self, accelerations: Union[Sequence[float], npt.NDArray[Any]]) -> Array:
+        """Forces of `joint_torque` and `joint_force` loads at which the joint coordinates have these accelerations [rad/s², m/s²]:
+        `mass_matrix() @ accelerations + bias()` [N m, N].
+
+        Raises as `mass_matrix`; `ValueError` if their number is not that of the coordinates.
+        """
+    def jacobian(self, output: str) -> Array:
+        """Jacobian of an output with respect to the joint coordinates, of one of velocities with respect to their rates: an array of
+        shape (number of components, number of coordinates). Outputs of the position and of the velocity of a point have the same one.
+
+        Raises as `mass_matrix`; `ValueError` if there is no such output, or it depends on accelerations or forces.
+        """
     def reset(self, q: Optional[_JointValues] = None, v: Optional[_JointValues] = None) -> None:
         """Starts again at the start time, with these values `q` of joint coordinates [rad, m] and rates `v` [rad/s, m/s]: dictionaries, or
         arrays in the order of `coordinates()`. Parts are moved such that all joints close. Coordinates that are not named stay where
