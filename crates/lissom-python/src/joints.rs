@@ -68,6 +68,11 @@ impl Joints {
         self.chosen(prepared)
     }
 
+    /// Names of the chosen coordinates, if there was a choice.
+    pub(crate) fn names(&self) -> Option<Vec<String>> {
+        self.chosen.as_ref().map(|chosen| chosen.names().to_vec())
+    }
+
     /// The chosen coordinates, or those that are chosen by default.
     pub(crate) fn chosen(&mut self, prepared: &Prepared) -> PyResult<&JointCoordinates> {
         let chosen = match self.chosen.take() {

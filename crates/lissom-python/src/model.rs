@@ -180,6 +180,21 @@ impl NativeModel {
         Ok(Simulation::new(session, document, slf.unbind()))
     }
 
+    /// A session at a snapshot, as pickled simulations contain it, with the joint coordinates that were chosen.
+    fn restored(
+        slf: Bound<'_, Self>,
+        snapshot: &[u8],
+        coordinates: Option<Vec<String>>,
+    ) -> PyResult<Simulation> {
+        let py = slf.py();
+        let simulation = Self::simulation(slf)?;
+        simulation.restore(py, snapshot)?;
+        if coordinates.is_some() {
+            simulation.coordinates(py, coordinates)?;
+        }
+        Ok(simulation)
+    }
+
     /// So many sessions at the start of the model.
     fn simulations(&self, py: Python<'_>, count: NonZero<usize>) -> PyResult<Batch> {
         let own = self.clone();

@@ -35,6 +35,9 @@ impl Names {
     }
 }
 
+/// Snapshot and chosen joint coordinates.
+type Pickled<'py> = (Bound<'py, PyBytes>, Option<Vec<String>>);
+
 /// Inputs and their values.
 #[derive(FromPyObject)]
 enum Inputs {
@@ -248,7 +251,7 @@ impl Simulation {
     ///
     /// Raises `ValueError` if a name is unknown, or they are not as many as the degrees of freedom.
     #[pyo3(signature = (names = None))]
-    fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
+    pub(crate) fn coordinates(&self, py: Python<'_>, names: Option<Vec<String>>) -> PyResult<Vec<String>> {
         py.detach(|| Ok(self.lock_joints().choose(&self.prepared, names.as_deref())?.names().to_vec()))
     }
 
@@ -372,7 +375,7 @@ impl Simulation {
     }
 
     /// Where the simulation is, as bytes that can be kept, sent and pickled.
-    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+    pub(crate) fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         let bytes = py.detach(|| {
             let inner = self.lock();
             let mut bytes = self.model.get().fingerprint().to_le_bytes().to_vec();
@@ -385,10 +388,17 @@ impl Simulation {
         PyBytes::new(py, &bytes)
     }
 
+    /// Simulations are pickled as their model and a snapshot.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Pickled<'py>)> {
+        let chosen = py.detach(|| self.lock_joints().names());
+        let restored = self.model.bind(py).getattr("restored")?;
+        Ok((restored, (self.snapshot(py), chosen)))
+    }
+
     /// Restores the state of a snapshot of the same model; subsequent results are bitwise identical.
     ///
     /// Raises `ValueError` if the bytes are no snapshot of this model and version; the simulation is then as it was.
-    fn restore(&self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
+    pub(crate) fn restore(&self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
         py.detach(|| {
             let refused = |error: SnapshotError| value_error(&error);
             let too_few = || PyValueError::new_err("the bytes are no snapshot: there are too few");

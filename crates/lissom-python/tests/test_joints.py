@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -141,6 +143,20 @@ def test_snapshots_know_where_a_simulation_began() -> None:
     sim.restore(kept)
     sim.step_to(0.1)
     assert other.values().tobytes() == sim.values().tobytes()
+
+
+def test_simulations_are_pickled() -> None:
+    sim = arm(3).simulation()
+    sim.coordinates(["j2.angle", "j0.angle", "j1.angle"])
+    sim.reset([0.5, 1.0, -1.0])
+    sim.set("u1", 2.0)
+    sim.step_to(0.05)
+    for again in (pickle.loads(pickle.dumps(sim)), copy.deepcopy(sim)):
+        assert again is not sim and again.time == 0.05 and again["u1"] == 2.0 and again.coordinates() == sim.coordinates()
+        later = copy.copy(sim)
+        later.step_to(0.1)
+        again.step_to(0.1)
+        assert again.values().tobytes() == later.values().tobytes() and sim.time == 0.05
 
 
 def test_a_batch_starts_with_given_angles() -> None:

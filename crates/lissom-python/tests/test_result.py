@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 import signal
 import subprocess
 import sys
@@ -79,6 +81,27 @@ def test_columns_are_arrays() -> None:
     assert "arm.rotation" not in result.names and "bob.xx" not in result
     frame = result.to_pandas()
     assert frame.index.name == "time" and np.array_equal(frame["bob.y"], result["bob.y"])
+
+
+def test_columns_are_read_only() -> None:
+    model = lissom.load(PENDULUM)
+    result = model.run()
+    for own in (result, pickle.loads(pickle.dumps(result)), copy.copy(result)):
+        for array in (own.time, own["bob.x"]):
+            with pytest.raises(ValueError, match="read-only"):
+                array[0] = 1.0
+        assert own.names == result.names and own.summary == result.summary and own.is_complete
+    assert (2 * result["bob.x"])[0] == 2 * result["bob.x"][0]
+
+
+def test_a_notebook_shows_results_and_models() -> None:
+    model = lissom.load(PENDULUM)
+    result = model.run()
+    shown = result._repr_html_()
+    assert shown.count("<tr>") == 1 + len(result) and f"<td>bob.x</td><td>m</td><td>{result['bob.x'][0]:.6g}</td>" in shown
+    assert "&lt;" not in shown and "point_masses.bob" in model._repr_html_()
+    empty = lissom.Result(np.zeros(0), {"a": np.zeros(0)}, {"a": "m"}, {})
+    assert "<td>a</td>" in empty._repr_html_()
 
 
 def test_a_run_without_a_solution_keeps_what_it_has() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import functools
+import html
 import os
 import sys
 import time
@@ -322,6 +323,10 @@ class Model(ModelTables):
         for words in found.warnings:
             warnings.warn(words, ModelWarning, stacklevel=3)
         return found
+
+    def _repr_html_(self) -> str:
+        """The model file, for a cell of a notebook."""
+        return f"<details><summary>{html.escape(repr(self)[1:-1])}</summary><pre>{html.escape(str(self))}</pre></details>"
 
     def __repr__(self) -> str:
         if self._tables is not None:

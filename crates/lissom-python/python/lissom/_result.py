@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import html
 import json
 import os
 from collections.abc import Callable, Iterator
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Result:
-    """Columns over time, in SI units. `result["midspan.u2"]` is an array of shape (number of records,)."""
+    """Columns over time, in SI units. `result["midspan.u2"]` is an array of shape (number of records,), which is read-only."""
 
     def __init__(
         self,
@@ -40,6 +41,12 @@ class Result:
         #: The facts of `summary.json`: steps, iterations, times, violations, energies.
         self.summary = summary
         self._columns = columns
+        for array in (time, *columns.values()):
+            array.flags.writeable = False
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Arrays forget that they are read-only when they are pickled.
+        return type(self), (self.time, self._columns, self.units, self.summary, self._page)
 
     @classmethod
     def _of(cls, parts: Parts, page: Callable[[], str] | None = None) -> Self:
@@ -124,6 +131,16 @@ class Result:
         if self._page is None:
             raise ValueError("these results have no model and no folder from which a motion could be shown")
         return Animation(self._page())
+
+    def _repr_html_(self) -> str:
+        """A table of the columns, for a cell of a notebook."""
+        rows = []
+        for name, values in self._columns.items():
+            numbers = [values[0], values[-1], np.nanmin(values), np.nanmax(values)] if np.isfinite(values).any() else []
+            cells = [name, self.units.get(name, ""), *(f"{number:.6g}" for number in numbers)]
+            rows.append("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells) + "</tr>")
+        head = "".join(f"<th>{word}</th>" for word in ("column", "unit", "first", "last", "min", "max"))
+        return f"<p>{html.escape(repr(self)[1:-1])}</p><table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
 
     def __repr__(self) -> str:
         stopped = self.summary.get("stopped", "unknown")
