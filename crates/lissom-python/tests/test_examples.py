@@ -91,6 +91,13 @@ def test_the_environment_is_one_of_gymnasium() -> None:
     assert steps == 200 and highest > 0.9, "it is swung up"
 
 
+def test_arms_reach_their_target() -> None:
+    own = example("reaching_arms")
+    computed, left = own["episode"]("computed", 4)
+    random, _ = own["episode"]("random", 4, 30)
+    assert left < 0.01 and computed > random and computed > -0.6
+
+
 def test_the_tutorial_tells_what_the_command_line_tells(program: Program, tmp_path: Path) -> None:
     told = example("tutorial")["told"]
 

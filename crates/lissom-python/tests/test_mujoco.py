@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import lissom
+from test_joints import arm
 
 mujoco = pytest.importorskip("mujoco", reason="the package `mujoco` is not installed: pip install mujoco")
 
@@ -172,3 +173,24 @@ def test_what_is_exported_is_the_same_robot(program: Program, tmp_path: Path) ->
         mujoco.mj_forward(model, state)
         found.append((mass_matrix(model, state), state.qfrc_bias.copy()))
     assert np.abs(found[0][0] - found[1][0]).max() < 1e-12 and np.abs(found[0][1] - found[1][1]).max() < 1e-11
+
+
+def test_equations_of_motion_in_joint_coordinates_are_those_of_mujoco() -> None:
+    """Mass matrix and bias of an arm of seven axes at a random state."""
+    links = ""
+    for i in range(7):
+        inertial = f'<inertial pos="0.05 0.02 0.15" mass="{2 - 0.2 * i}" diaginertia="0.02 0.03 0.01"/>'
+        links += f'<body pos="0 0 {0.3 if i else 0}">{inertial}<joint axis="{"0 1 0" if i % 2 else "0 0 1"}"/>'
+    start = '<mujoco><compiler angle="radian"/><option gravity="0 0 -9.81"/><worldbody>'
+    model = mujoco.MjModel.from_xml_string(start + links + "</body>" * 7 + "</worldbody></mujoco>")
+    data, sim = mujoco.MjData(model), arm(7).simulation()
+    rng = np.random.default_rng(5)
+    data.qpos[:], data.qvel[:] = rng.uniform(-2, 2, (2, 7))
+    mujoco.mj_forward(model, data)
+    sim.reset(data.qpos, data.qvel)
+    unit = np.eye(7)
+    columns = np.zeros((7, 7))
+    for own, direction in zip(columns, unit):
+        mujoco.mj_mulM(model, data, own, direction)
+    assert np.allclose(sim.mass_matrix(), columns, rtol=0, atol=1e-12)
+    assert np.allclose(sim.bias(), data.qfrc_bias, rtol=0, atol=1e-10)

@@ -1,0 +1,80 @@
+"""Environments of Gymnasium."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("gymnasium", reason="the package `gymnasium` is not installed: pip install gymnasium")
+
+import lissom
+from gymnasium.utils.env_checker import check_env
+from lissom.gym import Env, VectorEnv
+from test_batch import CART
+
+
+def task(**more: Any) -> dict[str, Any]:
+    own: dict[str, Any] = dict(
+        actions={"thrust": (-3.0, 3.0)},
+        observations=["cart.x", "speed.v1"],
+        period=0.1,
+        steps=4,
+        reward=lambda observation, action: observation[..., 0] - action[..., 0],
+    )
+    return {**own, **more}
+
+
+def test_an_environment_is_one_of_gymnasium() -> None:
+    env = Env(lissom.loads(CART), **task())
+    check_env(env, skip_render_check=True)
+    env.reset(seed=1)
+    for step in range(1, 5):
+        observation, reward, terminated, truncated, _ = env.step(np.array([9.0]))
+        # The action is limited to 3 N on 2 kg.
+        assert np.allclose(observation, [0.75 * (0.1 * step) ** 2, 0.15 * step]) and reward == pytest.approx(observation[0] - 3)
+        assert not terminated and truncated == (step == 4)
+
+
+def test_environments_of_a_batch_are_those_of_simulations() -> None:
+    model = lissom.loads(CART)
+    more = task(terminated=lambda observation: observation[..., 1] > 0.25)
+    envs, env = VectorEnv(model, 3, **more), Env(model, **more)
+    first, _ = envs.reset(seed=1)
+    assert first.shape == (3, 2) and envs.action_space.shape == (3, 1)
+    ends = []
+    actions = np.array([[1.0], [2.0], [3.0]])
+    alone = env.reset()[0]
+    for _ in range(6):
+        observations, rewards, terminations, truncations, info = envs.step(actions)
+        ends.append(list(zip(terminations.tolist(), truncations.tolist())))
+        if env_ended(ends[:-1], 0):
+            alone = env.reset()[0]
+            assert rewards[0] == 0
+        else:
+            alone, reward, *ended, _ = env.step(actions[0])
+            assert rewards[0] == reward and ends[-1][0] == tuple(ended)
+        assert np.array_equal(observations[0], alone) and not info["failed"].any()
+    # The third is too fast after two steps, starts again with the third action, and so on; the first ends after four.
+    assert [end[2][0] for end in ends] == [False, True, False, False, True, False]
+    assert [end[0][1] for end in ends] == [False, False, False, True, False, False]
+
+
+def env_ended(ends: list[list[tuple[bool, bool]]], index: int) -> bool:
+    return bool(ends) and any(ends[-1][index])
+
+
+def test_a_failed_environment_starts_again() -> None:
+    model = lissom.loads(CART.replace("thrust - brake", "1 / (1 - thrust)"))
+    envs = VectorEnv(model, 2, **task(failure=-7.0))
+    envs.reset()
+    with pytest.warns(lissom.SolutionWarning):
+        observations, rewards, terminations, _, info = envs.step(np.array([[1.0], [0.0]]))
+    assert rewards[0] == -7 and terminations.tolist() == info["failed"].tolist() == [True, False] and np.isfinite(observations).all()
+    observations, rewards, terminations, _, _ = envs.step(np.zeros((2, 1)))
+    assert not terminations.any() and rewards[0] == 0 and np.array_equal(observations[0], [0, 0])
+    env = Env(model, **task(failure=-7.0))
+    env.reset()
+    _, reward, terminated, _, facts = env.step(np.array([1.0]))
+    assert reward == -7 and terminated and "error" in facts
