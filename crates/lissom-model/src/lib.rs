@@ -52,7 +52,7 @@ mod values;
 pub use channel_components::component_position;
 pub use document::Document;
 pub use library::Library;
-pub use manual::{manual, topic, topics};
+pub use manual::{manual, topic, topics, unit_of};
 pub use model_axes::{EntryAxes, model_axes};
 pub use model_text::ModelText;
 pub use python_entries::python_entries;

@@ -70,6 +70,16 @@ pub fn topic(registry: &Registry, word: &str) -> Option<String> {
     Some(text.trim_start().to_owned())
 }
 
+/// Unit of the value at `path` of a model file, such as `bodies.arm.mass`; none if forms of the table have different ones.
+pub fn unit_of(registry: &Registry, path: &str) -> Option<&'static str> {
+    let (table, rest) = path.split_once('.')?;
+    let name = rest.rsplit('.').next()?;
+    let all = variants(table, registry).all;
+    let mut units = all.iter().flat_map(|form| &form.keys).filter(|key| key.name == name).map(|key| key.unit);
+    let first = units.next()?;
+    (!first.is_empty() && units.all(|unit| unit == first)).then_some(first)
+}
+
 /// The words that [`topic`] accepts.
 pub fn topics() -> Vec<&'static str> {
     let tables = tops().filter(|top| !matches!(top.holds, Holds::Value(_)));

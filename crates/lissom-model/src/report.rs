@@ -217,6 +217,13 @@ impl Sources {
         self.piece(span).is_some_and(|piece| &*piece.name == OVERRIDE)
     }
 
+    /// Name of the file at `span` and number of the line, such as `masses.toml:12`.
+    pub(crate) fn position(&self, span: Span) -> String {
+        let Some(piece) = self.piece(span) else { return String::new() };
+        let before = piece.text.get(..local(span, piece).start).unwrap_or_default();
+        format!("{}:{}", piece.name, before.matches('\n').count() + 1)
+    }
+
     /// The text at `span`, empty where there is none.
     pub(crate) fn text(&self, span: Span) -> &str {
         let Some(piece) = self.piece(span) else { return "" };

@@ -428,6 +428,12 @@ catalogued! {
             meaning: "Damage equivalent ranges require the exponent of the Wöhler curve.",
             advice: "Add `woehler_exponent` to the output.",
         }
+        Window { name => name, at => at, problem => problem, remedy => remedy } => "sweep-window" {
+            cause: "the window of `{name}` ({at}) cannot be used: {problem}",
+            remedy: "{remedy}",
+            meaning: "The window of a collected statistic is empty or not within the analysis, or names an event that the model does not have.",
+            advice: "Choose limits within the analysis: `after=0.5`, `before=2`, `last=0.2`, or events.",
+        }
         Event { name => name, event => event, known => known } => "sweep-event" {
             cause: "`{name}` collects the time of the event `{event}`, which the model does not have",
             remedy: "{known}",

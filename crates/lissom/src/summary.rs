@@ -213,7 +213,13 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "turned_over": energy_balance.turned_over,
         }),
     );
-    insert("statistics", statistics(session));
+    match session.histories() {
+        Ok(histories) => insert("statistics", statistics(session.columns(), &histories)),
+        Err(error) => {
+            insert("statistics", Value::Null);
+            insert("statistics_error", json!(format!("{}; {}", error.message, error.remedy)));
+        }
+    }
     let scaling = &simulation.settings().scaling;
     insert(
         "scaling",
@@ -294,13 +300,12 @@ fn of_events(session: &Session) -> Value {
 }
 
 /// Statistics of each column, as in sweeps; `null` if a record is not finite.
-fn statistics(session: &Session) -> Value {
+fn statistics(columns: &[Column], histories: &[Accumulator]) -> Value {
     let of = |column: &Column, history: &Accumulator| -> Value {
         let asked = STATISTICS.iter().filter(|known| known.name != OF_FATIGUE || column.fatigue.is_some());
         asked.map(|statistic| (statistic.name.to_owned(), json!(statistic.of(history)))).collect()
     };
-    let columns = session.columns().iter().zip(session.histories());
-    columns.map(|(column, history)| (column.name(), of(column, history))).collect()
+    columns.iter().zip(histories).map(|(column, history)| (column.name(), of(column, history))).collect()
 }
 
 fn of_energy(energy: &Energy) -> Value {

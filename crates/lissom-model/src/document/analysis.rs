@@ -10,6 +10,7 @@ use crate::keys::Shape;
 use crate::reader::Reader;
 use crate::registry::{ChoiceEntry, Registry};
 use crate::report::{Located, Problem, Span};
+use crate::sweep::{TimeWindow, Window, WindowContext};
 use crate::text::Node;
 
 /// Kind of analysis.
@@ -156,6 +157,8 @@ pub struct Analysis {
     pub output_every: Option<usize>,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
     pub frames_per_second: Option<f64>,
+    /// Part of the records from which statistics are computed.
+    pub statistics_window: TimeWindow,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
     /// Path in the model file of the number varied along an equilibrium path; none for the load factor.
@@ -229,7 +232,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         _ => DEFAULT_TOLERANCE,
     });
     let (penalty, tolerance) = (number("penalty", 1e-3), number("tolerance", of_newton));
-    let analysis = Analysis {
+    let mut analysis = Analysis {
         scheme,
         parameters,
         scaling,
@@ -246,6 +249,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         } else {
             None
         },
+        statistics_window: TimeWindow::default(),
         energy_check: !dynamics || reader.flag("energy_check").is_none_or(|flag| flag.value),
         vary: if word == "path" { reader.text("vary").map(|path| path.map(str::to_owned)) } else { None },
         ramp: word == "statics" && reader.flag("ramp").is_none_or(|flag| flag.value),
@@ -256,7 +260,28 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     };
     check_times(context, &analysis, end?.span);
     check_frames(&reader, &analysis);
+    if is_run && analysis.end > analysis.start {
+        analysis.statistics_window = statistics_window(&reader, &analysis).unwrap_or_default();
+    }
     Some(analysis)
+}
+
+fn statistics_window(reader: &Reader<'_, '_>, analysis: &Analysis) -> Option<TimeWindow> {
+    let text = reader.text("statistics_window")?;
+    let names = reader.context.names("events");
+    let events: Vec<&str> = names.iter().map(|(name, _)| *name).collect();
+    let context = WindowContext {
+        events: &events,
+        parameters: &reader.context.own_parameters(),
+        start: analysis.start,
+        end: analysis.end,
+    };
+    match Window::parse(text.value).and_then(|window| window.resolve(&context)) {
+        Ok(window) => Some(window),
+        Err(error) => {
+            reader.context.fail(text.span, format!("`statistics_window`: {}", error.message), error.remedy)
+        }
+    }
 }
 
 fn disabled(reader: &Reader<'_, '_>) -> DisabledFeatures {

@@ -63,6 +63,12 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "1/s",
                 "frames of the recorded motion per simulated second; default at most 600 over the run",
             ),
+            optional(
+                "statistics_window",
+                Shape::Text,
+                "",
+                "part of the records from which statistics are computed, such as \"after=0.5\", \"last=0.2\" or \"after=impact\"; default all",
+            ),
         ]
     };
     let mut variants = vec![
@@ -143,7 +149,7 @@ fn load_steps(mut statics: Vec<Key>) -> Vec<Key> {
 
 /// Analyses that record nothing over time.
 fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
-    common.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
+    common.retain(|key| !matches!(key.name, "output_every" | "frames_per_second" | "statistics_window"));
     let mut path = common.clone();
     path.extend([
         optional("end", Shape::Number, "", "load factor at which the path ends, default 1; with `vary` the value at which it ends, which is required"),

@@ -129,6 +129,11 @@ impl Document {
         Report::new(problems, &self.sources)
     }
 
+    /// Names of the events.
+    pub fn event_names(&self) -> Vec<&str> {
+        self.events.iter().map(|event| event.name.value.as_str()).collect()
+    }
+
     /// Where a part of an expression is, whose text is within `whole`.
     pub(crate) fn within(&self, whole: Span, text: &str, range: &std::ops::Range<usize>) -> Span {
         self.sources.within(whole, text, range)

@@ -44,6 +44,7 @@ use crate::functions::Ramp;
 use crate::output_channels;
 use crate::outputs::Resolver;
 use crate::report::{Located, Problem, Report};
+use crate::sweep::TimeWindow;
 
 pub use analysis::{Plan, Records};
 pub use assembly::{Assembly, Brought, MovedPart};
@@ -62,6 +63,8 @@ pub struct Lowered {
     pub plan: Plan,
     /// Quantities to be recorded.
     pub channels: Vec<Channel>,
+    /// Part of the records from which statistics are computed.
+    pub statistics_window: TimeWindow,
     /// Quantities to be accumulated over the steps, for channels.
     pub accumulated: Vec<Arc<dyn Accumulated>>,
     /// Names of the columns that are not unique because constraints repeat each other at the start.
@@ -260,6 +263,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         settings,
         plan,
         channels,
+        statistics_window: document.analysis.statistics_window.clone(),
         accumulated,
         not_unique,
         names,

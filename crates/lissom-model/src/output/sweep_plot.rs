@@ -6,8 +6,12 @@ use super::FigureError;
 
 /// Most members that are drawn, evenly chosen.
 const MAX_MEMBERS: usize = 2000;
+/// Most dots that a line joins.
+const MAX_OF_CURVE: usize = 200;
 /// Most panels side by side, and one above the other.
 const MAX_PANELS: usize = 6;
+/// Width of a picture with a single column of panels [pixels].
+const SINGLE: f64 = 640.0;
 /// Size of a panel and of the parallel coordinates [pixels].
 const PANEL: (f64, f64) = (340.0, 260.0);
 const PARALLEL: (f64, f64) = (220.0, 460.0);
@@ -66,9 +70,15 @@ impl SweepPlot {
         for (index, above) in collected.iter().enumerate() {
             for below in varied {
                 let points = members.iter().map(|&member| (below.values[member], above.values[member]));
-                let mark = Some(Mark::Circle);
-                let own = Curve { width: 0.0, radius: 1.6, mark, ..Curve::new(palette(index)) };
-                let curves = vec![Curve { points: points.collect(), ..own }];
+                let mut points: Vec<(f64, f64)> = points.collect();
+                // The only varied value determines the collected one: the dots are points of a curve.
+                let is_curve = self.varied.len() == 1 && points.len() <= MAX_OF_CURVE;
+                if is_curve {
+                    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+                }
+                let (width, radius) = if is_curve { (1.2, 2.6) } else { (0.0, 1.6) };
+                let own = Curve { width, radius, mark: Some(Mark::Circle), ..Curve::new(palette(index)) };
+                let curves = vec![Curve { points, ..own }];
                 let x = if below.is_logarithmic {
                     Axis::logarithmic(&below.name)
                 } else {
@@ -80,7 +90,7 @@ impl SweepPlot {
         let chart = Chart {
             title: self.title_of(&members),
             columns: varied.len(),
-            width: PANEL.0 * varied.len() as f64,
+            width: (PANEL.0 * varied.len() as f64).max(SINGLE),
             panel_height: PANEL.1,
             ..Chart::new("responses", panels)
         };

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::sampling::{Draw, SAMPLINGS, SamplingKind, WORDS};
 use super::statistic::{self, STATISTICS};
+use super::window::{self, Window};
 use super::{Collected, MAX_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
 use crate::context::Context;
 use crate::keys::{Key, Shape, choice, optional, required};
@@ -299,14 +300,19 @@ fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collec
         let Some((word, column)) = parts else {
             return context.fail(node.span, format!("`{name}` of `collect` cannot be read"), words());
         };
-        let (word, column) = (word.trim(), column.trim());
+        let (word, arguments) = (word.trim(), window::split(column));
         let Some(found) = statistic::find(word) else {
             let known = STATISTICS.iter().map(|statistic| statistic.name);
             let help = suggest::help(word, known).unwrap_or_else(words);
             return context.fail(node.span, format!("`{word}` is not a statistic"), help);
         };
-        let (name, column) = (name.to_owned(), column.to_owned());
-        Some((Collected { name, statistic: found.name, column }, span))
+        let window = match Window::of_parts(&arguments[1..]) {
+            Ok(window) => window,
+            Err(error) => return context.fail(node.span, error.message, error.remedy),
+        };
+        let (name, column) = (name.to_owned(), arguments[0].to_owned());
+        let position = context.sources.position(node.span);
+        Some((Collected { name, statistic: found.name, column, window, position }, span))
     };
     let all: Vec<Option<_>> = entries.into_iter().map(of).collect();
     all.into_iter().collect()
@@ -483,6 +489,10 @@ mod tests {
             ("vary.member = [1, 2]", "two columns `member`"),
             ("collect.b = \"maximum(b.x)\"\nvary.a = [1]", "is not a statistic"),
             ("collect.b = \"b.x\"\nvary.a = [1]", "cannot be read"),
+            ("collect.b = \"max(b.x, afer=1)\"\nvary.a = [1]", "did you mean `after`"),
+            ("collect.b = \"max(b.x, after=2, before=1)\"\nvary.a = [1]", "from 2 s to 1 s is empty"),
+            ("collect.b = \"max(b.x, last=2, to=1)\"\nvary.a = [1]", "has no other limits"),
+            ("collect.b = \"max(b.x, 2)\"\nvary.a = [1]", "`2` is no limit of a window"),
             ("vary.a = [1]\nworkers = 3", "unknown key `workers`"),
             ("[vary]", "varies no values"),
         ];

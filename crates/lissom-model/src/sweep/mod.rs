@@ -22,12 +22,14 @@ mod rainflow;
 pub mod sampling;
 mod statistic;
 mod variation;
+mod window;
 
 use serde::Serialize;
 
 pub use rainflow::Fatigue;
 pub use statistic::{Accumulator, OF_FATIGUE, STATISTICS, Statistic};
 pub use variation::{SweepValue, Variation};
+pub use window::{TimeWindow, Window, WindowContext, WindowError, WindowedHistory};
 
 /// The newest version of the format.
 pub const VERSION: usize = 1;
@@ -53,6 +55,12 @@ pub struct Collected {
     pub statistic: &'static str,
     /// Name of the history's column, such as `midspan.u2`, or of an event.
     pub column: String,
+    /// Part of the history.
+    #[serde(skip_serializing_if = "Window::is_whole")]
+    pub window: Window,
+    /// File and line where it is written.
+    #[serde(skip)]
+    pub position: String,
 }
 
 impl Collected {

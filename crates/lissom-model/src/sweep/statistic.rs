@@ -70,6 +70,11 @@ pub(super) fn find(name: &str) -> Option<&'static Statistic> {
 }
 
 impl Statistic {
+    /// Unit of the statistic of a column in `unit`.
+    pub fn unit<'u>(&self, unit: &'u str) -> &'u str {
+        if self.name.starts_with("time_of_") { "s" } else { unit }
+    }
+
     /// Its value for a history; none if there is no record, or one that is not finite.
     pub fn of(&self, history: &Accumulator) -> Option<f64> {
         let value = (self.of)(history);
@@ -136,6 +141,11 @@ impl Accumulator {
         if value < self.least.1 {
             self.least = now;
         }
+    }
+
+    /// Whether it has no record.
+    pub fn is_empty(&self) -> bool {
+        self.records == 0
     }
 
     /// Time of the first value that was not finite, if any [s].

@@ -41,6 +41,7 @@ A sweep file:
   [collect]
   swing = \"max(bob.x)\"      # max min max_abs time_of_max time_of_min mean rms initial final
   latched = \"time_of_event(latch)\"
+  late = \"max(bob.x, after=0.5)\"   # also before=2, last=0.2, after=event
 
 Exit code: 0 all members are solved; 2 wrong model, sweep file or command line; 3 a member has no solution (the table is
 still written), or results cannot be written; 130 interrupted by Ctrl-C: run it again to resume.")]

@@ -97,6 +97,7 @@ impl Session {
             signals: self.signals.clone(),
             between: self.between.clone(),
             schedule: self.schedule.clone(),
+            statistics_window: self.statistics_window.clone(),
             tally: self.tally.clone(),
             timings: Timings::new(),
             scale: self.scale,

@@ -22,7 +22,7 @@ use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::lower::{Lowered, Plan};
 use lissom_model::output::{Column, Record, Writer};
-use lissom_model::sweep::Accumulator;
+use lissom_model::sweep::{Accumulator, TimeWindow, WindowError, WindowedHistory};
 use lissom_model::{Document, Report, component_position};
 
 use crate::builder::IdNames;
@@ -76,6 +76,7 @@ pub struct Session {
     columns: Vec<Column>,
     signals: BTreeMap<String, Argument>,
     schedule: Schedule,
+    statistics_window: TimeWindow,
     tally: Tally,
     timings: Timings,
     scale: f64,
@@ -99,7 +100,7 @@ struct Tally {
     values: Vec<f64>,
     violations: Vec<f64>,
     /// Statistics of each column.
-    histories: Vec<Accumulator>,
+    histories: Vec<WindowedHistory>,
 }
 
 /// The columns of a lowered model's outputs.
@@ -129,7 +130,18 @@ impl Session {
     /// If there are no consistent initial values.
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
-        let Lowered { system, state, settings, plan, channels, accumulated, names, warnings, .. } = lowered;
+        let Lowered {
+            system,
+            state,
+            settings,
+            plan,
+            channels,
+            statistics_window,
+            accumulated,
+            names,
+            warnings,
+            ..
+        } = lowered;
         let schedule = Schedule::new(plan, settings.step_size);
         let mut simulation = Simulation::new(system, state, settings)?;
         simulation.accumulate(accumulated);
@@ -140,6 +152,7 @@ impl Session {
             columns: columns(&channels),
             observed: Observed::new(&simulation, channels),
             timings,
+            statistics_window,
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             telemetry: Telemetry::default(),
@@ -201,8 +214,12 @@ impl Session {
 
     /// Statistics of the records of each column, in the order of [`columns`](Self::columns); none before the first
     /// record.
-    pub fn histories(&self) -> &[Accumulator] {
-        &self.tally.histories
+    ///
+    /// # Errors
+    /// If the window of the statistics has no records.
+    pub fn histories(&self) -> Result<Vec<Accumulator>, WindowError> {
+        let events = self.events().collect::<Vec<_>>();
+        self.tally.histories.iter().map(|history| history.close(&events)).collect()
     }
 
     /// Scale factor s of the planned step.
@@ -591,7 +608,7 @@ impl Session {
             }
         };
         if self.tally.histories.len() != values.len() {
-            let of = |column: &Column| Accumulator::with_fatigue(column.fatigue);
+            let of = |column: &Column| WindowedHistory::new(self.statistics_window.clone(), column.fatigue);
             self.tally.histories = self.columns.iter().map(of).collect();
         }
         for (history, value) in self.tally.histories.iter_mut().zip(&values) {

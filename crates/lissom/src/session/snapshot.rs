@@ -3,7 +3,7 @@
 use std::io;
 
 use lissom_core::stepping::{Snapshot, SnapshotError};
-use lissom_model::sweep::Accumulator;
+use lissom_model::sweep::WindowedHistory;
 use serde::{Deserialize, Serialize};
 
 use super::Session;
@@ -51,7 +51,7 @@ pub struct SessionSnapshot {
     violation: f64,
     energy: EnergyChange,
     telemetry: Telemetry,
-    histories: Vec<Accumulator>,
+    histories: Vec<WindowedHistory>,
 }
 
 impl SessionSnapshot {

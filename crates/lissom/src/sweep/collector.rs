@@ -2,8 +2,11 @@
 
 use std::io;
 
+use lissom_model::Document;
 use lissom_model::output::{Column, Writer};
-use lissom_model::sweep::{Accumulator, Collected, OF_FATIGUE, SweepFile};
+use lissom_model::sweep::{
+    Accumulator, Collected, OF_FATIGUE, SweepFile, TimeWindow, WindowContext, WindowError, WindowedHistory,
+};
 
 use super::SweepError;
 use crate::parquet::{Values, parquet};
@@ -47,6 +50,22 @@ pub(super) fn check(file: &SweepFile, columns: &[Column], events: &[&str]) -> Re
     Err(SweepError::Column { name: name.clone(), column: column.clone(), known })
 }
 
+/// The windows of all collected items with the numbers of `document`, or the first item whose window cannot be used.
+pub(super) fn windows<'f>(
+    file: &'f SweepFile,
+    document: &Document,
+) -> Result<Vec<TimeWindow>, (&'f Collected, WindowError)> {
+    let context = WindowContext {
+        events: &document.event_names(),
+        parameters: &document.parameters,
+        start: document.analysis.start,
+        end: document.analysis.end,
+    };
+    let of =
+        |collected: &'f Collected| collected.window.resolve(&context).map_err(|error| (collected, error));
+    file.collect.iter().map(of).collect()
+}
+
 /// The whole histories of some columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
@@ -79,18 +98,20 @@ pub(super) struct Collector<'a> {
     file: &'a SweepFile,
     /// For each collected item, the index of its column; none for an event.
     indices: Vec<Option<usize>>,
-    histories: Vec<Accumulator>,
+    windows: Vec<TimeWindow>,
+    histories: Vec<WindowedHistory>,
     /// Indices of the stored columns.
     kept_indices: Vec<usize>,
     kept: History,
 }
 
 impl<'a> Collector<'a> {
-    pub(super) fn new(file: &'a SweepFile) -> Self {
+    pub(super) fn new(file: &'a SweepFile, windows: Vec<TimeWindow>) -> Self {
         Self {
             file,
             indices: Vec::new(),
-            histories: vec![Accumulator::default(); file.collect.len()],
+            histories: windows.iter().map(|window| WindowedHistory::new(window.clone(), None)).collect(),
+            windows,
             kept_indices: Vec::new(),
             kept: History {
                 times: Vec::new(),
@@ -115,9 +136,18 @@ impl<'a> Collector<'a> {
         (!self.kept.columns.is_empty()).then_some(self.kept)
     }
 
-    /// The collected values, or the error.
-    pub(super) fn values(&self) -> Result<Vec<f64>, String> {
-        let value = |(collected, history): (&Collected, &Accumulator)| {
+    /// The collected values of a run in which `events` happened, with their times [s], or the error.
+    pub(super) fn values(&self, events: &[(&str, f64)]) -> Result<Vec<f64>, String> {
+        let value = |(collected, history): (&Collected, &WindowedHistory)| {
+            let history = match history.close(events) {
+                Ok(history) => history,
+                Err(_) if collected.window.is_whole() => Accumulator::default(),
+                Err(error) => {
+                    let (statistic, column) = (collected.statistic, &collected.column);
+                    return Err(format!("`{statistic}` of `{column}`: {}; {}", error.message, error.remedy));
+                }
+            };
+            let history = &history;
             collected.kind().of(history).ok_or_else(|| match history.fault() {
                 None if collected.is_of_event() => format!("event `{}` has not happened", collected.column),
                 Some(time) => format!("`{}` is not a finite number at t = {time:.6e} s", collected.column),
@@ -138,9 +168,10 @@ impl Writer for Collector<'_> {
             if collected.is_of_event() { Ok(None) } else { index(&collected.column).map(Some) }
         };
         self.indices = self.file.collect.iter().map(of).collect::<io::Result<_>>()?;
-        for (history, index) in self.histories.iter_mut().zip(&self.indices) {
-            *history = Accumulator::with_fatigue(index.and_then(|index| columns[index].fatigue));
-        }
+        let of = |(window, index): (&TimeWindow, &Option<usize>)| {
+            WindowedHistory::new(window.clone(), index.and_then(|index| columns[index].fatigue))
+        };
+        self.histories = self.windows.iter().zip(&self.indices).map(of).collect();
         self.kept_indices = self.file.histories.iter().map(index).collect::<io::Result<_>>()?;
         Ok(())
     }

@@ -6,7 +6,7 @@ use lissom_model::sweep::SweepFile;
 use lissom_model::{Document, Report, Severity};
 use serde::{Deserialize, Serialize};
 
-use super::collector::{Collector, History};
+use super::collector::{Collector, History, windows};
 use crate::report::Stopped;
 use crate::session::{Progress, Session, SessionError};
 
@@ -109,11 +109,18 @@ pub(super) fn run(
             return Some(MemberOutcome::not_started(member, MemberState::Failed, error.to_string()));
         }
     };
-    let mut collector = Collector::new(file);
+    let windows = match windows(file, document) {
+        Ok(windows) => windows,
+        Err((collected, error)) => {
+            let words = format!("window of `{}`: {}; {}", collected.name, error.message, error.remedy);
+            return Some(MemberOutcome::not_started(member, MemberState::WrongModel, words));
+        }
+    };
+    let mut collector = Collector::new(file, windows);
     let report = session.run(&mut [&mut collector], watch);
     collector.take_events(session.events());
     let collected = match report.stopped {
-        Stopped::End => collector.values(),
+        Stopped::End => collector.values(&session.events().collect::<Vec<_>>()),
         Stopped::Interrupted => return None,
         Stopped::Failed(error) => Err(error.to_string()),
     };

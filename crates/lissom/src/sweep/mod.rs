@@ -46,6 +46,7 @@ use std::time::{Duration, Instant};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use lissom_model::lower::registry::registry;
+use lissom_model::output::Column;
 use lissom_model::registry::Registry;
 use lissom_model::{ModelText, Report};
 use serde_json::json;
@@ -94,6 +95,18 @@ pub enum SweepError {
         /// The column.
         column: String,
     },
+    /// The window of a collected item cannot be used.
+    #[error("{}", self.diagnostic())]
+    Window {
+        /// Name of the collected item.
+        name: String,
+        /// File and line.
+        at: String,
+        /// What is wrong.
+        problem: String,
+        /// What to write instead.
+        remedy: String,
+    },
     /// The model has no such event.
     #[error("{}", self.diagnostic())]
     Event {
@@ -113,6 +126,8 @@ pub struct Sweep {
     registry: Registry,
     file: SweepFile,
     overrides: Vec<Override>,
+    /// Units of the collected items.
+    units: Vec<String>,
     warnings: Report,
 }
 
@@ -146,8 +161,19 @@ impl Sweep {
             let events = lowered.system.signals().events();
             let events: Vec<&str> = events.iter().map(|event| event.name.as_str()).collect();
             collector::check(&file, &columns, &events)?;
+            collector::windows(&file, &document).map_err(|(collected, error)| SweepError::Window {
+                name: collected.name.clone(),
+                at: collected.position.clone(),
+                problem: error.message,
+                remedy: error.remedy,
+            })?;
+            let unit = |collected: &Collected| {
+                let column = Column::named(&columns, &collected.column);
+                collected.kind().unit(column.map_or("", |index| &columns[index].unit)).to_owned()
+            };
+            let units = file.collect.iter().map(unit).collect();
             let (name, overrides) = (model.name().to_owned(), overrides.to_vec());
-            return Ok(Self { name, text, registry, file, overrides, warnings: document.warnings });
+            return Ok(Self { name, text, registry, file, overrides, units, warnings: document.warnings });
         }
         let nothing = || Report::new(Vec::new(), &lissom_model::Sources::default());
         Err(first.unwrap_or_else(nothing).into())

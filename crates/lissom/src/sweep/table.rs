@@ -76,6 +76,10 @@ pub fn write_parquet(sweep: &Sweep, outcomes: &[MemberOutcome]) -> io::Result<Ve
     parquet(&columns, &[])
 }
 
+fn with_unit(name: &str, unit: Option<&str>) -> String {
+    unit.filter(|unit| !unit.is_empty()).map_or_else(|| name.to_owned(), |unit| format!("{name} [{unit}]"))
+}
+
 /// The plot of the solved members.
 pub fn plot(sweep: &Sweep, outcomes: &[MemberOutcome], title: &str) -> SweepPlot {
     let file = sweep.file();
@@ -91,13 +95,17 @@ pub fn plot(sweep: &Sweep, outcomes: &[MemberOutcome], title: &str) -> SweepPlot
             .collect();
         if let Some(values) = numbers {
             let is_logarithmic = matches!(varied.variation, Variation::Range { logarithmic: true, .. });
-            return SweepAxis { name: varied.path.clone(), values, is_logarithmic };
+            return SweepAxis {
+                name: with_unit(&varied.path, lissom_model::unit_of(&sweep.registry, &varied.path)),
+                values,
+                is_logarithmic,
+            };
         }
         let words: Vec<String> = values().map(|value| value.to_cell()).collect();
         SweepAxis::of_words(&varied.path, &words)
     });
     let collected = file.collect.iter().enumerate().map(|(index, collected)| SweepAxis {
-        name: collected.name.clone(),
+        name: with_unit(&collected.name, Some(&sweep.units[index])),
         values: solved.iter().map(|outcome| outcome.values[index]).collect(),
         is_logarithmic: false,
     });

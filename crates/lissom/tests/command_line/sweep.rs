@@ -90,6 +90,36 @@ fn every_row_is_what_a_single_run_gives() {
     assert_eq!((&facts["members"], &facts["solved"], &facts["failed"]), (&6.into(), &6.into(), &0.into()));
 }
 
+/// A window in a sweep, and the same one in the statistics of a run.
+#[test]
+fn windows_restrict_statistics() {
+    let folder = Folder::new("sweep-windows");
+    let varied = "set.analysis.end = 1\nset.analysis.step = 0.1\nvary.\"point_masses.bob.mass\" = [1]\n";
+    let collect = |item: &str| format!("{varied}collect.late = \"{item}\"\n");
+    sweep_file(&folder, &collect("time_of_max(bob.x, after=0.55)"));
+    assert_eq!(sweep(&folder, "out", &[]).code, 0);
+    let late: f64 = table(&folder, "out").lines().nth(1).unwrap().split(',').nth(2).unwrap().parse().unwrap();
+    assert!((0.55..=1.0).contains(&late), "{late}");
+
+    let model = example("pendulum");
+    let mut args = vec!["run", &model, "--no-plots", "--out", "one", "--set", "analysis.end=1"];
+    args.extend(["--set", "analysis.step=0.1", "--set", "point_masses.bob.mass=1"]);
+    args.extend(["--set", "analysis.statistics_window='after=0.55'"]);
+    assert_eq!(lissom(&args, folder.path()).code, 0);
+    let text = fs::read_to_string(folder.path().join("one/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(summary["statistics"]["bob.x"]["time_of_max"].as_f64(), Some(late));
+
+    sweep_file(&folder, &collect("max(bob.x, after=2)"));
+    let ended = sweep(&folder, "out", &["--restart"]);
+    assert_eq!(ended.code, 2);
+    assert!(
+        ended.errors.contains("(sweep.toml:6) cannot be used: the window begins at 2 s"),
+        "{}",
+        ended.errors
+    );
+}
+
 #[test]
 fn tables_do_not_depend_on_the_number_of_workers() {
     let folder = Folder::new("sweep-workers");

@@ -33,6 +33,7 @@ class Dynamics(Analysis):
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: number of steps between records; default 1, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
+        statistics_window: part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all; a text, or nothing.
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"radau-iia-9"`, `"radau-iia-13"`, `"energy-decaying"`, or nothing.
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first step [s]; a number > 0, or nothing.
@@ -58,6 +59,7 @@ class Dynamics(Analysis):
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
+    statistics_window: str | None = None
     scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "radau-iia-9", "radau-iia-13", "energy-decaying"] | None = None
     end: Number
     step: Number | None = None
@@ -86,6 +88,7 @@ class Statics(Analysis):
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: number of steps between records; default 1, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: frames of the recorded motion per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
+        statistics_window: part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all; a text, or nothing.
         end: last time, default 1 [s]; a number, or nothing.
         steps: number of load steps; default: adaptive, by contraction and error; a whole number from 1 to 1000000, or nothing.
         relative_tolerance: tolerance of the relative work error of adaptive load steps, default 0.01; a number > 0, or nothing.
@@ -105,6 +108,7 @@ class Statics(Analysis):
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
+    statistics_window: str | None = None
     end: Number | None = None
     steps: Count | None = None
     relative_tolerance: Number | None = None

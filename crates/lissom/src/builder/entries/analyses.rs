@@ -118,4 +118,6 @@ keys! {
     output_every: usize = "output_every";
     /// Frames of the recorded motion per simulated second; default at most 600 over the run \[1/s\].
     frames_per_second: f64 = "frames_per_second";
+    /// Part of the records from which statistics are computed, such as "after=0.5", "last=0.2" or "after=impact"; default all.
+    statistics_window: String = "statistics_window";
 }
