@@ -13,6 +13,7 @@ pub mod expression;
 pub mod failures;
 pub mod files;
 mod force_values;
+mod forms;
 mod function_values;
 pub mod functions;
 mod keys;
@@ -51,6 +52,7 @@ mod values;
 
 pub use channel_components::component_position;
 pub use document::Document;
+pub use forms::{Form, FormKey, forms, function_names, meant};
 pub use library::Library;
 pub use manual::{manual, topic, topics, unit_of};
 pub use model_axes::{EntryAxes, model_axes};

@@ -76,8 +76,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let title = title(context);
     let parameters = parameters(context);
     let points = points(context);
-    let gravity =
-        context.top("gravity").map_or(Some(Vector3::zeros()), |(node, _)| context.vector(node, "`gravity`"));
+    let gravity = context.top("gravity").map_or(Some(Vector3::zeros()), |(node, _)| gravity(context, node));
     let materials = materials::materials(context);
     let sections = materials::sections(context, registry, &materials);
     let bodies = bodies::bodies(context);
@@ -126,6 +125,26 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     connections::check(context, &document);
     events::check(context, &document.analysis);
     Some(document)
+}
+
+/// Acceleration of gravity. A number, or a table of components, is rejected with the list that was meant.
+fn gravity(context: &Context<'_>, node: &Node) -> Option<Vector3> {
+    let (found, list) = match &node.value {
+        Value::Number(size) => ("number", [0.0, 0.0, -size.abs()]),
+        Value::Table(table) => {
+            let component = |name: &str| match table.get(name).map(|entry| &entry.node.value) {
+                Some(Value::Number(number)) => *number,
+                _ => 0.0,
+            };
+            ("table", ["x", "y", "z"].map(component))
+        }
+        _ => return context.vector(node, "`gravity`"),
+    };
+    let [x, y, z] = if list == [0.0; 3] { [0.0, 0.0, -9.81] } else { list };
+    let problem = Problem::error(node.span, format!("`gravity` must be a list of 3 numbers, not a {found}"));
+    let help = format!("write the acceleration in global axes, such as [{x}, {y}, {z}]");
+    context.report(problem.label(format!("this is a {found}")).help(help));
+    None
 }
 
 /// The version decides how the file is read, so it is checked before anything else.

@@ -263,17 +263,35 @@ fn an_entry_of_parts_moves_with_all_that_is_in_it() {
 fn kinds_answer_for_tables_and_functions() {
     let folder = Folder::new("outputs-kinds");
     for (word, wanted) in [
-        ("output", "### `kind = \"expression\"`"),
+        ("output", "  expression  "),
         ("outputs", "relative_to"),
-        ("section", "### `shape = \"tube\"`"),
+        ("section", "  tube  "),
         ("function", "`smoothstep`"),
-        ("part", "`like`"),
-        ("initial", "[initial.…]"),
-        ("beam", "`stations`"),
+        ("smoothstep", "Functions of expressions"),
+        ("part", "like: "),
+        ("initial", "[initial.*]"),
+        ("beam", "stations: "),
+        ("analysis", "generalized-alpha"),
+        ("reaction", "axes: `\"ground\"`"),
+        ("tube", "outer_radius: a number > 0 [m]."),
+        ("damping", "[springs.*]  axial, point"),
+        ("forces", "control: "),
+        ("gravity", "Holds three numbers"),
+        ("radau-iia", "Two-stage Radau IIA"),
+        ("point mass", "[point_masses.*]"),
     ] {
         let ended = lissom(&["kinds", word], folder.path());
         assert!(ended.code == 0 && ended.output.contains(wanted), "{word}: {}{}", ended.output, ended.errors);
     }
+    for (word, wanted) in
+        [("reacton", "`lissom kinds reaction`"), ("rod", "`lissom kinds distance`"), ("hinge", "revolute")]
+    {
+        let ended = lissom(&["kinds", word], folder.path());
+        assert!(ended.code == 2 && ended.errors.contains(wanted), "{word}: {}", ended.errors);
+    }
+    let json = lissom(&["kinds", "reaction", "--json"], folder.path()).output;
+    let json: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["outputs"][0]["parameters"][0]["name"], "of");
     let ended = lissom(&["kinds", "nonsense"], folder.path());
     assert!(ended.code == 2 && ended.errors.contains("section"), "{}", ended.errors);
     let all = lissom(&["kinds"], folder.path()).output;
