@@ -61,6 +61,7 @@ macro_rules! catalogued {
                             advice: $advice,
                         };
                         let values = vec![$((stringify!($name), $crate::diagnostics::Value::from($name))),*];
+                        $crate::number::as_written!($($name),*);
                         $crate::catalogued::diagnostic(&ENTRY, values, format!($cause), format!($remedy))
                     })*
                     $(Self::$wrap { $($wrapped: $inner),* } => $made,)*

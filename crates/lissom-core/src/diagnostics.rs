@@ -205,11 +205,14 @@ macro_rules! diagnostics {
                 match self {
                     $(Self::$variant { $($field),* } => {
                         let values = [$((stringify!($field), $crate::diagnostics::Value::from($field))),*];
+                        let time = [$($time)?].into_iter().next().filter(|time: &f64| time.is_finite());
+                        let subject = [$($crate::kinematics::Subject::from($subject))?].into_iter().next();
+                        $crate::number::as_written!($($field),*);
                         $crate::diagnostics::Diagnostic {
                             code: $code,
                             severity: $crate::diagnostics::Severity::$severity,
-                            time: [$($time)?].into_iter().next().filter(|time: &f64| time.is_finite()),
-                            subject: [$($crate::kinematics::Subject::from($subject))?].into_iter().next(),
+                            time,
+                            subject,
                             values: values.into_iter().filter(|(name, _)| *name != "time").collect(),
                             cause: format!($message $(, $argument)*),
                             remedy: format!($remedy),

@@ -276,7 +276,8 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the mechanics, and what of their crate they may name.
-const FLOORS: [(&str, &[&str]); 12] = [
+const FLOORS: [(&str, &[&str]); 13] = [
+    ("number.rs", &["number"]),
     ("round_off.rs", &[]),
     ("instants.rs", &["round_off"]),
     ("kinematics/", &["kinematics", "round_off"]),
@@ -287,7 +288,10 @@ const FLOORS: [(&str, &[&str]); 12] = [
     ("contact/", &["dual", "kinematics", "registry", "round_off"]),
     ("signals/", &["dual", "instants", "kinematics", "law", "round_off"]),
     ("joints/", &["contact", "joints", "kinematics", "law", "registry", "relation", "round_off"]),
-    ("elements/", &["contact", "dual", "elements", "kinematics", "law", "registry", "round_off", "signals"]),
+    (
+        "elements/",
+        &["contact", "dual", "elements", "kinematics", "law", "number", "registry", "round_off", "signals"],
+    ),
     ("evaluation/", &["elements", "evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
 ];
 

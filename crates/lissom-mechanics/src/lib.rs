@@ -11,6 +11,7 @@ pub mod instants;
 pub mod joints;
 pub mod kinematics;
 pub mod law;
+pub mod number;
 pub mod registry;
 pub mod relation;
 pub mod round_off;

@@ -276,7 +276,7 @@ catalogued! {
             advice: "Linearise about a stable state.",
         }
         PeaksAbove { frequency => frequency } => "response-peaks-above" {
-            cause: "natural frequencies were computed up to {frequency:.4e} Hz: above, peaks narrower than the spacing of frequencies \
+            cause: "natural frequencies were computed up to {frequency} Hz: above, peaks narrower than the spacing of frequencies \
                     may be missed",
             remedy: "use a smaller range, or more `points`",
             meaning: "The range of a frequency response has more natural frequencies than are computed.",

@@ -143,7 +143,7 @@ catalogued! {
         }
         AlreadyCritical { path => path, load_factor => load_factor } => "path-loads-critical" {
             cause: "`{path}` is varied from the equilibrium under the loads of the model, but they exceed a critical point at load \
-                    factor {load_factor:.6e}",
+                    factor {load_factor}",
             remedy: "start with smaller loads, or vary a parameter of the loads instead",
             meaning: "A path along a number of the model starts from the equilibrium under its loads. It is ambiguous if the loads \
                       exceed a critical point.",
@@ -193,7 +193,7 @@ catalogued! {
             advice: "Remove loads that are fixed in space, or let gravity act along the axis.",
         }
         Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
-            cause: "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
+            cause: "mode {number} ({frequency} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
                     rotating and non-rotating parts are coupled across the axis, for example by a flexible support; there are no \
                     multi-blade coordinates in which the coefficients are constant, because {reason}",
             remedy: "such modes require Floquet theory, which is not implemented",
@@ -275,7 +275,7 @@ catalogued! {
 
     Failure BucklingRunError {
         AlreadyCritical { 0 => load_factor } => "buckling-loads-critical" {
-            cause: "the loads of the model exceed a critical load at load factor {load_factor:.6e}",
+            cause: "the loads of the model exceed a critical load at load factor {load_factor}",
             remedy: "reduce the loads, or follow the equilibrium path by an analysis of kind `path`",
             meaning: "The linear estimate of buckling loads requires an equilibrium under loads below the first critical load.",
             advice: "Reduce the loads, or follow the equilibrium path by an analysis of kind `path`.",
@@ -345,7 +345,7 @@ catalogued! {
             advice: "Choose a number that changes neither parts nor elements.",
         }
         KinkMoves { path => path, time => time } => "gradient-breakpoint" {
-            cause: "a change of `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s, at which a step ends",
+            cause: "a change of `{path}` moves a kink or jump of a load or drive, at t = {time} s, at which a step ends",
             remedy: "smooth it over several steps, or compare runs",
             meaning: "Steps end at kinks and jumps of functions of time. Their derivative with respect to the time of the kink is not \
                       computed.",
@@ -358,7 +358,7 @@ catalogued! {
             advice: "Remove loads and states whose signals depend on the motion, or compare runs.",
         }
         InParts { 0 => time } => "gradient-bisected-step" {
-            cause: "the step to t = {time:.6e} s was bisected, and bisected steps cannot be differentiated: the whole step has no \
+            cause: "the step to t = {time} s was bisected, and bisected steps cannot be differentiated: the whole step has no \
                     solution, or a load or drive has a kink or jump there",
             remedy: "choose a smaller step, steps that end at the kinks, or smooth them",
             meaning: "Derivatives are not computed along steps that were bisected.",
@@ -372,7 +372,7 @@ catalogued! {
             advice: "Choose another time, a smaller `analysis.relative_tolerance`, or compare runs.",
         }
         Denied { expected => expected, found => found } => "gradient-refuted" {
-            cause: "the derivatives add up to a change of {expected:e}, but runs of the model with perturbed numbers change by {found:e}",
+            cause: "the derivatives add up to a change of {expected:.3e}, but runs of the model with perturbed numbers change by {found:.3e}",
             remedy: "choose another time, because the output may have jumps or kinks nearby; if that does not help, report an error \
                      of the program",
             meaning: "The finite-difference check refutes the derivatives of `lissom gradient`: the output has a jump or a kink nearby.",

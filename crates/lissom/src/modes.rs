@@ -271,7 +271,8 @@ pub(crate) fn reliable<'a>(
     if !has_elastic {
         return Err(ModesError::Periodic { number, frequency, departure, reason });
     }
-    let names: Vec<String> = left_out.iter().map(|mode| format!("{:.4e} Hz", mode.frequency)).collect();
+    let names: Vec<String> =
+        left_out.iter().map(|mode| format!("{} Hz", lissom_core::number::Written(mode.frequency))).collect();
     chosen.warnings.push(AnalysisWarning::ModesOmitted {
         omitted: left_out.len(),
         count: left_out.len() + chosen.found.modes.len(),

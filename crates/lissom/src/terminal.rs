@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom::Progress;
+use lissom_core::number::written;
 
 use crate::commands::Exit;
 
@@ -59,7 +60,11 @@ impl Bar {
         self.drawn = Instant::now();
         self.shown.set_position(progress.done as u64);
         let speed = progress.done as f64 / self.began.elapsed().as_secs_f64();
-        self.shown.set_message(format!("t = {:.4} of {} s, {speed:.0} steps/s", progress.time, progress.end));
+        self.shown.set_message(format!(
+            "t = {} of {} s, {speed:.0} steps/s",
+            written(progress.time, 4),
+            written(progress.end, 7)
+        ));
     }
 
     /// Removes it.

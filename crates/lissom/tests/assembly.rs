@@ -451,7 +451,7 @@ fn a_part_that_only_turns_is_reported() {
     let (distance, turn) = moved(&found, "b");
     assert!(distance < 1e-12 && (turn - 0.3_f64.atan()).abs() < 1e-9, "{found:?}");
     assert!(found.words().starts_with("moved `b` by "), "{}", found.words());
-    assert!(found.words().contains(" m and 2.915e-1 rad"), "{}", found.words());
+    assert!(found.words().contains(" m and 0.2915 rad"), "{}", found.words());
 }
 
 #[test]

@@ -394,7 +394,7 @@ fn a_relation_that_moves_is_a_drive() {
 fn wrong_relations_are_reported() {
     let equation = "two.angle - 0.8*sin(one.angle) - 0.2*one.angle^2 + 0.1*one.angle*two.angle";
     for (instead, words) in [
-        ("two.angle - one.angle - 0.3", "does not hold at the start: it misses by -3"),
+        ("two.angle - one.angle - 0.3", "does not hold at the start: it misses by -0.3,"),
         ("two.angle - one.rate", "is a rate"),
         ("two.angel - one.angle", "no coordinate `angel`"),
         ("too.angle - one.angle", "no joint `too`"),

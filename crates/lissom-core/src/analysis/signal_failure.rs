@@ -1,6 +1,7 @@
 //! The failure of a signal, which mechanics finds and the catalogue explains.
 
 use crate::diagnostics::{Diagnose, Diagnostic, Entry, Severity, Value};
+use crate::number::Written;
 use crate::signals::SignalError;
 
 /// Its entry of the catalogue.
@@ -8,7 +9,7 @@ pub(crate) const ENTRY: Entry = Entry {
     code: "signal-not-finite",
     variant: "SignalError",
     severity: Severity::Failure,
-    message: "signal {signal} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow",
+    message: "signal {signal} is {value} at t = {time} s: an argument is outside of what its functions allow",
     meaning: "A signal is not finite: a root of a negative number, a division by zero.",
     advice: "Restrict the argument, for example by `max(…, 0)` or `clamp`, or end the run before.",
 };
@@ -23,7 +24,8 @@ impl Diagnose for SignalError {
             subject: Some(signal.clone()),
             values: vec![("value", Value::Number(*value))],
             cause: format!(
-                "signal {signal} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow"
+                "signal {signal} is {value} at t = {} s: an argument is outside of what its functions allow",
+                Written(*time)
             ),
             remedy: "restrict it, for example by `max(…, 0)` under a root or `clamp`, or end the run before"
                 .to_owned(),

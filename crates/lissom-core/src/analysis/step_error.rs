@@ -27,7 +27,7 @@ diagnostics! {
         } => "not-converged" {
             time: *time,
             subject: worst,
-            cause: ("step to t = {time:.6e} s did not converge in {iterations} iterations: last correction {correction:.1e}, worst \
+            cause: ("step to t = {time} s did not converge in {iterations} iterations: last correction {correction:.1e}, worst \
                     equation: {worst}"),
             remedy: "{hint}",
             meaning: "Newton's iteration did not converge in a step. In statics, a limit point of the load is a frequent cause: snap-through or \
@@ -48,7 +48,7 @@ diagnostics! {
         } => "not-finite" {
             time: *time,
             subject: worst,
-            cause: ("step to t = {time:.6e} s: numbers that are not finite after {iterations} iterations, first in: {worst}"),
+            cause: ("step to t = {time} s: numbers that are not finite after {iterations} iterations, first in: {worst}"),
             remedy: "{hint}",
             meaning: "A force, an acceleration or a position is not a finite number.",
             advice: "Look at the reported equation for a force that grows without bound, for masses or stiffnesses that differ by too many \
@@ -69,7 +69,7 @@ diagnostics! {
         } => "joint-degenerate" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("step to t = {time:.6e} s did not converge: the parts of the `{kind}` joint `{joint}` are rotated by {angle:.1} \
+            cause: ("step to t = {time} s did not converge: the parts of the `{kind}` joint `{joint}` are rotated by {angle:.1} \
                     degrees relative to each other, where its equation \
                     {equation} vanishes"),
             remedy: "avoid this position by a stop, other lengths or another start, or use a joint of another kind",
@@ -88,7 +88,7 @@ diagnostics! {
         } => "loop-singular" {
             time: *time,
             subject: joints,
-            cause: ("step to t = {time:.6e} s did not converge: {beside:.2} degrees before it the mechanism has a singular position, where \
+            cause: ("step to t = {time} s did not converge: {beside:.2} degrees before it the mechanism has a singular position, where \
                     the equations of {joints} are dependent, and it locks or can continue in more than one way"),
             remedy: "avoid this position by other lengths, another drive or another start",
             meaning: "A closed loop is close to a locking position, such as a slider crank at its dead centre.",
@@ -103,7 +103,7 @@ diagnostics! {
         } => "switches-within-step" {
             time: *time,
             subject: what,
-            cause: ("step to t = {time:.6e} s did not converge, nor did its shortest substeps: {what} switches within it, and the motion \
+            cause: ("step to t = {time} s did not converge, nor did its shortest substeps: {what} switches within it, and the motion \
                     can continue on neither side of \
                     the switch"),
             remedy: "smooth the jump (`tanh(v/0.01)` instead of `sign(v)`), use a suitable kind, such as friction, or set \
@@ -123,7 +123,7 @@ diagnostics! {
         } => "tolerance-not-met" {
             time: *time,
             subject: unknown,
-            cause: ("from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most in \
+            cause: ("from t = {time} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most in \
                     the {unknown}"),
             remedy: "check for a load or drive that jumps there, or increase the tolerance",
             meaning: "The estimated error exceeds `relative_tolerance` with the shortest steps, as at a discontinuous load or drive.",
@@ -158,7 +158,7 @@ diagnostics! {
         } => "chattering" {
             time: *time,
             subject: what,
-            cause: ("at t = {time:.6e} s {what} switches a thousand times within one step: the motion slides along the surface where it \
+            cause: ("at t = {time} s {what} switches a thousand times within one step: the motion slides along the surface where it \
                     switches"),
             remedy: "smooth it (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), or use a suitable kind, such as friction",
             meaning: "A signal, an event or a force switches a thousand times within one step: the motion slides along the surface where it \
@@ -188,7 +188,7 @@ diagnostics! {
         } => "function-not-finite" {
             time: *time,
             subject: what,
-            cause: ("step to t = {time:.6e} s: {what} is {value} at t = {at:.6e} s, or its derivative is: an argument is outside of the \
+            cause: ("step to t = {time} s: {what} is {value} at t = {at} s, or its derivative is: an argument is outside of the \
                     domain of its functions"),
             remedy: "restrict it, for example by `max(…, 0)` under a root or `clamp`, or end the run before",
             meaning: "A function of time is not finite: a root of a negative number, a division by zero.",
@@ -203,7 +203,7 @@ diagnostics! {
         } => "constraints-contradict" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time:.6e} s constraints contradict each other: violated are {violated}: a drive prescribes a position that \
+            cause: ("at t = {time} s constraints contradict each other: violated are {violated}: a drive prescribes a position that \
                     the joints do not allow, or \
                     two drives prescribe different ones"),
             remedy: "remove one, or change the prescribed motion",
@@ -221,7 +221,7 @@ diagnostics! {
         } => "rotation-per-step" {
             time: *time,
             subject: Subject::new("node", node),
-            cause: ("step to t = {time:.6e} s: node `{node}` rotates by {angle:.2} rad in it, and angles beyond a quarter of a \
+            cause: ("step to t = {time} s: node `{node}` rotates by {angle:.2} rad in it, and angles beyond a quarter of a \
                     revolution per step are not resolved"),
             remedy: "use a smaller step, or set `relative_tolerance`",
             meaning: "A node rotates by more than a quarter of a turn in a step, which is too long for the angular velocity.",
@@ -238,7 +238,7 @@ diagnostics! {
         } => "rotation-in-element" {
             time: *time,
             subject: Subject::new("node", &nodes[0]),
-            cause: ("at t = {time:.6e} s the beam element between `{}` and `{}` rotates by {turns:.2} of half a revolution or more: a \
+            cause: ("at t = {time} s the beam element between `{}` and `{}` rotates by {turns:.2} of half a revolution or more: a \
                     larger rotation is indistinguishable from one in the opposite direction", nodes[0], nodes[1]),
             remedy: "use more elements",
             meaning: "The nodes of a beam element are rotated against each other by nearly half a turn or more: there are too few elements for \
@@ -258,8 +258,8 @@ diagnostics! {
         } => "slider-off-beam" {
             time: *time,
             subject: Subject::new("slider", joint),
-            cause: ("step to t = {time:.6e} s: slider `{joint}` passes the end of its beam: its position is {place:.6e} m of \
-                    {length:.6e} m"),
+            cause: ("step to t = {time} s: slider `{joint}` passes the end of its beam: its position is {place} m of \
+                    {length} m"),
             remedy: "make the beam longer, stop it with a spring of kind `axial_stop`, or end the run before with an event",
             meaning: "A slider has left its beam.",
             advice: "Use a longer beam, a stop, or an event before the end.",
@@ -273,7 +273,7 @@ diagnostics! {
         } => "kinetic-energy-negative" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("step to t = {time:.6e} s: the superelement with the interface `{interface}` is deformed beyond the range of its \
+            cause: ("step to t = {time} s: the superelement with the interface `{interface}` is deformed beyond the range of its \
                     second-order matrices: its kinetic energy is no longer positive"),
             remedy: "reduce the part in several pieces or without corrections (`--modes-alone`), or model it by beams",
             meaning: "A superelement is deformed beyond the range of its second-order matrices.",
@@ -294,7 +294,7 @@ diagnostics! {
         } => "energy-gain" {
             time: *time,
             subject: Subject::new("node", node),
-            cause: ("step to t = {time:.6e} s: the energy exceeds the work of loads and drives by {surplus:.3e} J, where \
+            cause: ("step to t = {time} s: the energy exceeds the work of loads and drives by {surplus:.3e} J, where \
                     {turned_over:.3e} J are \
                     exchanged: the step does not resolve the motion, which is fastest at node `{node}`"),
             remedy: "use a smaller step, set `relative_tolerance`, or choose `scheme = \"radau-iia\"`; `energy_check = false` continues \
@@ -309,7 +309,7 @@ diagnostics! {
             time: f64,
         } => "interrupted" {
             time: *time,
-            cause: ("interrupted after t = {time:.6e} s"),
+            cause: ("interrupted after t = {time} s"),
             remedy: "",
             meaning: "The run was interrupted.",
             advice: "Run it again; with `--resume` it continues from its last checkpoint.",
@@ -329,7 +329,7 @@ diagnostics! {
         } => "zero-pivot" {
             time: *time,
             subject: unknown,
-            cause: ("step to t = {time:.6e} s: elimination stops at a pivot of {pivot:.1e} for the {unknown}"),
+            cause: ("step to t = {time} s: elimination stops at a pivot of {pivot:.1e} for the {unknown}"),
             remedy: "{hint}",
             meaning: "Elimination stops at a vanishing pivot: a part is not constrained, or an equation is redundant.",
             advice: "Add a mass, a stiffness or a joint, or remove the redundant constraint.",
@@ -345,7 +345,7 @@ diagnostics! {
             /// What went wrong.
             error: super::InitialError,
         }, { time, error } => {
-            error.diagnostic().within(&format!("step to t = {time:.6e} s, velocities at its end")).at(*time)
+            error.diagnostic().within(&format!("step to t = {} s, velocities at its end", crate::number::Written(*time))).at(*time)
         },
     }
 }

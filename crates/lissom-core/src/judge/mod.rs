@@ -155,7 +155,10 @@ impl Judge<'_> {
                 Quantity::Angle => "rad",
                 Quantity::State => "",
             };
-            let words = format!("`{joint}` ({equation}) by {:.3e} {unit}", end.violations[k].abs());
+            let words = format!(
+                "`{joint}` ({equation}) by {:.3e} {unit}",
+                crate::number::Written(end.violations[k].abs())
+            );
             violated.push(Subject::new("joint", joint).called(words));
         }
         Subject::list(violated)

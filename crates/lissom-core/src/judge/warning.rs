@@ -24,7 +24,7 @@ diagnostics! {
             turned_over: f64,
         } => "energy-surplus" {
             time: *time,
-            cause: ("from t = {time:.6e} s on the energy exceeds the work of loads and drives: a surplus of {surplus:.3e} J where \
+            cause: ("from t = {time} s on the energy exceeds the work of loads and drives: a surplus of {surplus:.3e} J where \
                     {turned_over:.3e} J are exchanged; the step does not resolve the motion"),
             remedy: "use a smaller step, or set `relative_tolerance`",
             meaning: "Energy grew beyond the work of loads and drives, by more than 5 % of the energy exchanged.",
@@ -41,7 +41,7 @@ diagnostics! {
             onset: String,
         } => "unstable-equilibrium" {
             time: *time,
-            cause: ("the equilibrium at t = {time:.6e} is unstable in {directions} direction(s){onset}: the model would leave it \
+            cause: ("the equilibrium at t = {time} is unstable in {directions} direction(s){onset}: the model would leave it \
                     spontaneously (buckling, or a maximum of energy)"),
             remedy: "disturb it to find the stable equilibrium, or constrain the free parts",
             meaning: "An equilibrium, of statics or at the start, is unstable in the given number of directions.",
@@ -56,7 +56,7 @@ diagnostics! {
             distance: f64,
         } => "relaxed-equilibrium" {
             time: *time,
-            cause: ("the equilibrium at t = {time:.6e} was found by relaxation, because Newton's method found none from the given \
+            cause: ("the equilibrium at t = {time} was found by relaxation, because Newton's method found none from the given \
                     positions: \
                     parts moved by up to {distance:.3e} m with decreasing energy; it may be one of several equilibria, depending on the \
                     given \
@@ -76,7 +76,7 @@ diagnostics! {
             work: f64,
         } => "jump" {
             time: *time,
-            cause: ("between t = {start:.6e} and {time:.6e} the model jumps: loads do {work:.3e} J more than it stores, so there is a \
+            cause: ("between t = {start} and {time} the model jumps: loads do {work:.3e} J more than it stores, so there is a \
                     limit point of the load between them, beyond which no equilibrium is close"),
             remedy: "use more load steps to find it, or follow the path beyond it with `kind = \"path\"`",
             meaning: "In one load step the loads did much more work than the model stored.",
@@ -121,7 +121,7 @@ diagnostics! {
         } => "contact-too-short" {
             time: *time,
             subject: what,
-            cause: ("at t = {time:.6e} s {what} stops the colliding part within two steps: such a short contact is not resolved, and its \
+            cause: ("at t = {time} s {what} stops the colliding part within two steps: such a short contact is not resolved, and its \
                     energy may be lost or increased"),
             remedy: "use steps of at most a fiftieth of the contact, or set `relative_tolerance` instead of `step`, which ends steps at \
                 the start of contacts",
@@ -141,7 +141,7 @@ diagnostics! {
         } => "drive-jumps" {
             time: *time,
             subject: Subject::new("drive", drive),
-            cause: ("in the step to t = {time:.6e} s the drive `{drive}` moves by {way:.3e} (m or rad), which does not follow from its \
+            cause: ("in the step to t = {time} s the drive `{drive}` moves by {way:.3e} (m or rad), which does not follow from its \
                     rates: \
                     it jumps, or changes faster than steps resolve"),
             remedy: "let it move in a time that the steps resolve",
@@ -157,9 +157,9 @@ diagnostics! {
             missed: f64,
         } => "unresolved-rates" {
             time: *time,
-            cause: ("the steps are too long for velocities and forces that signals and events read: from t = {time:.6e} s on positions \
+            cause: ("the steps are too long for velocities and forces that signals and events read: from t = {time} s on positions \
                     satisfy joints and drives, but their rates have an error of {:.1} % of the speed of the model, and forces a larger \
-                    one", 100.0 * missed),
+                    one", 100.0 * *missed),
             remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "Fixed steps satisfy the constraints of joints and drives, but not their rates: the mean error of the constraint rates \
                 over the sampled steps exceeds 2 % of the speed. Signals and events read velocities with the same error, accelerations and forces \
@@ -218,9 +218,9 @@ diagnostics! {
         } => "unresolved-motion" {
             time: *time,
             subject: unknown,
-            cause: ("the steps are too long for the motion: from t = {time:.6e} s on their estimated error exceeds 0.1 % of the \
+            cause: ("the steps are too long for the motion: from t = {time} s on their estimated error exceeds 0.1 % of the \
                     amplitude of motion of the model; it reaches {:.2} % at the end, mostly in the \
-                    {unknown}", 100.0 * error),
+                    {unknown}", 100.0 * *error),
             remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "Fixed steps are too long for the motion: their estimated errors add up to more than 0.1 % of the amplitude of motion of \
                 the model.",
@@ -235,7 +235,7 @@ diagnostics! {
         } => "constraints-yield" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time:.6e} s constraints are violated: {violated}; they are redundant and loaded, so results have an error \
+            cause: ("at t = {time} s constraints are violated: {violated}; they are redundant and loaded, so results have an error \
                     of this size"),
             remedy: "remove redundant constraints, or check the units",
             meaning: "Constraints are violated by more than 1e-6 of the representative length, or 1e-6 rad, although Newton's method has \
@@ -254,7 +254,7 @@ diagnostics! {
         } => "contact-runs-round" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the wheel of `{joint}` is nearly flat, and its contact point moves along the rim by {angle:.2} \
+            cause: ("at t = {time} s the wheel of `{joint}` is nearly flat, and its contact point moves along the rim by {angle:.2} \
                     rad in a step, which is too long"),
             remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "With fixed steps, the contact point of a `rolling` wheel that lies nearly flat moves round the rim by more than 0.5 rad \
@@ -273,7 +273,7 @@ diagnostics! {
         } => "function-unseen" {
             time: *time,
             subject: function,
-            cause: ("around t = {time:.6e} s {function} changes within a step of {step:.3e} s in a way that its values and slopes at the \
+            cause: ("around t = {time} s {function} changes within a step of {step:.3e} s in a way that its values and slopes at the \
                     ends do not show, such as a pulse or an oscillation: the step misses or aliases it"),
             remedy: "use smaller steps, or set `relative_tolerance` instead of `step`",
             meaning: "With fixed steps, a law of time or of the motion changes within a step in a way that its values and slopes at the ends do not \
@@ -291,7 +291,7 @@ diagnostics! {
         } => "rail-contact" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the wheel of `{joint}` {doubt}"),
+            cause: ("at t = {time} s the wheel of `{joint}` {doubt}"),
             remedy: "reduce the speed, or specify profiles over the whole width",
             meaning: "A `wheel_on_rail` touches beyond its `tread`, on the flank of the rail's head, at two points simultaneously, or at none \
                 with a common normal.",
@@ -309,7 +309,7 @@ diagnostics! {
         } => "wheel-lifts" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the plane or rail of `{joint}` pulls its wheel with {force:.3e} N: a real wheel would lift off, \
+            cause: ("at t = {time} s the plane or rail of `{joint}` pulls its wheel with {force:.3e} N: a real wheel would lift off, \
                     but the joint prevents it"),
             remedy: "reduce the speed, or use another contact model",
             meaning: "The plane of a `rolling` joint, or the rail of a `wheel_on_rail`, pulls on its wheel.",
@@ -328,7 +328,7 @@ diagnostics! {
         } => "wheel-slides" {
             time: *time,
             subject: Subject::new("joint", joint),
-            cause: ("at t = {time:.6e} s the wheel of `{joint}` requires {friction:.3e} N of friction at a normal force of {normal:.3e} N: \
+            cause: ("at t = {time} s the wheel of `{joint}` requires {friction:.3e} N of friction at a normal force of {normal:.3e} N: \
                     this exceeds its coefficient, so a real wheel would slide, but the joint prevents it"),
             remedy: "reduce the driving or braking forces, or use another contact model",
             meaning: "A `rolling` joint requires more friction than its `friction_coefficient` allows.",
@@ -343,7 +343,7 @@ diagnostics! {
         } => "singular-position" {
             time: *time,
             subject: joints,
-            cause: ("at t = {time:.6e} s the mechanism is in a singular position: there the equations of {joints} are dependent, the \
+            cause: ("at t = {time} s the mechanism is in a singular position: there the equations of {joints} are dependent, the \
                     mechanism has an additional degree of freedom, and round-off decides in which way the motion continues"),
             remedy: "start and stay away from it, change the lengths, or couple the joints that must keep their sense of rotation",
             meaning: "Constraints of a closed loop become dependent at one position, for example where a parallelogram's bars are collinear: \
@@ -378,10 +378,10 @@ diagnostics! {
         } => "beyond-linear" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on the superelement's interface `{interface}` is displaced or rotated beyond the \
+            cause: ("from t = {time} s on the superelement's interface `{interface}` is displaced or rotated beyond the \
                     range of its linear matrices: by up to {largest:.2} times 0.2 rad, or 0.15 of the distance between interfaces, from \
                     the \
-                    floating frame; forces have an estimated error of {:.1} % or more", PERCENT_AT_LIMIT * largest * largest),
+                    floating frame; forces have an estimated error of {:.1} % or more", PERCENT_AT_LIMIT * largest.powi(2)),
             remedy: "divide the part into several superelements, or model it by beams",
             meaning: "An interface of a superelement is turned by more than 0.2 rad, or displaced by more than 0.15 of the distance between \
                 interfaces, against its floating frame.",
@@ -398,7 +398,7 @@ diagnostics! {
         } => "turns-fast" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on the superelement of `{interface}` rotates at up to {largest:.2} times the limit of its \
+            cause: ("from t = {time} s on the superelement of `{interface}` rotates at up to {largest:.2} times the limit of its \
                     matrices, which is a quarter of its first natural frequency with that interface fixed, or that frequency with \
                     `geometric` matrices: centrifugal forces change its stiffness by more than they represent"),
             remedy: "compute them with `lissom reduce`, divide it into several superelements, or model it by beams",
@@ -418,9 +418,9 @@ diagnostics! {
         } => "load-stiffness" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on axial forces and rotation change the bending stiffness of the superelement of \
+            cause: ("from t = {time} s on axial forces and rotation change the bending stiffness of the superelement of \
                     `{interface}` by up to an estimated {:.2} %, which its \
-                    matrices do not contain: its deflection has an error of up to this size", 0.5 * largest),
+                    matrices do not contain: its deflection has an error of up to this size", 0.5 * *largest),
             remedy: "compute its matrices with `lissom reduce`, which includes second-order terms, or model it by beams",
             meaning: "Axial forces and rotation change the bending stiffness of a superelement by an estimated 0.5 % or more, which its \
                 matrices do not contain.",
@@ -438,9 +438,9 @@ diagnostics! {
         } => "moment-stiffness" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on moments couple bending and twist of the superelement of `{interface}`, which its matrices \
+            cause: ("from t = {time} s on moments couple bending and twist of the superelement of `{interface}`, which its matrices \
                     do not contain: \
-                    the estimated error of its displacement is up to {:.2} % of its largest deformation", 0.5 * largest),
+                    the estimated error of its displacement is up to {:.2} % of its largest deformation", 0.5 * *largest),
             remedy: "divide it into several superelements, or model it by beams",
             meaning: "Moments couple bending and twist of a superelement by an estimated 0.5 % of its largest deformation or more.",
             advice: "Its matrices contain only part of that coupling: divide it into several superelements, or model it by beams.",
@@ -456,8 +456,8 @@ diagnostics! {
         } => "modes-left-out" {
             time: *time,
             subject: Subject::new("interface", interface),
-            cause: ("from t = {time:.6e} s on the superelement of `{interface}` is excited faster than its modes can follow: its interface \
-                    forces have an estimated error of up to {:.0} % of its inertial forces", 5.0 * largest),
+            cause: ("from t = {time} s on the superelement of `{interface}` is excited faster than its modes can follow: its interface \
+                    forces have an estimated error of up to {:.0} % of its inertial forces", 5.0 * *largest),
             remedy: "reduce the part with more modes, start and stop its motion smoothly, or model it by beams",
             meaning: "A superelement is excited faster than its modes can follow, for example by a motion that starts or stops suddenly: its \
                 interface forces have an estimated error of 5 % of its inertial forces or more.",
@@ -472,7 +472,7 @@ diagnostics! {
         } => "output-lost" {
             time: *time,
             subject: Subject::new("output", output),
-            cause: ("at t = {time:.6e} s the output `{output}` ends: from one step to the next it changes by more than can be tracked, \
+            cause: ("at t = {time} s the output `{output}` ends: from one step to the next it changes by more than can be tracked, \
                     and it is not a number from there on"),
             remedy: "use smaller steps; an angle about an axis is undefined when the axis is rotated by half a revolution",
             meaning: "An output of kind `angle` changed by too much within a step to be tracked, or its axis was rotated by half a turn; it is \

@@ -77,7 +77,7 @@ diagnostics! {
         } => "linear-zero-pivot" {
             time: *time,
             subject: unknown,
-            cause: ("the linear model at t = {time:.6e} s: elimination stops at the {unknown} (pivot {pivot:.1e})"),
+            cause: ("the linear model at t = {time} s: elimination stops at the {unknown} (pivot {pivot:.1e})"),
             remedy: "add mass, stiffness or a joint",
             meaning: "A coordinate of the linear model has neither mass nor stiffness, or a number is not finite.",
             advice: "Give the reported unknown mass, stiffness or a joint.",
@@ -91,7 +91,7 @@ diagnostics! {
             /// The cause.
             error: InitialError,
         }, { time, error } => {
-            error.diagnostic().within(&format!("the linear model at t = {time:.6e} s")).at(*time)
+            error.diagnostic().within(&format!("the linear model at t = {} s", crate::number::Written(*time))).at(*time)
         },
         /// It was interrupted.
         Interrupted(Interrupted), (_) => StepError::Interrupted { time: f64::NAN }.diagnostic(),

@@ -44,8 +44,9 @@ impl Monitor for Stability {
             Some(0) => self.stable_at = Some(time),
             Some(directions) => {
                 let onset = self.stable_at;
-                let onset =
-                    onset.map_or(String::new(), |last| format!(", the one at t = {last:.6e} was stable"));
+                let onset = onset.map_or(String::new(), |last| {
+                    format!(", the one at t = {} was stable", crate::number::Written(last))
+                });
                 warn(warnings, Warning::Unstable { time, directions, onset });
             }
             None => {}

@@ -414,7 +414,10 @@ fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
     let duration = analysis.end - analysis.start;
     if rate * duration > MAX_FRAMES {
         let message = format!("`frames_per_second` requires {:.0} frames of motion", rate * duration);
-        let help = format!("at most {MAX_FRAMES} are recorded: choose at most {:e}", MAX_FRAMES / duration);
+        let help = format!(
+            "at most {MAX_FRAMES} are recorded: choose at most {}",
+            lissom_core::number::Written(MAX_FRAMES / duration)
+        );
         reader.context.fail::<()>(node.span, message, help);
     }
 }

@@ -164,11 +164,11 @@ fn warn_of_moments(reader: &Reader<'_, '_>, node: &crate::text::Node, mass: &Mat
     let moments = mass.diagonal().fixed_rows::<3>(3).into_owned();
     if 2.0 * moments.max() > moments.sum() * (1.0 + 1e-6) {
         let message = format!(
-            "{} belongs to no section: one of its moments {:e}, {:e} and {:e} exceeds the sum of the others",
+            "{} belongs to no section: one of its moments {}, {} and {} exceeds the sum of the others",
             reader.words("mass"),
-            moments.x,
-            moments.y,
-            moments.z
+            lissom_core::number::Written(moments.x),
+            lissom_core::number::Written(moments.y),
+            lissom_core::number::Written(moments.z)
         );
         let help = "a slice has J11 = J22 + J33, density times the moments of area";
         reader.context.report(Problem::warning(node.span, message).help(help));

@@ -67,6 +67,8 @@ impl Assembly {
         }
         let moved = |part: &MovedPart| {
             let MovedPart { part, distance, turn } = part;
+            let (distance, turn) =
+                (lissom_core::number::Written(*distance), lissom_core::number::Written(*turn));
             if *turn > NOTHING {
                 format!("`{part}` by {distance:.3e} m and {turn:.3e} rad")
             } else {

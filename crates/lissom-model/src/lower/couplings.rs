@@ -208,8 +208,9 @@ pub(super) fn check(document: &Document, system: &System, state: &State, problem
         let values: Vec<String> = values.collect();
         let key = if component.signal.is_some() { "equation" } else { "profile" };
         let message = format!(
-            "`{}` does not hold at the start: it misses by {violation:.6e}, with {}",
+            "`{}` does not hold at the start: it misses by {}, with {}",
             coupling.name,
+            lissom_core::number::Written(violation),
             values.join(", ")
         );
         let help =

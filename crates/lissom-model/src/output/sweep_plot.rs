@@ -181,12 +181,7 @@ fn paler(shade: [u8; 3], share: f64) -> [u8; 3] {
 
 /// A number in few digits.
 fn short(number: f64) -> String {
-    let rounded = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
-    if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
+    lissom_core::number::written(number, 4)
 }
 
 /// A picture of a sweep.
@@ -322,9 +317,9 @@ mod tests {
             (-2.5, "-2.5"),
             (0.123_46, "0.1235"),
             (0.001, "0.001"),
-            (1.5e-4, "1.5e-4"),
+            (1.5e-5, "1.5e-5"),
             (99_990.0, "99990"),
-            (123_456.0, "1.235e5"),
+            (123_456.0, "123500"),
         ] {
             assert_eq!(short(number), words);
         }

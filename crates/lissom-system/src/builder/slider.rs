@@ -8,6 +8,7 @@ use lissom_mechanics::joints::alignment::{Across, Alignment};
 use lissom_mechanics::joints::centerline::{Centerline, Support};
 use lissom_mechanics::joints::slider::{CarriedPoint, Orientation, Slider};
 use lissom_mechanics::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
+use lissom_mechanics::number::Written;
 use lissom_mechanics::registry::ParameterError;
 
 /// Allowed initial distance of a point from the line, relative to the length of the line. It covers the digits of a text,
@@ -47,9 +48,12 @@ impl Builder {
         let is_drawn = self.start_values.is_some();
         if distance.is_nan() || (!is_drawn && distance > BESIDE * line.length()) {
             let problem = format!(
-                "must be on the line through the beam's nodes, but is {distance:.3e} m away from it; its nearest position is \
-                 [{:.6}, {:.6}, {:.6}]",
-                on_line.x, on_line.y, on_line.z
+                "must be on the line through the beam's nodes, but is {:.3e} m away from it; its nearest position is \
+                 [{}, {}, {}]",
+                Written(distance),
+                Written(on_line.x),
+                Written(on_line.y),
+                Written(on_line.z)
             );
             return Err(ParameterError::new("at", problem));
         }

@@ -10,6 +10,7 @@ use lissom::{Document, Model, Override};
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
+use lissom_core::number::{Written, duration};
 
 /// Estimate the load factors at which a model buckles, from its stiffness with and without the loads.
 ///
@@ -80,17 +81,17 @@ fn render(heading: &str, found: &BucklingReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  {} load factors ({} requested), {}, {:.3} s",
+        "  {} load factors ({} requested), {}, {}",
         modes.len(),
         found.asked,
         match found.buckling.completeness.name() {
             "counted" => "none missed according to a count of pivots",
             _ => "not counted",
         },
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
     for (index, mode) in modes.iter().enumerate() {
-        let _ = writeln!(text, "  {:>4}   {:.9e}", index + 1, mode.load_factor);
+        let _ = writeln!(text, "  {:>4}   {:.9e}", index + 1, Written(mode.load_factor));
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

@@ -10,6 +10,7 @@ use lissom::summary;
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
+use lissom_core::number::{Written, duration};
 
 /// Compute natural frequencies and damping ratios over a parameter, such as the speed of a rotor.
 ///
@@ -100,21 +101,21 @@ fn render(heading: &str, found: &CampbellReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  {} lines over {} values of {}, {:.3} s",
+        "  {} lines over {} values of {}, {}",
         found.lines,
         found.points.len(),
         found.path,
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
     for crossing in &found.crossings {
         let _ = writeln!(
             text,
-            "  line {} crosses {}P at {} = {:.6e}, rotation {:.6e} Hz, whirl {}",
+            "  line {} crosses {}P at {} = {}, rotation {} Hz, whirl {}",
             crossing.line + 1,
             crossing.ray,
             found.path,
-            crossing.value,
-            crossing.spin,
+            Written(crossing.value),
+            Written(crossing.spin),
             crossing.whirl
         );
     }

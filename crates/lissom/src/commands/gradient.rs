@@ -9,6 +9,7 @@ use lissom::{FolderError, ResultFolder, summary};
 
 use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
+use lissom_core::number::{Written, duration};
 
 /// Compute derivatives of an output with respect to numbers of the model file.
 ///
@@ -85,22 +86,31 @@ impl Gradient {
 /// The summary for the terminal.
 fn render(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
-    let time = found.time.map_or_else(String::new, |time| format!(" at t = {time} s"));
+    let time = found.time.map_or_else(String::new, |time| format!(" at t = {} s", Written(time)));
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  {of} = {:.9e}{time}, {} steps, {} corrections, {:.3} s",
-        found.value,
+        "  {of} = {:.9e}{time}, {} steps, {} corrections, {}",
+        Written(found.value),
         found.steps,
         found.corrections,
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
     for derivative in &found.derivatives {
-        let _ =
-            writeln!(text, "  by {} = {:.6e}: {:.9e}", derivative.path, derivative.number, derivative.value);
+        let _ = writeln!(
+            text,
+            "  by {} = {}: {:.9e}",
+            derivative.path,
+            Written(derivative.number),
+            Written(derivative.value)
+        );
     }
     if let Some(Confirmation::Confirmed { missed, runs }) = &found.confirmation {
-        let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers perturbed");
+        let _ = writeln!(
+            text,
+            "  verified to {:.1e} by {runs} run(s) with all numbers perturbed",
+            Written(*missed)
+        );
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

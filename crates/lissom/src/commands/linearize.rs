@@ -11,6 +11,7 @@ use super::linearization::{StateArgument, answered};
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
+use lissom_core::number::duration;
 
 /// Write the matrices of the model linearised about a state.
 ///
@@ -82,11 +83,11 @@ fn render(heading: &str, found: &LinearizeReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  linear model about {}: {coordinates} coordinates, {multipliers} multipliers, {} inputs, {} outputs, {:.3} s",
+        "  linear model about {}: {coordinates} coordinates, {multipliers} multipliers, {} inputs, {} outputs, {}",
         found.about,
         found.inputs.len(),
         found.outputs.len(),
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
     let _ = match &found.state_space {
         Ok(matrices) => writeln!(text, "  first-order equations in {} states", matrices.states.len()),

@@ -10,6 +10,7 @@ use lissom_model::output::CurveRecord;
 
 use super::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
+use lissom_core::number::{Written, duration};
 
 /// Options for the results.
 pub(super) struct Wanted<'a> {
@@ -90,14 +91,14 @@ fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  path to {} {:.6e}, length {:.3}, in {} steps ({} repeated), {} iterations, {:.3} s",
+        "  path to {} {}, length {:.3e}, in {} steps ({} repeated), {} iterations, {}",
         report.name,
-        report.load_factor,
-        report.arc,
+        Written(report.load_factor),
+        Written(report.arc),
         report.steps[0],
         report.steps[1],
         report.iterations,
-        report.wall.as_secs_f64()
+        duration(report.wall.as_secs_f64())
     );
     for point in &report.critical {
         let [before, after] = point.unstable;
@@ -106,7 +107,7 @@ fn render(heading: &str, report: &PathReport, folder: &Path) -> String {
             "  {:<12} {} {:.9e}, unstable directions {before} → {after}{}",
             point.kind.name(),
             report.name,
-            point.load_factor,
+            Written(point.load_factor),
             if point.is_located { "" } else { ", not located accurately" }
         );
     }

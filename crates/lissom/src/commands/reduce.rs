@@ -11,6 +11,7 @@ use lissom::summary;
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
+use lissom_core::number::duration;
 
 /// Maximum number of frequencies printed on the terminal.
 const LISTED: usize = 6;
@@ -118,13 +119,13 @@ fn render(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> Str
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  superelement `{name}`: {before} coordinates to {after}, {} interfaces, {} modes and {} corrections, {:.6} kg{}, {:.3} s",
+        "  superelement `{name}`: {before} coordinates to {after}, {} interfaces, {} modes and {} corrections, {} kg{}, {}",
         found.interfaces.len(),
         found.frequencies.len(),
         found.corrections,
         found.mass,
         if found.is_preloaded { ", preloaded" } else { "" },
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
     if !found.frequencies.is_empty() {
         let listed: Vec<String> =

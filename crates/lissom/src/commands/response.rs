@@ -11,6 +11,7 @@ use super::linearization::{StateArgument, answered};
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
+use lissom_core::number::{Written, duration};
 
 /// Compute the response of outputs to harmonic inputs, for the model linearised about a state.
 ///
@@ -99,15 +100,21 @@ fn render(heading: &str, found: &ResponseReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  response about {} at {} frequencies, {coordinates} coordinates, {multipliers} multipliers, {:.3} s",
+        "  response about {} at {} frequencies, {coordinates} coordinates, {multipliers} multipliers, {}",
         found.about,
         found.frequencies.len(),
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
     for transfer in &found.transfers {
         let (frequency, most) = found.peak(transfer);
         let unit = &transfer.output.unit;
-        let _ = writeln!(text, "  {}: largest {most:.6e} {unit} at {frequency:.6e} Hz", transfer.name());
+        let _ = writeln!(
+            text,
+            "  {}: largest {} {unit} at {} Hz",
+            transfer.name(),
+            Written(most),
+            Written(frequency)
+        );
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

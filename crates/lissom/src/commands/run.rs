@@ -6,6 +6,7 @@ use std::io;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::Args;
 use lissom::modes::ModeRequest;
@@ -14,6 +15,7 @@ use lissom::{
     Checkpoint, CheckpointEvery, CheckpointFile, Diagnose, Document, FolderError, Model, Override, Progress,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
+use lissom_core::number::{Written, duration, written};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Assembly, Lowered, check_run, lower};
 use lissom_model::output::CurveRecord;
@@ -106,6 +108,7 @@ impl Run {
     }
 
     pub(super) fn run(self) -> Result<Exit, Failure> {
+        let began = Instant::now();
         let interrupt = Interrupt::listen();
         let task = self.task()?;
         let document = task.model.document(&task.overrides)?;
@@ -129,18 +132,14 @@ impl Run {
         let mut lowered = check_run(&document).and_then(|()| lower(&document))?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
-        let (folder, mut record) = match &task.resumed {
-            None => (ResultFolder::create(&task.folder).map_err(unwritable)?, CurveRecord::default()),
-            Some(checkpoint) => ResultFolder::resume(&task.folder, checkpoint)
-                .map(|(folder, record)| (folder, CurveRecord::from(&record)))
-                .map_err(unwritable)?,
-        };
+        let (folder, mut record) = task.open().map_err(unwritable)?;
         let recorder = task
             .plots
             .then(|| MotionRecorder::new(&lowered, document.analysis.frames_per_second, io::sink()));
         let scene = task.plots.then(|| Scene::of(&document, &lowered));
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = task.summary(&document, &lowered);
+        let ready = Instant::now();
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
             Err(error) => {
@@ -195,10 +194,14 @@ impl Run {
         for warning in session.warnings() {
             warn(warning);
         }
+        let ended = Instant::now();
         let kept = self.keep(&folder, (&summary, &session), (&record, task.plots), title);
+        let [total, model, plots] =
+            [began.elapsed(), ready - began, ended.elapsed()].map(|time| time.as_secs_f64());
+        let spent = Spent { total, model, plots };
         if !self.quiet {
             let heading = if title.is_empty() { task.model.name() } else { title };
-            terminal::print(&render((heading, assembly), &session, &report, folder.path()));
+            terminal::print(&render((heading, assembly), &session, &report, &spent, folder.path()));
         }
         kept?;
         noted.map_err(unwritable)?;
@@ -260,8 +263,8 @@ impl Run {
 
     fn exit(&self, report: &RunReport, folder: &ResultFolder) -> Result<Exit, Failure> {
         let saved = format!(
-            "results up to t = {:.6e} s ({} rows) are in `{}`",
-            report.time,
+            "results up to t = {} s ({} rows) are in `{}`",
+            Written(report.time),
             report.records,
             folder.path().display()
         );
@@ -281,6 +284,17 @@ impl Run {
 }
 
 impl Task {
+    /// The folder of the results, and the curves of the rows that it already contains.
+    fn open(&self) -> Result<(ResultFolder, CurveRecord), FolderError> {
+        Ok(match &self.resumed {
+            None => (ResultFolder::create(&self.folder)?, CurveRecord::default()),
+            Some(checkpoint) => {
+                let (folder, record) = ResultFolder::resume(&self.folder, checkpoint)?;
+                (folder, CurveRecord::from(&record))
+            }
+        })
+    }
+
     /// Records the motion, from the start or from the point at which the run is resumed.
     fn motion(
         &self,
@@ -332,11 +346,20 @@ impl Task {
     }
 }
 
+/// Time that the command has spent [s].
+struct Spent {
+    total: f64,
+    /// Reading and building the model.
+    model: f64,
+    plots: f64,
+}
+
 /// The summary for the terminal.
 fn render(
     (heading, assembly): (&str, Option<String>),
     session: &Session,
     report: &RunReport,
+    spent: &Spent,
     folder: &Path,
 ) -> String {
     let simulation = session.simulation();
@@ -378,10 +401,10 @@ fn render(
     line("iterations", effort);
     if let Some((least, most)) = session.telemetry().condition_range() {
         let pivot = totals.smallest_relative_pivot;
-        line(
-            "tangent",
-            format!("condition {least:.1e} … {most:.1e} (1-norm), relative pivots from {pivot:.1e}"),
-        );
+        line("tangent", {
+            let [least, most, pivot] = [least, most, pivot].map(Written);
+            format!("condition {least:.1e} … {most:.1e} (1-norm), relative pivots from {pivot:.1e}")
+        });
     }
     if let Some(row) = totals.fell_back_at {
         let unknown = simulation.system().layout().name_of(row);
@@ -394,19 +417,27 @@ fn render(
         line("redundant", format!("constraints {words}"));
     }
     let speed = if solving > 0.0 { totals.steps as f64 / solving } else { 0.0 };
-    line(
-        "time",
-        format!("{:.3} s, {solving:.3} s of it in steps ({speed:.0} steps/s)", report.wall.as_secs_f64()),
-    );
-    line("constraints", format!("violated by at most {:.1e} m or rad", report.violation));
+    let parts = [
+        ("model", spent.model, String::new()),
+        ("start", report.seconds.start, String::new()),
+        ("steps", solving, format!(" ({} steps/s)", written(speed, 3))),
+        ("records", report.seconds.output, String::new()),
+        ("plots", spent.plots, String::new()),
+    ];
+    // Below a hundredth of the whole, only the steps are of interest.
+    let parts = parts.iter().filter(|(name, seconds, _)| *name == "steps" || *seconds > 0.01 * spent.total);
+    let parts = parts.map(|(name, seconds, more)| format!("{name} {}{more}", duration(*seconds)));
+    let parts = parts.collect::<Vec<_>>();
+    line("time", format!("{}: {}", duration(spent.total), parts.join(", ")));
+    line("constraints", format!("violated by at most {:.1e} m or rad", Written(report.violation)));
     let energy = &report.energy;
     line(
         "energy",
         format!(
-            "{:.6e} J at the start, {:.6e} J at the end, largest change {:.3e} J",
-            energy.start.total(),
-            energy.end.total(),
-            energy.largest
+            "{} J at the start, {} J at the end, largest change {:.3e} J",
+            Written(energy.start.total()),
+            Written(energy.end.total()),
+            Written(energy.largest)
         ),
     );
     for event in simulation.system().signals().events() {
@@ -414,9 +445,10 @@ fn render(
         let times: Vec<f64> = own.map(|(_, time)| time).collect();
         let words = match times.as_slice() {
             [] => "did not happen".to_owned(),
-            [time] => format!("happened at t = {time:.6} s"),
+            [time] => format!("happened at t = {} s", Written(*time)),
             [first, .., last] => {
-                format!("happened {} times, from t = {first:.6} s to {last:.6} s", times.len())
+                let [first, last] = [first, last].map(|time| Written(*time));
+                format!("happened {} times, from t = {first} s to {last} s", times.len())
             }
         };
         line("event", format!("`{}` {words}", event.name));

@@ -13,6 +13,7 @@ use lissom::sweep::{
     MemberOutcome, MemberState, Sweep, SweepError, SweepFile, SweepFolder, SweepFolderError,
 };
 use lissom::{CommandError, Diagnose, FileError, Model, Override, Summary};
+use lissom_core::number::duration;
 use lissom_model::files;
 use serde_json::json;
 
@@ -256,12 +257,12 @@ fn render(
     );
     let computed = outcomes.len() - found;
     if computed > 0 {
-        let per_member = |seconds: f64| 1e3 * seconds / computed as f64;
+        let per_member = |seconds: f64| duration(seconds / computed as f64);
         let (whole, simulating) = (seconds * workers.get() as f64, simulating(outcomes));
         let _ = writeln!(
             text,
-            "  time        {seconds:.3} s on {workers} workers; {:.3} ms of a worker per member, {:.3} ms of it simulation and {:.3} ms \
-             beyond it",
+            "  time        {} on {workers} workers; {} of a worker per member, {} of it simulation and {} beyond it",
+            duration(seconds),
             per_member(whole),
             per_member(simulating),
             per_member(whole - simulating)

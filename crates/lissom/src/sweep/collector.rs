@@ -150,7 +150,11 @@ impl<'a> Collector<'a> {
             let history = &history;
             collected.kind().of(history).ok_or_else(|| match history.fault() {
                 None if collected.is_of_event() => format!("event `{}` has not happened", collected.column),
-                Some(time) => format!("`{}` is not a finite number at t = {time:.6e} s", collected.column),
+                Some(time) => format!(
+                    "`{}` is not a finite number at t = {} s",
+                    collected.column,
+                    lissom_core::number::Written(time)
+                ),
                 None => format!("`{}` of `{}` is not a finite number", collected.statistic, collected.column),
             })
         };

@@ -38,7 +38,7 @@ fn what_an_assembly_moved_is_reported_everywhere() {
     folder.write("rod.toml", ROD);
     let checked = lissom(&["check", "rod.toml"], folder.path());
     assert_eq!(checked.code, 0, "{}", checked.errors);
-    let words = "moved `rod` by 1.000e-1 m; closed `pin` by 1.000e-1 m";
+    let words = "moved `rod` by 0.1 m; closed `pin` by 0.1 m";
     assert!(checked.output.contains(words), "{}", checked.output);
     let ran = lissom(&["run", "rod.toml"], folder.path());
     assert!(ran.code == 0 && ran.output.contains(words), "{} {}", ran.output, ran.errors);
@@ -65,7 +65,7 @@ fn a_model_that_cannot_be_assembled_has_exit_code_2() {
     for command in ["check", "run", "modes"] {
         let ended = lissom(&[command, "rod.toml"], folder.path());
         assert_eq!(ended.code, 2, "{command}: {}", ended.output);
-        let words = ended.errors.contains("cannot be assembled") && ended.errors.contains("1.000e-1 m");
+        let words = ended.errors.contains("cannot be assembled") && ended.errors.contains("0.1 m");
         assert!(words && ended.errors.contains("`pin`"), "{command}: {}", ended.errors);
     }
     assert!(!folder.path().join("out/rod/history.csv").exists());

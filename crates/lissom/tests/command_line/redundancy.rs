@@ -165,7 +165,7 @@ fn a_start_in_a_dead_position_is_reported() {
     let folder = Folder::new("singular-start");
     let (_, facts) = run(&folder, &["parameters.a0=3.141592653589793", "analysis.end=0.2"]);
     let reported = warning(&facts, "singular-position").unwrap();
-    assert!(reported.contains("at t = 0.0"), "{reported}");
+    assert!(reported.contains("at t = 0 s"), "{reported}");
 }
 
 #[test]

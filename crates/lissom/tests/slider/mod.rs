@@ -329,7 +329,7 @@ fn what_makes_no_sense_is_refused() {
         };
         assert!(message.contains(wanted), "{message}");
     };
-    refused("position = [0.5, 0, 0]", "position = [0.5, 0, 0.1]", "is 1.000e-1 m away from it");
+    refused("position = [0.5, 0, 0]", "position = [0.5, 0, 0.1]", "is 0.1 m away from it");
     refused("tip = \"bead\"", "tip = \"bar@0.4\"", "is a node of the beam that it slides on");
     refused("tip = \"bead\"", "tip = \"bead\"\norientation = \"tangent\"", "with free rotation in space");
     refused("tip = \"bead\"", "tip = \"bead\"\norientation = \"along\"", "orientation");

@@ -63,10 +63,10 @@ pub struct Gap {
 impl std::fmt::Display for Gap {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "`{}` by ", self.joint)?;
-        match (self.distance, self.angle) {
+        match (self.distance.map(crate::number::Written), self.angle.map(crate::number::Written)) {
             (Some(distance), None) => write!(f, "{distance:.3e} m"),
             (Some(distance), Some(angle)) => write!(f, "{distance:.3e} m and {angle:.3e} rad"),
-            (None, angle) => write!(f, "{:.3e} rad", angle.unwrap_or_default()),
+            (None, angle) => write!(f, "{:.3e} rad", angle.unwrap_or(crate::number::Written(0.0))),
         }
     }
 }

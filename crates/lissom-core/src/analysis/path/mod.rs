@@ -121,7 +121,7 @@ diagnostics! {
             /// What is wrong with the model beyond.
             problem: String,
         } => "path-leaves-model" {
-            cause: ("the path ends at {name} {value:.6e}, {arc:.3e} along it: the model is invalid beyond ({problem})"),
+            cause: ("the path ends at {name} {value}, {arc:.3e} along it: the model is invalid beyond ({problem})"),
             remedy: "end the path before that value, or follow it in the opposite direction",
             meaning: "The model is not valid beyond the reported value of the varied number.",
             advice: "End the path before that value, or follow it in the opposite direction.",
@@ -137,7 +137,7 @@ diagnostics! {
             /// Why the last attempt failed.
             error: StepError,
         } => "path-lost" {
-            cause: ("the path ends at {name} {load_factor:.6e}, {arc:.3e} along it: no equilibrium is found nearby ({error})"),
+            cause: ("the path ends at {name} {load_factor}, {arc:.3e} along it: no equilibrium is found nearby ({error})"),
             remedy: "",
             meaning: "No equilibrium was found near the last one, however short the step.",
             advice: "See the failure in parentheses; try a smaller first `step`.",
@@ -153,7 +153,7 @@ diagnostics! {
             /// Why it was not exceeded.
             reason: String,
         } => "path-without-resistance" {
-            cause: ("after {steps} steps the load factor is {load_factor:.6e} and has never been larger than {most:.1e} ({reason}): \
+            cause: ("after {steps} steps the load factor is {load_factor} and has never been larger than {most:.1e} ({reason}): \
                     small loads meet almost no resistance, as in a cable without tension"),
             remedy: "apply tension, follow a path along a number of the loaded model (`vary`), whose first equilibrium is found by \
                 relaxation, or use \
@@ -174,7 +174,7 @@ diagnostics! {
             /// The one wanted.
             wanted: usize,
         } => "path-without-bifurcation" {
-            cause: ("after {steps} steps the {name} is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} that \
+            cause: ("after {steps} steps the {name} is {load_factor}, and the path has met {met} bifurcation(s), not the {wanted} that \
                     `branch` requests"),
             remedy: "set more `steps`, a smaller first `step`, or another `branch`",
             meaning: "The path has met fewer bifurcations than `branch` requests.",
@@ -189,7 +189,7 @@ diagnostics! {
             /// Result of the attempts.
             reason: String,
         } => "path-without-branch" {
-            cause: ("no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}"),
+            cause: ("no branch is found at the bifurcation at {name} {load_factor}: {reason}"),
             remedy: "disturb the model slightly, so that its path continues on a branch, or omit `branch`",
             meaning: "No branch was found at the bifurcation.",
             advice: "Disturb the model slightly, so that its path continues on a branch, or omit `branch`.",
@@ -205,7 +205,7 @@ diagnostics! {
             /// Load factor at which it should end.
             end: f64,
         } => "path-too-long" {
-            cause: ("after {steps} steps the {name} is {load_factor:.6e} and has not reached {end}"),
+            cause: ("after {steps} steps the {name} is {load_factor} and has not reached {end}"),
             remedy: "set more `steps`, or an `end` that the path reaches",
             meaning: "The path has not reached its end in the given number of steps.",
             advice: "Set more `steps`, or an `end` that the path reaches.",

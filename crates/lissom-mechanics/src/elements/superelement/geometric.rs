@@ -16,6 +16,7 @@ use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::{DMatrix, DVector};
 
 use super::matrices::rigid_column;
+use crate::number::Written;
 use crate::registry::ParameterError;
 
 /// Entries of inertias in the order in which they are kept.
@@ -252,9 +253,10 @@ impl GeometricMatrices {
                 let found = slope.row(row).transpose().dot(turned);
                 if (found - expected[(i, j)]).abs() > UNEQUAL * whole.amax() {
                     return problem(format!(
-                        "does not match the mass: rotated about its first interface the part would have another inertia ({found:.3e} \
+                        "does not match the mass: rotated about its first interface the part would have another inertia ({:.3e} \
                          instead of {:.3e} kg m² per radian); look at the order of rows and at the units",
-                        expected[(i, j)]
+                        Written(found),
+                        Written(expected[(i, j)])
                     ));
                 }
             }

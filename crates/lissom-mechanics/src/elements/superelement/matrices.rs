@@ -5,6 +5,7 @@ use lissom_motion::{Matrix3, Vector3, axial, skew};
 use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
 
 use super::geometric::GeometricMatrices;
+use crate::number::Written;
 use crate::registry::ParameterError;
 use crate::round_off;
 
@@ -103,11 +104,13 @@ fn symmetric(matrix: &DMatrix<f64>, name: &str) -> Result<DMatrix<f64>, Paramete
                 return problem(
                     name,
                     format!(
-                        "is not symmetric: the entries ({}, {}) and ({}, {}) are {one:.6e} and {other:.6e}",
+                        "is not symmetric: the entries ({}, {}) and ({}, {}) are {} and {}",
                         i + 1,
                         j + 1,
                         j + 1,
-                        i + 1
+                        i + 1,
+                        Written(one),
+                        Written(other)
                     ),
                 );
             }
@@ -147,10 +150,12 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
                 return problem(
                     name,
                     format!(
-                        "holds a rigid {word}: row {} of its force is {sum:.3e} of terms of {most:.3e}; a free part is not held: give \
+                        "holds a rigid {word}: row {} of its force is {:.3e} of terms of {:.3e}; a free part is not held: give \
                          matrices of the part without supports, six rows for each interface in the order of `interfaces` and then \
                          those of the modes, positions in the units of the matrices",
-                        row + 1
+                        row + 1,
+                        Written(sum),
+                        Written(most)
                     ),
                 );
             }
