@@ -1,7 +1,7 @@
 //! Charts: panels of curves below each other or side by side, with axes, grid and legend.
 
 use crate::axis::{Axis, Scale};
-use crate::drawing::{Align, Drawing, Shade};
+use crate::drawing::{Align, COLOUR_COUNT, Drawing, Shade, palette};
 use crate::lettering;
 
 const INK: Shade = [0x33, 0x33, 0x33];
@@ -59,6 +59,14 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// A curve that differs from those of other indices, from zero: by its colour, and after seven by marks.
+    pub fn numbered(index: usize) -> Self {
+        const MARKS: [Option<Mark>; 5] =
+            [None, Some(Mark::Circle), Some(Mark::Square), Some(Mark::Triangle), Some(Mark::Diamond)];
+        let mark = MARKS[index / COLOUR_COUNT % MARKS.len()];
+        Self { mark, radius: 2.6, ..Self::new(palette(index)) }
+    }
+
     /// A plain curve without name and points.
     pub fn new(shade: Shade) -> Self {
         Self {

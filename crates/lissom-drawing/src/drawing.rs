@@ -15,8 +15,11 @@ pub type Shade = [u8; 3];
 
 /// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008), which colour-blind readers can
 /// also distinguish, and on paper.
-const COLOURS: [Shade; 7] =
+const COLOURS: [Shade; COLOUR_COUNT] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
+
+/// Number of colours before they repeat.
+pub(crate) const COLOUR_COUNT: usize = 7;
 
 /// Colour of the curve of this index, from zero. Colours repeat after seven.
 pub fn palette(index: usize) -> Shade {

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::linear::{Mode, ModeKind, ModeOptions, Whirl};
+use lissom_model::lower::registry::registry;
 use lissom_model::output::{CampbellPlot, Summary};
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
@@ -390,7 +391,8 @@ impl CampbellReport {
         let turns = self.points.iter().any(|point| point.spin > 0.0);
         CampbellPlot {
             title: title.to_owned(),
-            x_label: self.path.clone(),
+            x_label: lissom_model::unit_of(&registry(), &self.path)
+                .map_or_else(|| self.path.clone(), |unit| format!("{} [{unit}]", self.path)),
             lines: (0..self.lines).map(line).collect(),
             rays: self.rays.iter().filter(|_| turns).map(ray).collect(),
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel, palette};
+use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel};
 
 use super::FigureError;
 
@@ -42,7 +42,7 @@ impl BodePlot {
             let curve = |values: &[f64]| Curve {
                 name: name.clone(),
                 points: self.frequencies.iter().copied().zip(values.iter().copied()).collect(),
-                ..Curve::new(palette(index))
+                ..Curve::numbered(index)
             };
             if !of.iter().any(|magnitude| *magnitude > 0.0 && magnitude.is_finite()) {
                 continue;

@@ -1,6 +1,6 @@
 //! Campbell diagrams: frequencies over a parameter, with the multiples of the rotation.
 
-use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel, palette};
+use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel};
 
 use super::FigureError;
 
@@ -12,7 +12,7 @@ const NAME: &str = "campbell";
 pub struct CampbellPlot {
     /// Above the drawing.
     pub title: String,
-    /// Varied paths.
+    /// Varied path, with its unit if it is known.
     pub x_label: String,
     /// Values and frequencies [Hz] of each line.
     pub lines: Vec<Vec<(f64, f64)>>,
@@ -45,7 +45,7 @@ impl CampbellPlot {
         let line = |(index, points): (usize, &Vec<(f64, f64)>)| Curve {
             name: format!("{}", index + 1),
             points: points.clone(),
-            ..Curve::new(palette(index))
+            ..Curve::numbered(index)
         };
         let ray = |(name, points): &(String, Vec<(f64, f64)>)| Curve {
             name: name.clone(),
@@ -78,6 +78,8 @@ mod tests {
         for words in ["Rotor", "parameters.speed", "1P", "frequency [Hz]"] {
             assert!(svg.contains(words), "{words}");
         }
+        let many = CampbellPlot { lines: vec![plot.lines[0].clone(); 20], ..plot.clone() }.svg().unwrap();
+        assert!(many.matches("<circle").count() >= 2 * 7, "lines after the seventh have marks");
         assert!(plot.png().unwrap().starts_with(b"\x89PNG"));
         let flat = CampbellPlot { lines: vec![vec![(0.0, 0.0), (20.0, 0.0)]], ..plot };
         assert!(flat.svg().is_err());

@@ -1,5 +1,6 @@
 //! `lissom modes`: natural frequencies, damping and shapes about a state.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +11,7 @@ use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes, 
 use lissom::motion::{Motion, MotionRecorder};
 use lissom::picture::{Picture, PictureError};
 use lissom::{Document, Model, Override, ResultFolder};
+use lissom_core::number::{DIGITS, duration, written};
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
@@ -21,6 +23,8 @@ use crate::terminal;
 const MAX_DRAWN: usize = 2000;
 /// Modes listed on the terminal; the tables contain all.
 const LISTED: usize = 20;
+/// Parts named for each of them.
+const NAMED: usize = 3;
 
 /// Compute natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
 ///
@@ -146,6 +150,14 @@ fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     folder.write_table("shapes.svg", &text).map_err(unwritable)
 }
 
+/// The parts with the largest shares in the kinetic energy of a mode, in words.
+fn largest(shares: &BTreeMap<String, f64>) -> String {
+    let mut parts: Vec<(&String, f64)> = shares.iter().map(|(part, share)| (part, *share)).collect();
+    parts.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let shown = parts.iter().take(NAMED).filter(|(_, share)| *share >= 0.01);
+    shown.map(|(part, share)| format!("{part} {:.0} %", 100.0 * share)).collect::<Vec<_>>().join(", ")
+}
+
 /// The summary for the terminal.
 fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
     let mut text = format!("{heading}\n");
@@ -163,23 +175,25 @@ fn render(heading: &str, found: &ModeReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {}, {:.3} s",
+        "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {}, {}",
         found.about,
         match found.completeness {
             Completeness::Counted => "none missed according to a count of pivots",
             _ => "not counted",
         },
-        found.wall.as_secs_f64()
+        duration(found.wall.as_secs_f64())
     );
-    let _ = writeln!(text, "  mode   frequency [Hz]   damping ratio   kind");
+    let _ =
+        writeln!(text, "  mode   frequency [Hz]   damping ratio   {:<13}largest kinetic energies", "kind");
     for (index, mode) in found.modes.iter().take(LISTED).enumerate() {
         let _ = writeln!(
             text,
-            "  {:>4}   {:>14.6e}   {:>13.6}   {}",
+            "  {:>4}   {:>14}   {:>13}   {:<13}{}",
             index + 1,
-            mode.frequency,
-            mode.damping,
-            mode.kind.name()
+            written(mode.frequency, DIGITS),
+            written(mode.damping, 4),
+            mode.kind.name(),
+            largest(&found.shares[index])
         );
     }
     if number > LISTED {
