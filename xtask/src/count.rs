@@ -222,12 +222,12 @@ fn records(name: &str) -> Result<(), CountError> {
 fn inputs(name: &str) -> Result<(), CountError> {
     let joints = name.rsplit('-').next().and_then(|count| count.parse().ok()).unwrap_or(0);
     let names: Vec<String> = (0..joints).map(|joint| format!("u{joint}")).collect();
-    let mut loads = String::from("[inputs]\n");
-    names.iter().for_each(|name| loads.push_str(&format!("{name} = 0.0\n")));
-    for (joint, name) in names.iter().enumerate() {
-        let torque = format!("kind = \"joint_torque\"\njoint = \"j{joint}\"\ntorque = \"{name}\"\n");
-        loads.push_str(&format!("[loads.{name}]\n{torque}"));
-    }
+    let inputs: Vec<String> = names.iter().map(|name| format!("{name} = 0.0\n")).collect();
+    let load = |(joint, name): (usize, &String)| {
+        format!("[loads.{name}]\nkind = \"joint_torque\"\njoint = \"j{joint}\"\ntorque = \"{name}\"\n")
+    };
+    let loads: Vec<String> = names.iter().enumerate().map(load).collect();
+    let loads = format!("[inputs]\n{}{}", inputs.concat(), loads.concat());
     let mut session = Session::new(&document(&model(name, &loads)?)?).map_err(failed)?;
     let [before, counted] = STEPS;
     for step in 0..before + counted {
@@ -269,6 +269,7 @@ fn document(model: &Model) -> Result<lissom::Document, CountError> {
     model.document(&[]).map_err(of_report)
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "it is passed to map_err")]
 fn of_report(report: lissom::Report) -> CountError {
     CountError::Failed(report.render(false))
 }

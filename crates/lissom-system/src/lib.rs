@@ -155,7 +155,9 @@ impl System {
     pub fn attached(&self) -> Vec<usize> {
         let mut of_row = vec![None; self.layout.size()];
         for (node, rows) in self.layout.node_rows.iter().enumerate() {
-            rows.iter().filter(|&&row| row != LOCKED).for_each(|&row| of_row[row as usize] = Some(node));
+            for &row in rows.iter().filter(|&&row| row != LOCKED) {
+                of_row[row as usize] = Some(node);
+            }
         }
         let mut counts = vec![0; self.layout.node_rows.len()];
         let of_elements = self.batches.iter().flat_map(|batch| batch.cliques());
@@ -169,7 +171,9 @@ impl System {
         for mut nodes in of_elements.map(nodes_of).chain(of_constraints) {
             nodes.sort_unstable();
             nodes.dedup();
-            nodes.into_iter().for_each(|node| counts[node] += 1);
+            for node in nodes {
+                counts[node] += 1;
+            }
         }
         counts
     }

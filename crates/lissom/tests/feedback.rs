@@ -373,20 +373,24 @@ fn inputs_act_from_when_they_are_set() {
 
 /// Arms on top of each other, each turned about another axis than the one below, with torques as inputs.
 fn tower(count: usize) -> String {
-    let mut text = String::from("lissom = 1\ngravity = [0, 0, -9.81]\n[inputs]\n");
-    (0..count).for_each(|k| text.push_str(&format!("u{k} = 0.0\n")));
-    for k in 0..count {
-        let (foot, axis) = (0.3 * k as f64, if k % 2 == 0 { "[0, 0, 1]" } else { "[0, 1, 0]" });
+    let arm = |k: usize| {
+        let (foot, axis) = (0.3 * k as f64, if k.is_multiple_of(2) { "[0, 0, 1]" } else { "[0, 1, 0]" });
         let base = if k == 0 { "ground".to_owned() } else { format!("b{}", k - 1) };
-        text.push_str(&format!(
+        format!(
             "[bodies.b{k}]\nmass = 2\ninertia = [0.02, 0.02, 0.01]\nposition = [0, 0, {}]\n\
              [joints.j{k}]\nkind = \"revolute\"\nbase = \"{base}\"\ntip = \"b{k}\"\nat = [0, 0, {foot}]\naxis = {axis}\n\
              [loads.u{k}]\nkind = \"joint_torque\"\njoint = \"j{k}\"\ntorque = \"u{k}\"\n\
              [outputs.q{k}]\nkind = \"relative\"\nof = \"j{k}\"\n",
             foot + 0.15
-        ));
-    }
-    text + "[analysis]\nkind = \"dynamics\"\nend = 0.5\nstep = 1e-3\n"
+        )
+    };
+    let inputs: Vec<String> = (0..count).map(|k| format!("u{k} = 0.0\n")).collect();
+    let arms: Vec<String> = (0..count).map(arm).collect();
+    format!(
+        "lissom = 1\ngravity = [0, 0, -9.81]\n[inputs]\n{}{}[analysis]\nkind = \"dynamics\"\nend = 0.5\nstep = 1e-3\n",
+        inputs.concat(),
+        arms.concat()
+    )
 }
 
 #[test]
@@ -397,7 +401,9 @@ fn inputs_that_are_set_together_act_like_those_set_one_after_another() {
         let torque = |k: usize| 0.1 * ((step + k) as f64).sin();
         let all = [("u0", torque(0)), ("u1", torque(1)), ("u2", torque(2))];
         together.set_inputs(all).unwrap();
-        all.into_iter().for_each(|(name, torque)| apart.set_input(name, torque).unwrap());
+        for (name, torque) in all {
+            apart.set_input(name, torque).unwrap();
+        }
         for session in [&mut together, &mut apart] {
             session.step_to(1e-3 * step as f64).unwrap();
         }

@@ -140,7 +140,7 @@ diagnostics! {
         } => "constraints-dependent" {
             time: *time,
             subject: unknown,
-            cause: ("from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, and \
+            cause: ("from t = {time} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, and \
                     constraints depend on each other, detected at the {unknown}: in a singular position, such as a dead centre or links in \
                     line, the smallest violations are large motions"),
             remedy: "start farther from the singular position, or replace joints whose directions are guided twice (in a plane loop \

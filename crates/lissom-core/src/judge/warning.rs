@@ -177,8 +177,8 @@ diagnostics! {
         } => "large-strain" {
             time: *time,
             subject: Subject::new("beam", beam),
-            cause: ("from t = {time:.6e} s on beam `{beam}` is strained by up to {:.1} %, more than its linear law describes",
-                    100.0 * strain),
+            cause: ("from t = {time} s on beam `{beam}` is strained by up to {:.1} %, more than its linear law describes",
+                    100.0 * *strain),
             remedy: "check lengths, units, stiffnesses and drives: a mechanism may be driven to a position that it cannot reach",
             meaning: "A beam is stretched or sheared by more than 10 %, or bent or twisted so much that a fibre changes its length by more \
                 than 50 %. At 100 % neighbouring sections overlap. The height of a section is estimated from its stiffnesses.",
@@ -199,7 +199,7 @@ diagnostics! {
             time: *time,
             subject: Subject::new("beam", beam),
             cause: ("the {elements} elements of beam `{beam}` do not resolve its section forces: they differ by up to {:.1} % from \
-                    equilibrium with the neighbouring elements", 100.0 * error),
+                    equilibrium with the neighbouring elements", 100.0 * *error),
             remedy: "use more elements, or record the reaction of the joint at its end, which converges faster",
             meaning: "A recorded section force or moment, which follows from the strains of one element, differs by more than 1 % of its \
                 largest value from the one in equilibrium with the forces of the neighbouring elements and their loads. Forces with a \

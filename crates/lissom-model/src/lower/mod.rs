@@ -37,8 +37,8 @@ use nalgebra::DMatrix;
 
 use crate::channels::Channel;
 use crate::document::{
-    Component, DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output, OutputSource,
-    Subject, interface_name,
+    Component, DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output,
+    OutputSource, Subject, interface_name,
 };
 use crate::functions::Ramp;
 use crate::output_channels;
