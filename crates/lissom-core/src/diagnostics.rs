@@ -238,6 +238,7 @@ pub(crate) use diagnostics;
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::analysis::joint_space::JointSpaceError;
     use num_complex::Complex64;
 
     use crate::analysis::assembly::{AssemblyError, Gap};
@@ -288,6 +289,7 @@ pub(crate) mod tests {
         }
         let parts = [
             of(&AssemblyError::samples()),
+            of(&JointSpaceError::samples()),
             of(&PathError::samples()),
             of(&LinearError::samples()),
             of(&ModeError::samples()),

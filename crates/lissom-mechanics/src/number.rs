@@ -133,8 +133,7 @@ mod tests {
     #[test]
     fn formats_of_messages_write_numbers_and_leave_the_rest() {
         let (time, count, name) = (0.004, 3_usize, "arm".to_owned());
-        let (time, count, name) =
-            ((&Shown(&time)).shown(), (&Shown(&count)).shown(), (&Shown(&name)).shown());
+        let (time, count, name) = (Shown(&time).shown(), (&Shown(&count)).shown(), (&Shown(&name)).shown());
         assert_eq!(format!("{time} {time:.1e} {time:.2} {count} {name}"), "0.004 0.004 0.00 3 arm");
         assert_eq!(2.0 * *time, 0.008);
     }

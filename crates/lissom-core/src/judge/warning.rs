@@ -180,8 +180,7 @@ diagnostics! {
             cause: ("from t = {time} s on beam `{beam}` is strained by up to {:.1} %, more than its linear law describes",
                     100.0 * *strain),
             remedy: "check lengths, units, stiffnesses and drives: a mechanism may be driven to a position that it cannot reach",
-            meaning: "A beam is stretched or sheared by more than 10 %, or bent or twisted so much that a fibre changes its length by more \
-                than 50 %. At 100 % neighbouring sections overlap. The height of a section is estimated from its stiffnesses.",
+            meaning: "A beam is stretched or sheared by more than 10 %.",
             advice: "Check units, lengths and stiffnesses. A mechanism that is driven beyond a dead centre strains its parts instead of \
                 moving. Rubber is strained so much, but not by a linear law.",
         }

@@ -4,8 +4,8 @@ use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::judge::{Warning, report};
 
-/// Strains of the line above this are reported, and of fibres by curvature: thin strips that are rolled up have a fifth [-].
-const NOTEWORTHY: [f64; 2] = [0.1, 0.5];
+/// Strains of the line above this are reported [-].
+const NOTEWORTHY: f64 = 0.1;
 /// So many steps are all examined, and one in as many afterwards.
 const ALL: usize = 16;
 const STRIDE: usize = 16;
@@ -30,10 +30,8 @@ impl Monitor for BeamStrains {
         }
         let at = &step.end.kinematics;
         for (beam, elements) in &step.problem.system.beams {
-            let found = elements.iter().map(|element| element.largest_strains(at));
-            let noteworthy = found.filter(|[line, fibres]| *line > NOTEWORTHY[0] || *fibres > NOTEWORTHY[1]);
-            let strain = noteworthy.flatten().fold(0.0, f64::max);
-            if strain > self.largest {
+            let strain = elements.iter().map(|element| element.largest_strain(at)).fold(0.0, f64::max);
+            if strain > self.largest.max(NOTEWORTHY) {
                 self.largest = strain;
                 report(
                     warnings,

@@ -23,8 +23,8 @@ pub trait BeamProbe: Send + Sync {
     fn end_forces(&self, at: &Kinematics) -> [Vector6; 2];
     /// Derivatives of the section forces and moments with respect to the element's nodes.
     fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6>;
-    /// The largest strains of the line, and of fibres by curvature [-].
-    fn largest_strains(&self, at: &Kinematics) -> [f64; 2];
+    /// The largest strain of the line, axial and shear [-].
+    fn largest_strain(&self, at: &Kinematics) -> f64;
     /// Strains and curvatures at ξ [-, 1/m].
     fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6;
 }
@@ -45,8 +45,8 @@ impl<const N: usize> BeamProbe for Beam<N> {
     fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6> {
         Self::section_force_derivatives_at(self, at, xi)
     }
-    fn largest_strains(&self, at: &Kinematics) -> [f64; 2] {
-        Self::largest_strains(self, at)
+    fn largest_strain(&self, at: &Kinematics) -> f64 {
+        Self::largest_strain(self, at)
     }
     fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         Self::strain_at(self, at, xi)

@@ -186,27 +186,15 @@ impl<const N: usize> Beam<N> {
         (twist(&self.relative(at)) - natural) / natural.fixed_rows::<3>(0).norm()
     }
 
-    /// The largest strains at the Gauss points [-]: of the line, and of fibres by curvature, with the half height that a solid
-    /// rectangle of this stiffness has.
-    ///
-    /// ```text
-    /// |ε₁ γ₂ γ₃|,   Σ |κ_i| √(3 EI_i/EA),   torsion with GJ/GA
-    /// ```
-    pub(crate) fn largest_strains(&self, at: &Kinematics) -> [f64; 2] {
+    /// The largest strain of the line at the Gauss points, axial and shear [-].
+    pub(crate) fn largest_strain(&self, at: &Kinematics) -> f64 {
         let relative = self.relative(at);
         let of = |station: &Station<N>| {
             let strain =
                 station.strain(&combine(&station.shape, &relative), &combine(&station.slope, &relative));
-            let stiffness = |k: usize| station.law.stiffness[(k, k)];
-            let of_line = strain.fixed_rows::<3>(0).norm();
-            let half_height = |k: usize| {
-                let along = if k == 3 { stiffness(1).min(stiffness(2)) } else { stiffness(0) };
-                (3.0 * stiffness(k) / along).sqrt()
-            };
-            [of_line, (3..6).map(|k| strain[k].abs() * half_height(k)).sum::<f64>()]
+            strain.fixed_rows::<3>(0).norm()
         };
-        let larger = |most: [f64; 2], own: [f64; 2]| [most[0].max(own[0]), most[1].max(own[1])];
-        self.stations.iter().map(of).fold([0.0; 2], larger)
+        self.stations.iter().map(of).fold(0.0, f64::max)
     }
 
     /// Internal forces on the two end nodes, section axes [N, N m].
