@@ -19,7 +19,7 @@ const NOT_YET: [(&str, &str); 2] = [
     ("friction-fixed-step.toml", "an error of 3 % with steps of 10 ms has no warning"),
     (
         "near-dead-centre.toml",
-        "refused up to some 0.03 rad beside the dead centre: its plane loop of revolute joints is redundant",
+        "rejected up to some 0.03 rad beside the dead centre: its plane loop of revolute joints is redundant",
     ),
 ];
 
