@@ -370,7 +370,9 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     {
         return Some(AnalysisKind::Dynamics { step, control: None });
     }
-    if let (Some(interval), Some(_)) = (output_step, reader.node("output_every")) {
+    if let Some(interval) = output_step
+        && reader.count("output_every").is_some_and(|every| every.value > 1)
+    {
         return reader.context.fail(
             interval.span,
             "both `output_step` and `output_every` specify what is recorded".to_owned(),

@@ -124,7 +124,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
     };
     let is_static = !matches!(analysis.kind, AnalysisKind::Dynamics { .. });
     let records = match (analysis.output_every, choice) {
-        (None, Some(choice)) if !is_static => {
+        (every, Some(choice)) if !is_static && (every.is_none() || choice.output_step.is_some()) => {
             Records::of_chosen_steps(&settings.scheme, choice.output_step, duration)
         }
         (every, _) => Records::Every(every.unwrap_or(1)),
