@@ -21,6 +21,7 @@ use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
 use super::{ElementId, System};
+use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass, Impulse};
 use lissom_mechanics::elements::creep_force::CreepForce;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
@@ -434,8 +435,7 @@ impl Builder {
             gravity: self.model.gravity,
             feedback,
             readings: Vec::new(),
-            section_errors: Vec::new(),
-            beams: Vec::new(),
+            beams: ExaminedBeams::default(),
             functions: self.functions,
         };
         Ok((system, state))

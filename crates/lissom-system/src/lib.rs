@@ -30,8 +30,7 @@ use lissom_solver::Structure;
 pub use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
 pub use feedback::{DrivenBatch, Feedback, ScaledPower};
-use lissom_mechanics::elements::beam::line::BeamProbe;
-use lissom_mechanics::elements::beam::section_error::SectionError;
+use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
 use lissom_mechanics::elements::{Energy, LinearLimit, LinearRange};
@@ -87,10 +86,8 @@ pub struct System {
     pub feedback: DrivenBatch,
     /// Quantities that sampled signals depend on at samples alone.
     pub readings: Vec<Reading>,
-    /// Section forces that are recorded.
-    pub section_errors: Vec<SectionError>,
-    /// Names of the beams, with their elements.
-    pub beams: Vec<(String, Vec<Arc<dyn BeamProbe>>)>,
+    /// Beams whose strains and section forces are examined.
+    pub beams: ExaminedBeams,
 }
 
 impl System {

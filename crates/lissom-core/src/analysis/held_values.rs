@@ -170,10 +170,8 @@ impl Simulation {
         if !switches {
             // Held values change forces, and the matrix only where a latch switches.
             initial.factor(&self.system, &self.state, Inertias::All)?;
-            let mut after = self.state.clone();
-            after.kinematics.held = at.held;
-            let jump = initial.acceleration_jump(&self.system, &self.state, &after)?;
-            self.state.kinematics.held = after.kinematics.held;
+            let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
+            self.state.kinematics.held = at.held;
             self.add_jump(jump);
             return Ok(());
         }

@@ -348,26 +348,25 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// By what accelerations and multipliers jump, by row, from `before` to `after`: two states at the same place with the same
-    /// equations, for which the matrix was factorised last. In the rows of states stands what their rates lack, in those of
-    /// impulses their rates.
+    /// By what accelerations and multipliers jump, by row, where a state goes over to the held values `held`, with the matrix
+    /// factorised last. In the rows of states stands what their rates lack, in those of impulses their rates.
     pub(super) fn acceleration_jump(
         &mut self,
         system: &System,
-        before: &State,
-        after: &State,
+        state: &State,
+        held: &[f64],
     ) -> Result<Vec<f64>, InitialError> {
-        let mut jump;
-        let earlier;
-        if system.sees_multipliers() {
-            earlier = self.acceleration_with_factors(system, before)?;
-            jump = self.acceleration_with_factors(system, after)?;
-        } else {
-            earlier = self.right_side(system, &without_accelerations(system.layout(), before));
-            jump = self.right_side(system, &without_accelerations(system.layout(), after));
-        }
-        jump.iter_mut().zip(&earlier).for_each(|(after, before)| *after -= before);
-        if !system.sees_multipliers() {
+        // Without such forces one solution for the difference is enough.
+        let by_repetition = system.sees_multipliers();
+        let mut of = |at: &Kinematics| {
+            if by_repetition { self.repeated(system, at.clone()) } else { Ok(self.right_side(system, at)) }
+        };
+        let mut at = without_accelerations(system.layout(), state);
+        let before = of(&at)?;
+        at.held.copy_from_slice(held);
+        let mut jump = of(&at)?;
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        if !by_repetition {
             self.solve(system, &mut jump);
         }
         Ok(jump)
@@ -385,15 +384,18 @@ impl ConsistentInitialConditions {
     }
 
     /// The same with the matrix factorised last.
-    ///
-    /// Where forces depend on multipliers, these are found by repetition: friction is small against what presses.
     pub(super) fn acceleration_with_factors(
         &mut self,
         system: &System,
         state: &State,
     ) -> Result<Vec<f64>, InitialError> {
+        self.repeated(system, without_accelerations(system.layout(), state))
+    }
+
+    /// The same for a motion without accelerations. Where forces depend on multipliers, these are found by repetition: friction is
+    /// small against what presses.
+    fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
         let count = system.layout().coordinate_count();
-        let mut at = without_accelerations(system.layout(), state);
         let (mut change, mut solution) = (f64::INFINITY, Vec::new());
         for _ in 0..MAX_REPETITIONS {
             let mut right = self.right_side(system, &at);

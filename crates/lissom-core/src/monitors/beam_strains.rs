@@ -1,35 +1,32 @@
 //! Whether beams are strained more than a beam can be.
 
 use super::monitor::{Accepted, Beginning, Monitor};
+use super::sampled_steps::SampledSteps;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::judge::{Warning, report};
 
 /// Strains of the line above this are reported [-].
 const NOTEWORTHY: f64 = 0.1;
-/// So many steps are all examined, and one in as many afterwards.
-const ALL: usize = 16;
-const STRIDE: usize = 16;
 
 /// The largest strain so far.
 #[derive(Default)]
 struct BeamStrains {
-    steps: usize,
+    steps: SampledSteps,
     largest: f64,
 }
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
-    let has_beams = !beginning.problem.system.beams.is_empty();
+    let has_beams = !beginning.problem.system.beams.elements.is_empty();
     has_beams.then(|| Box::<BeamStrains>::default() as Box<dyn Monitor>)
 }
 
 impl Monitor for BeamStrains {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
-        self.steps += 1;
-        if self.steps > ALL && !self.steps.is_multiple_of(STRIDE) {
+        if !self.steps.is_due() {
             return;
         }
         let at = &step.end.kinematics;
-        for (beam, elements) in &step.problem.system.beams {
+        for (beam, elements) in &step.problem.system.beams.elements {
             let strain = elements.iter().map(|element| element.largest_strain(at)).fold(0.0, f64::max);
             if strain > self.largest.max(NOTEWORTHY) {
                 self.largest = strain;

@@ -15,6 +15,7 @@ mod linear_range;
 mod monitor;
 mod pairs;
 mod resolution;
+mod sampled_steps;
 mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;

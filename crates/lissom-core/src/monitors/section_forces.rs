@@ -1,6 +1,7 @@
 //! Whether the elements of a beam resolve the section forces that are recorded.
 
 use super::monitor::{Accepted, Beginning, Monitor};
+use super::sampled_steps::SampledSteps;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::judge::{Warning, report};
 
@@ -8,33 +9,29 @@ use crate::judge::{Warning, report};
 const NOTEWORTHY: f64 = 0.01;
 /// A smaller part of the whole force, or moment, counts as so large a part of it.
 const LEAST: f64 = 0.05;
-/// So many steps are all examined, and one in as many afterwards.
-const ALL: usize = 64;
-const STRIDE: usize = 16;
 
 /// Largest sizes and errors so far.
 #[derive(Default)]
 struct SectionForces {
-    steps: usize,
+    steps: SampledSteps,
     /// By section, of the axial and the shear force, or of the torsion and the bending moment.
     largest: Vec<[[f64; 2]; 2]>,
 }
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
-    let count = beginning.problem.system.section_errors.len();
-    let monitor = SectionForces { steps: 0, largest: vec![[[0.0; 2]; 2]; count] };
+    let count = beginning.problem.system.beams.section_errors.len();
+    let monitor = SectionForces { steps: SampledSteps::default(), largest: vec![[[0.0; 2]; 2]; count] };
     (count > 0).then(|| Box::new(monitor) as Box<dyn Monitor>)
 }
 
 impl Monitor for SectionForces {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
-        self.steps += 1;
-        if self.steps > ALL && !self.steps.is_multiple_of(STRIDE) {
+        if !self.steps.is_due() {
             return;
         }
         let at = &step.end.kinematics;
         let mut worst: Option<(f64, usize)> = None;
-        let sections = &step.problem.system.section_errors;
+        let sections = &step.problem.system.beams.section_errors;
         for (index, (section, largest)) in sections.iter().zip(&mut self.largest).enumerate() {
             let Some(found) = section.of(at) else { continue };
             for (largest, found) in largest.iter_mut().zip(found) {

@@ -25,7 +25,7 @@ use lissom_core::analysis::Settings;
 use lissom_core::analysis::accumulated::Accumulated;
 use lissom_core::analysis::assembly::{AssemblyError, assemble};
 use lissom_core::elements::beam::line::BeamLine;
-use lissom_core::elements::beam::section_error::SectionError;
+use lissom_core::elements::beam::section_error::{ExaminedBeams, SectionError};
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::judge::Warning;
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
@@ -43,6 +43,7 @@ use crate::document::{
 use crate::functions::Ramp;
 use crate::output_channels;
 use crate::outputs::Resolver;
+use crate::outputs::section::SECTION_MOMENT;
 use crate::report::{Located, Problem, Report};
 use crate::sweep::TimeWindow;
 
@@ -250,8 +251,10 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
     system.assign_readings(readings::bind(&names.readings, &channels, accumulated.len(), &mut problems));
     stop_at(document, &mut problems)?;
-    system.section_errors = section_errors(document, &names, &system);
-    system.beams = names.lines.iter().map(|(name, line)| (name.clone(), line.elements.clone())).collect();
+    system.beams = ExaminedBeams {
+        elements: names.lines.iter().map(|(name, line)| (name.clone(), line.elements.clone())).collect(),
+        section_errors: section_errors(document, &names, &system),
+    };
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     let system = Arc::new(system);
@@ -280,7 +283,7 @@ fn section_errors(document: &Document, names: &Names, system: &System) -> Vec<Se
         OutputSource::Node {
             node: Located { value: NodeReference::Beam { beam, fraction }, .. }, ..
         } => {
-            let first = if output.kind.name() == "section_moment" { 3 } else { 0 };
+            let first = if output.kind.name() == SECTION_MOMENT.word { 3 } else { 0 };
             Some((beam.clone(), (*fraction, first)))
         }
         _ => None,

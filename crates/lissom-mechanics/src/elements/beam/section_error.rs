@@ -18,6 +18,15 @@ use lissom_motion::Vector6;
 use super::line::{BeamLine, BeamProbe};
 use crate::kinematics::{Kinematics, NodeId};
 
+/// The beams of a system, as far as they are examined.
+#[derive(Default)]
+pub struct ExaminedBeams {
+    /// Names, and elements.
+    pub elements: Vec<(String, Vec<Arc<dyn BeamProbe>>)>,
+    /// Of the section forces that are recorded.
+    pub section_errors: Vec<SectionError>,
+}
+
 /// Section forces at one position of a beam, with the elements that show their error.
 pub struct SectionError {
     /// Name of the beam.
