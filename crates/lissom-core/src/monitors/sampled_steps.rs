@@ -1,10 +1,9 @@
-//! Which steps are examined for quantities that last: all at first, as short runs have few, then one in some.
+//! Which steps are examined for quantities that last: all load steps, and of a motion the first ones, then one in some.
 
 use serde::{Deserialize, Serialize};
 
-/// So many steps are all examined.
-const ALL_UNTIL: usize = 64;
-/// Steps from one that is examined to the next afterwards: a strain or a section force costs a few per cent of a step.
+/// Steps from one that is examined to the next, and number of the first ones: the strains of a beam cost a twentieth of its
+/// step.
 const STRIDE: usize = 16;
 
 /// Position in the sequence of steps.
@@ -13,8 +12,8 @@ pub(super) struct SampledSteps(usize);
 
 impl SampledSteps {
     /// Counts a step. Whether it is examined.
-    pub(super) fn is_due(&mut self) -> bool {
+    pub(super) fn is_due(&mut self, is_motion: bool) -> bool {
         self.0 += 1;
-        self.0 <= ALL_UNTIL || self.0.is_multiple_of(STRIDE)
+        !is_motion || self.0 <= STRIDE || self.0.is_multiple_of(STRIDE)
     }
 }

@@ -26,7 +26,7 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
 
 impl Monitor for SectionForces {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
-        if !self.steps.is_due() {
+        if !self.steps.is_due(step.problem.settings.scheme.dynamic) {
             return;
         }
         let at = &step.end.kinematics;
