@@ -137,6 +137,8 @@ pub struct Outcome {
     pub iterations: usize,
     /// Number of tangents factorised.
     pub factorizations: usize,
+    /// Size of the first correction: the error of the initial guess.
+    pub first_correction: f64,
     /// Size of the last correction.
     pub correction: f64,
     /// Whether it stopped at round-off before the tolerance was reached.
@@ -207,6 +209,9 @@ pub fn solve<E: Equations>(
         let correction = equations.correct();
         outcome.iterations += 1;
         outcome.correction = correction.size;
+        if outcome.iterations == 1 {
+            outcome.first_correction = correction.size;
+        }
         age += 1;
         let verdict = match test_convergence(&correction, previous, fresh, limits, jacobian) {
             Verdict::Renew | Verdict::BackOff if fresh && correction.size <= equations.round_off() => {

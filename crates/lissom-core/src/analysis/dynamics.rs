@@ -167,6 +167,7 @@ impl Simulation {
             end: &self.attempt.end,
             energy_balance: [&self.energy_balance, &self.attempt.energy_balance],
             violation: self.attempt.violation,
+            prediction_error: self.attempt.outcome.first_correction,
             fraction: self.control.fraction(&self.attempt),
             has_switched: self.events.known.has_switched,
         };

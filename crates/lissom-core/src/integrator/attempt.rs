@@ -30,7 +30,7 @@ impl Attempt {
             converted: state.clone(),
             is_converted: false,
             end: state.clone(),
-            outcome: Outcome { iterations: 0, factorizations: 0, correction: 0.0, stagnated: false },
+            outcome: Outcome::default(),
             energy_balance,
             violation: 0.0,
         }

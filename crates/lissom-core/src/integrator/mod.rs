@@ -293,7 +293,7 @@ fn sufficient(result: Result<Outcome, Failure>, integrates_velocities: bool) -> 
         Err(Failure::NotConverged { iterations, correction })
             if integrates_velocities && correction <= SUFFICIENT =>
         {
-            Ok(Outcome { iterations, factorizations: 0, correction, stagnated: true })
+            Ok(Outcome { iterations, correction, stagnated: true, ..Outcome::default() })
         }
         other => other,
     }

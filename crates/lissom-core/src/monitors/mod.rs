@@ -11,6 +11,7 @@ mod drives;
 mod energy_surplus;
 mod equilibrium_jump;
 mod impacts;
+mod instants;
 mod linear_range;
 mod monitor;
 mod pairs;

@@ -39,6 +39,8 @@ pub(crate) struct Accepted<'s> {
     pub(crate) energy_balance: [&'s EnergyBalance; 2],
     /// Largest violation of a constraint at the end, relative to the representative length, or in radians.
     pub(crate) violation: f64,
+    /// Error of the prediction of the step's increments [scaled].
+    pub(crate) prediction_error: f64,
     /// Its size over that of the planned step of which it is a part.
     pub(crate) fraction: f64,
     /// Whether forces have switched at its start.
