@@ -1,6 +1,8 @@
 //! Reads one table key by key against its description: unknown and missing keys are reported at once, and every
 //! value is checked against the shape of its key.
 
+use std::f64::consts::TAU;
+
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
 use lissom_motion::{Matrix3, Vector3};
 
@@ -283,11 +285,19 @@ impl<'c, 'a> Reader<'c, 'a> {
         }
     }
 
+    /// Warns of an angle [rad] that seems to be in degrees.
+    pub(crate) fn warn_of_degrees(&self, key: &str, angle: f64) {
+        let Some(node) = self.node(key) else { return };
+        let message = format!("{} is {:.1} revolutions", self.words(key), angle / TAU);
+        let help = "angles are in radians: write \"pi/2\" for 90 degrees";
+        self.context.report(Problem::warning(node.span, message).help(help));
+    }
+
     /// The registered parameters that are given, and the directions that have a default.
     pub(crate) fn parameters(&self, table: &[Parameter]) -> (Parameters, Vec<(String, Span)>) {
         let mut parameters = Parameters::new();
         let mut places = Vec::new();
-        for Parameter { name, holds, .. } in table {
+        for Parameter { name, holds, unit, .. } in table {
             let value = match holds {
                 ParameterType::Number | ParameterType::Positive | ParameterType::NotNegative => {
                     self.number(name).map(|number| Held::Number(number.value))
@@ -331,10 +341,26 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::Choice(_) => self.choice(name).map(|word| Held::Text(word.value.to_owned())),
             };
             if let Some(value) = value {
+                if *unit == "rad"
+                    && let Some(angle) = angle_in_degrees(&value)
+                {
+                    self.warn_of_degrees(name, angle);
+                }
                 parameters.insert(name, value);
                 places.extend(self.node(name).map(|node| ((*name).to_owned(), node.span)));
             }
         }
         (parameters, places)
     }
+}
+
+/// An angle [rad] of a parameter that is probably in degrees: a whole number and more than one revolution.
+fn angle_in_degrees(value: &Held) -> Option<f64> {
+    let angles = match value {
+        Held::Number(angle) => &[*angle][..],
+        Held::Range(ends) => ends,
+        _ => return None,
+    };
+    let is_suspect = |angle: &&f64| angle.is_finite() && angle.abs() > TAU && angle.fract() == 0.0;
+    angles.iter().find(is_suspect).copied()
 }

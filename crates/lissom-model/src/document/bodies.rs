@@ -152,21 +152,14 @@ pub(super) fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
 pub(super) fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     let own = body_axes(reader.context, (reader.node("rotation"), reader.node("axes")), &reader.what)?;
     if let Some(node) = reader.node("rotation") {
-        warn_of_degrees(reader, node);
+        let vector = reader.context.vector(node, &reader.words("rotation"));
+        // A smaller rotation would have the same result.
+        if let Some(angle) = vector.map(|vector| vector.norm()).filter(|&angle| angle > TAU * (1.0 + 1e-9)) {
+            reader.warn_of_degrees("rotation", angle);
+        }
     }
     let around = reader.context.frame(reader.scope)?.rotation;
     Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })
-}
-
-/// A rotation by more than one revolution indicates degrees, because a smaller one would have the same result.
-fn warn_of_degrees(reader: &Reader<'_, '_>, node: &Node) {
-    let what = reader.words("rotation");
-    let Some(angle) = reader.context.vector(node, &what).map(|vector| vector.norm()) else { return };
-    if angle > TAU * (1.0 + 1e-9) {
-        let message = format!("{what} is {:.1} revolutions", angle / TAU);
-        let help = "angles are in radians: write \"pi/2\" for 90 degrees";
-        reader.context.report(Problem::warning(node.span, message).help(help));
-    }
 }
 
 /// Body axes as columns in the axes around the body, from a rotation vector or from the first two axes.
