@@ -342,6 +342,7 @@ pub(crate) mod tests {
     fn every_diagnostic_has_time_subject_and_remedy() {
         // Diagnostics of the whole model have no subject, those before a motion no time.
         let without_subject = [
+            "energy-drift",
             "energy-surplus",
             "unstable-equilibrium",
             "relaxed-equilibrium",

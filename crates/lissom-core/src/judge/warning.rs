@@ -225,6 +225,23 @@ diagnostics! {
                 the model.",
             advice: "Use smaller steps, or `relative_tolerance` instead of `step`.",
         }
+        /// The phase of a long motion without damping has drifted.
+        EnergyDrift {
+            /// When it was first significant [s].
+            time: f64,
+            /// Estimated shift of the phase at the end [rad].
+            shift: f64,
+            /// Energy dissipated by the scheme over the energy exchanged.
+            lost: f64,
+        } => "energy-drift" {
+            time: *time,
+            cause: ("the scheme has dissipated {:.2e} of the energy of a long motion without damping: the phase of its vibrations is \
+                    shifted by about {:.2} rad at the end, and by 0.01 rad at t = {time} s", *lost, *shift),
+            remedy: "set a smaller `relative_tolerance`",
+            meaning: "A long motion without damping or drives loses energy to the scheme steadily. As its frequency depends on its energy, the \
+                phase drifts with the square of the time. The amplitude is not affected.",
+            advice: "Use a smaller `relative_tolerance`: a tenth of it reduces the drift to less than a tenth.",
+        }
         /// Redundant constraints are regularised.
         RegularizedConstraints {
             /// When it was first detected [s].

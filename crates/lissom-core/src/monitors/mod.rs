@@ -8,6 +8,7 @@ pub(crate) mod constraint_rates;
 mod constraints_yield;
 pub(crate) mod contact;
 mod drives;
+mod energy_drift;
 mod energy_surplus;
 mod equilibrium_jump;
 mod impacts;
@@ -47,6 +48,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "linear-range", begin: linear_range::begin },
     Kind { name: "constraints-yield", begin: constraints_yield::begin },
     Kind { name: "drives", begin: drives::begin },
+    Kind { name: "energy-drift", begin: energy_drift::begin },
     Kind { name: "energy-surplus", begin: energy_surplus::begin },
     Kind { name: "equilibrium-jump", begin: equilibrium_jump::begin },
     Kind { name: "singular-positions", begin: singular_positions::begin },

@@ -151,6 +151,19 @@ pub struct Kinematics {
     pub multipliers: Vec<f64>,
 }
 
+impl Kinematics {
+    /// Sets all velocities and accelerations to zero.
+    pub fn stop(&mut self) {
+        for node in &mut self.nodes {
+            node.twist.fill(0.0);
+            node.acceleration.fill(0.0);
+        }
+        for coordinate in &mut self.coordinates {
+            (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+        }
+    }
+}
+
 impl Clone for Kinematics {
     fn clone(&self) -> Self {
         Self {

@@ -400,6 +400,22 @@ fn instants_that_steps_of_planned_size_miss_are_reported() {
     }
 }
 
+/// With the default tolerance its phase is 0.055 rad off after 10 000 s.
+#[test]
+fn phases_that_drift_are_reported() {
+    for (options, is_reported) in [
+        (&[][..], true),
+        (&["--set", "analysis.end=1000"], false),
+        (&["--set", "analysis.relative_tolerance=1e-8", "--set", "analysis.end=5000"], false),
+        (&["--set", "springs.d.damping=1e-5"], false),
+    ] {
+        let options = [options, &["--no-plots"]].concat();
+        let results = Results::of("run", "long-pendulum.toml", &options);
+        results.assert_done();
+        assert_eq!(results.ended.errors.contains("energy-drift"), is_reported, "{options:?}");
+    }
+}
+
 // Analyses.
 
 #[test]

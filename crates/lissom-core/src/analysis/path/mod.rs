@@ -17,7 +17,7 @@ use lissom_solver::SolverKind;
 
 use super::StepError;
 use crate::diagnostics::{Value, diagnostics};
-use crate::kinematics::{Kinematics, Subject};
+use crate::kinematics::Subject;
 use crate::newton::{self, JacobianState, Limits};
 use crate::scaling::ScalingChoice;
 use crate::stepping::ArcControl;
@@ -351,7 +351,7 @@ impl EquilibriumPath {
         mut settings: PathSettings,
     ) -> Result<Self, NoStart> {
         settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-        at_rest(&mut state.kinematics);
+        state.kinematics.stop();
         state.multipliers.fill(0.0);
         let mut violations = vec![0.0; state.multipliers.len()];
         systems.any().violations(&state.kinematics, &mut violations);
@@ -622,15 +622,5 @@ impl Tangent {
         for value in &mut self.direction {
             *value = -*value;
         }
-    }
-}
-
-fn at_rest(at: &mut Kinematics) {
-    for node in &mut at.nodes {
-        node.twist.fill(0.0);
-        node.acceleration.fill(0.0);
-    }
-    for coordinate in &mut at.coordinates {
-        (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
     }
 }

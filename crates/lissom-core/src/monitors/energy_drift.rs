@@ -1,0 +1,132 @@
+//! Whether the energy that a scheme dissipates shifts the phase of a long motion without damping or drives.
+//!
+//! ```text
+//! δφ = ∫ δω/ω dφ ≈ ½ ∫ δE/E dφ = ¼ d s²/a,      d = min over two windows of |ΔE| / (E Δs)
+//! ```
+//!
+//! Legend: s path of the motion so far, a its largest displacement, so that φ = s/a, E energy exchanged, ω frequency of a motion of
+//! this energy. The windows reach from a quarter to a half of the path, and from there to the present: stiff vibrations that
+//! the scheme damps at the start of a motion shift nothing afterwards.
+
+use serde::{Deserialize, Serialize};
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::analysis::Problem;
+use crate::bytes::{from_bytes, to_bytes};
+use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
+use crate::judge::{Warning, report};
+use crate::linear::LinearModel;
+use crate::system::State;
+
+/// Phase shifts above this are reported [rad].
+const NOTEWORTHY: f64 = 0.01;
+/// Path at the first mark, in units of the model's length.
+const FIRST_MARK: f64 = 100.0;
+/// Marks in the time in which the path doubles.
+const MARKS_PER_DOUBLING: usize = 4;
+
+/// Energy lost along the path of a motion.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct EnergyDrift {
+    path: f64,
+    farthest: f64,
+    /// Path and energy lost [J] at marks, at equal ratios of paths.
+    marks: Vec<[f64; 2]>,
+    /// Whether the model has no damping, once that matters.
+    is_undamped: Option<bool>,
+}
+
+impl EnergyDrift {
+    /// Records the energy `lost` so far, of the energy `exchanged` [J]. At a mark: the estimated shift of the phase [rad].
+    fn shift(&mut self, lost: f64, exchanged: f64) -> Option<f64> {
+        let ratio = (MARKS_PER_DOUBLING as f64).recip().exp2();
+        if self.path < self.marks.last().map_or(FIRST_MARK, |mark| ratio * mark[0]) {
+            return None;
+        }
+        self.marks.push([self.path, lost]);
+        let count = self.marks.len();
+        let first = count.checked_sub(2 * MARKS_PER_DOUBLING + 1)?;
+        let rate = |from: usize| {
+            let [[from, before], [to, after]] =
+                [from, from + MARKS_PER_DOUBLING].map(|mark| self.marks[mark]);
+            (after - before) / (to - from)
+        };
+        let rates = [rate(first), rate(first + MARKS_PER_DOUBLING)];
+        let steady = if rates[0] * rates[1] > 0.0 { rates[0].abs().min(rates[1].abs()) } else { 0.0 };
+        let shift = 0.25 * steady / exchanged * self.path * self.path / self.farthest.max(MIN_REFERENCE);
+        shift.is_finite().then_some(shift)
+    }
+}
+
+/// Whether nothing is damped at the positions of `state`.
+fn is_undamped(Problem { system, settings }: Problem<'_>, state: &State) -> bool {
+    let mut state = state.clone();
+    state.kinematics.stop();
+    let model = LinearModel::of_positions(system, &state, settings.solver);
+    model.is_ok_and(|model| model.parts().damping.iter().all(|&value| value == 0.0))
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let Problem { system, settings } = beginning.problem;
+    let is_free = system.drives().is_empty() && system.layout().rate_rows().next().is_none();
+    let is_adaptive = settings.scheme.dynamic && settings.control.is_some();
+    (is_free && is_adaptive).then(|| Box::<EnergyDrift>::default() as Box<dyn Monitor>)
+}
+
+impl Monitor for EnergyDrift {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        let (system, end) = (step.problem.system, &step.end.kinematics);
+        let length = step.integrator.representative.length;
+        self.path += excursion(system, (&step.start.kinematics, end), length);
+        if self.farthest < 1.0 {
+            self.farthest = self.farthest.max(excursion(system, (step.origin, end), length));
+        }
+        let [_, after] = step.energy_balance;
+        let Some(shift) = self.shift(after.lost, after.turned_over) else { return };
+        if shift < NOTEWORTHY || !*self.is_undamped.get_or_insert_with(|| is_undamped(step.problem, step.end))
+        {
+            return;
+        }
+        report(
+            warnings,
+            |warning| matches!(warning, Warning::EnergyDrift { .. }),
+            |known| {
+                let time = match known {
+                    Some(Warning::EnergyDrift { time, .. }) => *time,
+                    _ => end.time,
+                };
+                Some(Warning::EnergyDrift { time, shift, lost: after.lost / after.turned_over })
+            },
+        );
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(self)
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        from_bytes(saved, self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Last estimate for a motion of amplitude 1 and energy 1 that has lost `lost` of it after a path `s`.
+    fn shift(lost: impl Fn(f64) -> f64) -> f64 {
+        let mut drift = EnergyDrift { farthest: 1.0, ..EnergyDrift::default() };
+        let shifts = (0..100_000).filter_map(|_| {
+            drift.path += 0.5;
+            drift.shift(lost(drift.path), 1.0)
+        });
+        shifts.last().unwrap()
+    }
+
+    #[test]
+    fn a_steady_loss_shifts_the_phase_and_a_damped_vibration_does_not() {
+        let steady = shift(|path| 1e-9 * path);
+        assert!((0.5..1.0).contains(&(steady / (0.25e-9 * 50_000.0_f64.powi(2)))), "{steady}");
+        assert!(shift(|path| 0.1 * (1.0 - (-0.01 * path).exp())) < 1e-9);
+    }
+}
