@@ -22,6 +22,8 @@ const MAX_SECANTS: usize = 5;
 const INDEPENDENT: f64 = 3e-4;
 /// A secant is used for corrections up to so many times as large: beyond, its round-off would dominate.
 const REACH: f64 = 10.0;
+/// Least fraction of a correction that secants leave.
+const MIN_REMAINING: f64 = 0.1;
 
 /// The last corrections, of all stages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -32,6 +34,8 @@ pub(crate) struct Anderson {
     changes: [Vec<f64>; MAX_SECANTS],
     /// P, by stage and row.
     departures: [Vec<f64>; MAX_SECANTS],
+    /// Their weighted sizes.
+    departure_sizes: [f64; MAX_SECANTS],
     /// Products of the changes.
     products: [[f64; MAX_SECANTS]; MAX_SECANTS],
     /// Most secants in use: fewer than there are directions.
@@ -58,6 +62,7 @@ impl Anderson {
             sizes: sizes.to_vec(),
             changes: std::array::from_fn(|_| vec![0.0; coordinates]),
             departures: std::array::from_fn(|_| vec![0.0; rows]),
+            departure_sizes: [0.0; MAX_SECANTS],
             products: [[0.0; MAX_SECANTS]; MAX_SECANTS],
             most: MAX_SECANTS.min(2 + sizes.len() / 4),
             known: 0,
@@ -103,12 +108,38 @@ impl Anderson {
         }
         self.goes_on = true;
         std::mem::swap(&mut self.last_weighted, &mut self.weighted);
-        self.take(&self.shares());
+        let shares = self.shares();
+        self.take(&shares);
+        if self.contradict_each_other(&shares) {
+            self.known = 0;
+            self.taken.fill(0.0);
+        }
         for (corrections, taken) in corrections.iter_mut().zip(self.taken.chunks(rows)) {
             for (value, taken) in corrections.iter_mut().zip(taken) {
                 *value -= taken;
             }
         }
+    }
+
+    /// Whether the secants leave so little of a correction that they contradict each other: a tangent whose corrections converge does
+    /// not make them many times too long. Secants of earlier equations, such as those of another step size, may predict what newer
+    /// ones disprove; the iteration would then stop although the residual is large.
+    #[inline(always)]
+    fn contradict_each_other(&self, shares: &[f64; MAX_SECANTS]) -> bool {
+        let whole = product(&self.last_weighted, &self.last_weighted);
+        let bound: f64 =
+            shares.iter().zip(&self.departure_sizes).map(|(share, size)| share.abs() * size).sum();
+        if bound <= (1.0 - MIN_REMAINING) * whole.sqrt() {
+            return false;
+        }
+        let (count, stages) = (self.sizes.len(), self.last_weighted.len() / self.sizes.len());
+        let rows = self.taken.len() / stages;
+        let mut remaining = 0.0;
+        for (weighted, taken) in self.last_weighted.chunks(count).zip(self.taken.chunks(rows)) {
+            let parts = weighted.iter().zip(taken).zip(&self.sizes);
+            remaining += parts.map(|((all, taken), size)| (all - size * taken).powi(2)).sum::<f64>();
+        }
+        remaining < MIN_REMAINING * MIN_REMAINING * whole
     }
 
     /// Σ γ P.
@@ -165,6 +196,7 @@ impl Anderson {
             }
             departure += product(weighted, weighted);
         }
+        self.departure_sizes[slot] = departure.sqrt();
         for other in 0..self.most {
             let product = product(&self.changes[slot], &self.changes[other]);
             self.products[slot][other] = product;
@@ -287,6 +319,28 @@ mod tests {
         assert!(plain.iter().all(|&count| count >= 12), "{plain:?}");
         assert!(improved[0] <= 5, "{improved:?}");
         assert!(improved[1..].iter().all(|&count| count <= 3), "{improved:?}");
+    }
+
+    /// A tangent that was exact, and then leaves 0.4 of each correction in the same direction, as after a change of the step size.
+    #[test]
+    fn secants_of_earlier_equations_do_not_stop_the_iteration() {
+        let mut secants = Anderson::new(1, 12, &[1.0; 12]);
+        let wanted: Vec<f64> = (0..12).map(|row| f64::from(row).cos()).collect();
+        for stiffness in [1.0, 0.6] {
+            let mut x = vec![0.0; 12];
+            secants.interrupt();
+            for _ in 0..30 {
+                let residual = x.iter().zip(&wanted).map(|(x, wanted)| stiffness * (x - wanted));
+                let mut stages = [residual.collect::<Vec<f64>>()];
+                secants.improve(&mut stages, &Tuning::default());
+                x.iter_mut().zip(&stages[0]).for_each(|(x, correction)| *x -= correction);
+                if stages[0].iter().all(|value| value.abs() < 1e-12) {
+                    break;
+                }
+            }
+            let worst = x.iter().zip(&wanted).map(|(x, wanted)| (x - wanted).abs()).fold(0.0, f64::max);
+            assert!(worst < 1e-11, "{stiffness}: {worst}");
+        }
     }
 
     #[test]

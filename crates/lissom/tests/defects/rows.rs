@@ -400,6 +400,19 @@ fn instants_that_steps_of_planned_size_miss_are_reported() {
     }
 }
 
+/// Newton's method accepted a step whose residual was large: secants of a longer step, which had been rejected, contradicted those of
+/// the step.
+#[test]
+fn head_on_collision() {
+    let elastic = 0.56 * (0.807 - 1.47) / (0.807 + 1.47);
+    for options in
+        [&[][..], &["--set", "analysis.relative_tolerance=1e-8"], &["--set", "analysis.end=20"]]
+    {
+        let results = Results::clean("head-on-collision.toml", options);
+        near("v1", results.last("o.v1"), elastic, 1e-4);
+    }
+}
+
 /// With the default tolerance its phase is 0.055 rad off after 10 000 s.
 #[test]
 fn phases_that_drift_are_reported() {
