@@ -6,6 +6,7 @@ mod blade;
 mod book;
 mod case;
 mod cases;
+mod collisions;
 mod compare;
 mod count;
 mod curves;
@@ -83,6 +84,8 @@ enum Chore {
     Random(random::RandomArguments),
     /// Try random laws with narrow features, jumps and kinks against references that resolve them
     Laws(laws::LawsArguments),
+    /// Try random collisions through springs between points against references that resolve them
+    Collisions(collisions::CollisionsArguments),
     /// Compare reactions and accelerations of random mechanisms with those of a finer solution
     Forces(forces::ForcesArguments),
     /// Read model files and expressions that are damaged by chance: each is read or rejected with its position
@@ -226,6 +229,7 @@ fn main() -> ExitCode {
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
         Chore::Forces(arguments) => Ok(forces::forces(&arguments)),
+        Chore::Collisions(arguments) => Ok(collisions::collisions(&arguments)),
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),
