@@ -474,6 +474,12 @@ catalogued! {
             meaning: "The given path is not a folder with results of a run.",
             advice: "Specify a folder of results, such as `lissom run MODEL.toml --out DIR` creates.",
         }
+        Several { path => path, first => first, folders => folders } => "several-results" {
+            cause: "`{path}` has no results itself, but folders of results: {folders}",
+            remedy: "specify one of them, such as `{first}`",
+            meaning: "The given folder contains several folders of results, and one of them must be chosen.",
+            advice: "Specify one of the folders that the message names.",
+        }
         NoMotion { path => path, holds => content, remedy => remedy } => "no-motion" {
             cause: "`{path}` contains {content}",
             remedy: "{remedy}",

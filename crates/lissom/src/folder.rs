@@ -103,6 +103,15 @@ pub enum FolderError {
         /// Its actual content.
         is: &'static str,
     },
+    /// There are only folders of results in the given one.
+    Several {
+        /// The folder.
+        path: String,
+        /// The first of the folders in it.
+        first: String,
+        /// Names of the folders in it.
+        folders: String,
+    },
     /// There is no motion to be shown.
     NoMotion {
         /// The folder.
@@ -144,6 +153,23 @@ fn is_result(path: &Path) -> bool {
     let ending = path.extension().unwrap_or_default();
     let fixed = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, EVENTS, MODES, SHAPES, LOCK, CHECKPOINT];
     ending == "svg" || ending == "png" || fixed.contains(&&*name) || OF_LINEAR_MODELS.contains(&&*name)
+}
+
+/// Number of folders that a message names.
+const MAX_NAMED: usize = 8;
+
+/// The error that names the folders of results in a folder; none if there is no such folder.
+fn results_below(path: &Path) -> Option<FolderError> {
+    let has_results = |folder: &PathBuf| [HISTORY, MODES].iter().any(|name| folder.join(name).is_file());
+    let mut folders: Vec<PathBuf> = files::entries(path).filter(has_results).collect();
+    folders.sort();
+    let first = folders.first()?.display().to_string();
+    let name = |folder: &PathBuf| format!("`{}`", folder.file_name().unwrap_or_default().to_string_lossy());
+    let mut names: Vec<String> = folders.iter().take(MAX_NAMED).map(name).collect();
+    if folders.len() > MAX_NAMED {
+        names.push(format!("and {} others", folders.len() - MAX_NAMED));
+    }
+    Some(FolderError::Several { path: path.display().to_string(), first, folders: names.join(", ") })
 }
 
 /// A folder of results.
@@ -222,6 +248,11 @@ impl ResultFolder {
         let history = path.join(HISTORY);
         if path.is_file() {
             return Err(FolderError::NoResults { path: path.display().to_string(), is: "is a file" });
+        }
+        if !history.exists()
+            && let Some(several) = results_below(path)
+        {
+            return Err(several);
         }
         let text = files::read_text(&history)?;
         let mut record = Record::from_csv(&text)

@@ -14,6 +14,7 @@ const FAILURES: &[(&str, &str)] = &[
     ("run bad.toml", "model-file"),
     ("run --resume empty", "checkpoint-missing"),
     ("plot bar.toml", "no-results"),
+    ("view out", "several-results"),
     ("plot damaged", "table-line"),
     ("plot out/bar --of none", "plot-column"),
     ("export damaged --format npz", "table-line"),
