@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use lissom::view::Results;
@@ -48,7 +49,7 @@ pub(super) struct View {
     set: Vec<Override>,
 
     /// Folder for the results of a model [default: out/<name of the model file>].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print neither progress nor a summary.
@@ -136,16 +137,35 @@ fn unwritable(error: &FileError) -> Failure {
     Failure::new(Exit::Failed, error)
 }
 
-/// Opens a file or address with the default program of the desktop. Returns whether that program could be started.
+/// Time within which a launcher reports that it has found no program [s]. Some run as long as the browser that they start.
+const LAUNCH: Duration = Duration::from_secs(3);
+
+/// Opens a file or address with the default program of the desktop. Returns false if that program cannot be started, or ends
+/// at once with an error.
 pub(super) fn open(what: impl AsRef<std::ffi::OsStr>) -> bool {
-    let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {
-        ("open", &[])
+    let program = if cfg!(target_os = "macos") {
+        "open"
     } else if cfg!(target_os = "windows") {
-        ("explorer", &[])
+        "explorer"
     } else {
-        ("xdg-open", &[])
+        "xdg-open"
     };
     let mut command = Command::new(program);
-    command.args(first).arg(what).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-    command.spawn().is_ok()
+    command.arg(what).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    let Ok(mut launcher) = command.spawn() else {
+        return false;
+    };
+    // The Explorer ends with exit code 1 after success, too.
+    if cfg!(target_os = "windows") {
+        return true;
+    }
+    let began = Instant::now();
+    while began.elapsed() < LAUNCH {
+        match launcher.try_wait() {
+            Ok(None) => std::thread::sleep(Duration::from_millis(20)),
+            Ok(Some(status)) => return status.success(),
+            Err(_) => return false,
+        }
+    }
+    true
 }

@@ -198,7 +198,7 @@ fn what_is_missing_or_went_wrong_is_reported_in_the_page() {
     folder.write("buckling.toml", &buckling.replace("scale = \"3*t\"\n", ""));
     for (args, words) in [
         (vec!["view", "nowhere"], "there is no such file"),
-        (vec!["view", "out"], "history.csv"),
+        (vec!["view", "out"], "specify one of them, such as `out/bar`"),
         (vec!["view", "buckling.toml"], "computes no motion"),
         (vec!["view", "out/bar", "--initial"], "folder of results"),
     ] {
@@ -282,4 +282,45 @@ fn modes_are_shown_about_their_state() {
     let run = lissom(&["view", "bar.toml", "--out", "out", "-q"], folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(!folder.path().join("out/modes.csv").exists());
+}
+
+/// Runs `lissom` with a launcher of the desktop that ends with `code`.
+#[cfg(target_os = "linux")]
+fn with_launcher(folder: &Folder, code: i32, arguments: &[&str]) -> std::process::Output {
+    use std::os::unix::fs::PermissionsExt;
+    let launcher = folder.path().join("xdg-open");
+    fs::write(&launcher, format!("#!/bin/sh\nexit {code}\n")).unwrap();
+    fs::set_permissions(&launcher, fs::Permissions::from_mode(0o755)).unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lissom"));
+    command.args(arguments).current_dir(folder.path()).env("PATH", folder.path()).output().unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_launcher_without_a_browser_is_reported() {
+    let folder = Folder::new("view-open");
+    folder.write("bar.toml", CANTILEVER);
+    let arguments = ["view", "bar.toml", "--initial", "--html", "bar.html", "--open"];
+    let opened = with_launcher(&folder, 0, &arguments);
+    assert_eq!(opened.status.code(), Some(0), "{}", String::from_utf8_lossy(&opened.stderr));
+    // As `xdg-open` ends where it finds no program.
+    let failed = with_launcher(&folder, 3, &arguments);
+    let errors = String::from_utf8_lossy(&failed.stderr);
+    assert_eq!(failed.status.code(), Some(3), "{errors}");
+    assert!(errors.contains("no-browser") && errors.contains("bar.html"), "{errors}");
+}
+
+#[test]
+fn folders_of_results_in_a_folder_are_named() {
+    let folder = Folder::new("view-several");
+    folder.write("bar.toml", CANTILEVER);
+    for name in ["out/first", "out/second"] {
+        let run = lissom(&["run", "bar.toml", "--out", name, "--quiet", "--no-plots"], folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+    }
+    for command in ["view", "plot", "snapshot"] {
+        let run = lissom(&[command, "out"], folder.path());
+        assert_eq!(run.code, 2, "{command}: {}", run.errors);
+        assert!(run.errors.contains("`first`, `second`"), "{command}: {}", run.errors);
+    }
 }
