@@ -18,7 +18,7 @@ use crate::terminal;
 Example:
   lissom fmu examples/controlled-arm.toml --out controlled-arm.fmu
 
-The shared library is expected in the folder of the program, or at the path given by --library. To build it from source:
+The shared library is expected in the folder of the program, in ../lib beside it, or at the path given by --library. To build it from source:
   cargo build --release --manifest-path crates/lissom-fmi/Cargo.toml
 Exit code: 0 success; 2 wrong model or command line, or no shared library; 3 the file cannot be written.")]
 pub(super) struct Fmu {
@@ -26,7 +26,7 @@ pub(super) struct Fmu {
     model: ModelArguments,
 
     /// File of the unit [default: <name of the model file>.fmu].
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
 
     /// The shared library that simulates the model [default: the one in the folder of the program].
@@ -68,11 +68,13 @@ impl Fmu {
         let name = format!("{}{LIBRARY}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
         let program = std::env::current_exe().unwrap_or_default();
         let folder = program.parent().map(ToOwned::to_owned).unwrap_or_default();
-        let places = [folder.join(&name), folder.join("../lib/lissom").join(&name)];
+        let places =
+            [folder.join(&name), folder.join("../lib").join(&name), folder.join("../lib/lissom").join(&name)];
         places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
             let message = format!(
-                "the shared library `{name}` is not in the folder of the program, `{}`; build it with `cargo build --release \
-                 --manifest-path crates/lissom-fmi/Cargo.toml`, and name it by `--library`",
+                "the shared library `{name}` is neither in the folder of the program, `{}`, nor in `../lib` beside it; build it with \
+                 `cargo build --release --manifest-path crates/lissom-fmi/Cargo.toml` in a copy of the sources, and copy it there \
+                 or name it by `--library`",
                 folder.display()
             );
             Failure::request(message)

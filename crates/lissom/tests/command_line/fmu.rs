@@ -65,3 +65,34 @@ fn what_cannot_be_a_unit_is_refused() {
     let run = lissom(&["fmu", &model, "--library", "library", "--out", "no/where.fmu"], folder.path());
     assert_eq!(run.code, 3, "{}", run.errors);
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_installed_program_finds_the_library_beside_it_and_in_lib() {
+    let folder = Folder::new("fmu-installed");
+    let program = folder.path().join("bin/lissom");
+    std::fs::create_dir_all(folder.path().join("bin")).unwrap();
+    std::fs::copy(env!("CARGO_BIN_EXE_lissom"), &program).unwrap();
+    let export = || {
+        let mut command = std::process::Command::new(&program);
+        let run = command.args(["fmu", &example("pendulum"), "-o", "unit.fmu"]).current_dir(folder.path());
+        let run = run.output().unwrap();
+        (run.status.code(), String::from_utf8_lossy(&run.stderr).into_owned())
+    };
+    let (code, errors) = export();
+    assert_eq!(code, Some(2));
+    assert!(
+        errors.contains("cargo build --release --manifest-path crates/lissom-fmi/Cargo.toml"),
+        "{errors}"
+    );
+    for at in ["bin", "lib", "lib/lissom"] {
+        let at = folder.path().join(at);
+        std::fs::create_dir_all(&at).unwrap();
+        let library = at.join("liblissom_fmi.so");
+        std::fs::write(&library, "the library").unwrap();
+        assert_eq!(export(), (Some(0), String::new()), "{}", at.display());
+        let unit = std::fs::read(folder.path().join("unit.fmu")).unwrap();
+        assert_eq!(content(&unit, "binaries/"), b"the library");
+        std::fs::remove_file(library).unwrap();
+    }
+}
