@@ -271,3 +271,19 @@ fn a_change_in_an_included_file_is_seen() {
     let right = live.after(version(&wrong));
     assert_eq!(right["notice"], Value::Null, "{right}");
 }
+
+#[test]
+fn a_page_can_be_served_again_on_the_same_port() {
+    let folder = Folder::new("live-port");
+    folder.write("bar.toml", &model());
+    let first = Live::start("bar.toml", folder.path());
+    first.after(0);
+    let port = first.port;
+    // A page that waits for results while the program ends leaves a connection that the system closes later.
+    let waiting = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    drop(first);
+    let again = Live::start_at(port, "bar.toml", folder.path());
+    assert_eq!(again.port, port);
+    assert_eq!(again.after(0)["notice"], Value::Null);
+    drop(waiting);
+}

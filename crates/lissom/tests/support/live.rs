@@ -23,8 +23,13 @@ impl Drop for Live {
 
 impl Live {
     pub(crate) fn start(model: &str, folder: &Path) -> Self {
+        Self::start_at(0, model, folder)
+    }
+
+    /// On a port; 0 for any.
+    pub(crate) fn start_at(port: u16, model: &str, folder: &Path) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lissom"));
-        command.args(["live", model]).current_dir(folder).stdout(Stdio::piped());
+        command.args(["live", model, "--port", &port.to_string()]).current_dir(folder).stdout(Stdio::piped());
         let mut program = command.spawn().unwrap();
         let output = program.stdout.take().unwrap();
         let (sender, receiver) = std::sync::mpsc::channel();
