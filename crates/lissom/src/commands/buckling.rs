@@ -32,7 +32,7 @@ pub(super) struct Buckling {
     count: Option<u32>,
 
     /// Folder for the results [default: out/<name of the model file>-buckling].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print nothing.

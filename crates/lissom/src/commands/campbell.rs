@@ -41,7 +41,7 @@ pub(super) struct Campbell {
     rays: Vec<u32>,
 
     /// Folder for the results [default: out/<name of the model file>-campbell].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print nothing.

@@ -34,7 +34,7 @@ pub(super) struct Export {
     format: String,
 
     /// Destination: a file, or for `vtk` a folder [default: in the folder of results].
-    #[arg(long, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH")]
     out: Option<PathBuf>,
 
     /// Maximum number of frames of the motion, at equal intervals.

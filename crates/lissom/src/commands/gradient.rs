@@ -34,7 +34,7 @@ pub(super) struct Gradient {
     by: Vec<String>,
 
     /// Folder for the results [default: out/<name of the model file>-gradient].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Skip the run with perturbed numbers that verifies the derivatives.

@@ -23,7 +23,7 @@ pub(super) struct Import {
     #[arg(value_name = "ROBOT")]
     file: PathBuf,
     /// The model file to write [default: the name of the description with the extension toml, in the current folder].
-    #[arg(long, value_name = "MODEL.toml")]
+    #[arg(long, short, value_name = "MODEL.toml")]
     out: Option<PathBuf>,
     /// Initial coordinate of a joint [rad, m]; may be repeated.
     #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]

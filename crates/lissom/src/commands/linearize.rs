@@ -43,7 +43,7 @@ pub(super) struct Linearize {
     state: StateArgument,
 
     /// Folder for the results [default: out/<name of the model file>-linear].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print nothing.

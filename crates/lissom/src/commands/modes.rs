@@ -57,7 +57,7 @@ pub(super) struct Modes {
     shift: Option<f64>,
 
     /// Folder for the results [default: out/<name of the model file>-modes].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Do not draw the shapes.

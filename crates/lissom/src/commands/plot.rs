@@ -41,7 +41,7 @@ pub(super) struct Plot {
     spectrum: bool,
 
     /// Folder for the plots [default: the first folder of results].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 

@@ -57,7 +57,7 @@ pub(super) struct Reduce {
     name: Option<String>,
 
     /// Folder for the results [default: out/<name of the model file>-reduced].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print nothing.

@@ -53,7 +53,7 @@ pub(super) struct Response {
     state: StateArgument,
 
     /// Folder for the results [default: out/<name of the model file>-response].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print nothing.

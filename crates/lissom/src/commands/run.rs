@@ -56,7 +56,7 @@ pub(super) struct Run {
     unset: Vec<String>,
 
     /// Folder for the results [default: out/<name of the model file>].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Print neither progress nor a summary.

@@ -59,7 +59,7 @@ pub(super) struct Snapshot {
 
     /// File of the picture, with the extension .svg or .png [default: snapshot.svg in the folder of results,
     /// snapshot.png if it moves].
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
 
     /// Direction of view.

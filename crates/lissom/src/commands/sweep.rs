@@ -56,7 +56,7 @@ pub(super) struct SweepCommand {
     set: Vec<Override>,
 
     /// Folder for the results [default: out/<name of the sweep file>].
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
 
     /// Number of members solved in parallel; results do not depend on it [default: all processors].

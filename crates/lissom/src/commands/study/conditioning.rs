@@ -41,7 +41,7 @@ pub(super) struct Conditioning {
     vary: Option<Variation>,
 
     /// File for the table; the plot is written to the same folder [default: out/study-conditioning/<model>.csv].
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
 

@@ -53,7 +53,7 @@ pub(super) struct Convergence {
     output: String,
 
     /// File for the table; the plot is written to the same folder [default: out/study-convergence/<model>.csv].
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
 

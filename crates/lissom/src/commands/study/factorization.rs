@@ -32,7 +32,7 @@ pub(super) struct Factorization {
     model: ModelArguments,
 
     /// File for the table [default: out/study-factorization/<model>.csv].
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
 

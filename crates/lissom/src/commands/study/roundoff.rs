@@ -42,7 +42,7 @@ pub(super) struct Roundoff {
     output: String,
 
     /// File for the table; the plot is written to the same folder [default: out/study-roundoff/<model>.csv].
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
 
