@@ -178,3 +178,8 @@ pub use timings::Seconds;
 
 /// Version of the program, as in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The example of the crate's README, which is compiled and run with those of the documentation.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
