@@ -152,3 +152,23 @@ fn every_run_reports_how_well_its_tangent_is_conditioned() {
     let (start, end) = condition("energy", "physical");
     assert!(start > 1.0 && end > 1.0 && start < 1e12 && end < 1e12, "{start:e} {end:e}");
 }
+
+#[test]
+fn results_of_studies_are_not_overwritten() {
+    let folder = Folder::new("study-again");
+    let model = example("pendulum");
+    let study = |more: &[&str]| {
+        let arguments = [&["study", "conditioning", &model, "--steps", "1e-2"], more].concat();
+        lissom(&arguments, folder.path())
+    };
+    for name in ["pendulum.csv", "pendulum-2.csv", "pendulum-3.csv"] {
+        let run = study(&[]);
+        assert_eq!(run.code, 0, "{}", run.errors);
+        assert!(run.output.contains(&format!("results in out/study-conditioning/{name}")), "{}", run.output);
+        assert!(folder.path().join("out/study-conditioning").join(name).is_file());
+    }
+    assert_eq!(study(&["--out", "table.csv"]).code, 0);
+    let again = study(&["--out", "table.csv"]);
+    assert_eq!(again.code, 2);
+    assert!(again.errors.contains("not overwritten"), "{}", again.errors);
+}

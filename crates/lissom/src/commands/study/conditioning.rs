@@ -40,7 +40,8 @@ pub(super) struct Conditioning {
     #[arg(long, value_name = "PATH=LIST", value_parser = parse_variation)]
     vary: Option<Variation>,
 
-    /// File for the table; the plot is written to the same folder [default: out/study-conditioning/<model>.csv].
+    /// File for the table; the plot is written to the same folder [default: out/study-conditioning/<model>.csv, or <model>-2.csv and so on if
+    /// it exists].
     #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -66,8 +67,8 @@ impl Conditioning {
         // The model without these values need not be consistent: its end may be before its own first step.
         let document = model.document(&request.first())?;
         show_warnings(&document);
+        let path = super::table_path(self.out.as_ref(), "conditioning", &self.model.model)?;
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
-        let path = super::table_path(self.out.as_ref(), "conditioning", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
         terminal::print(&render(&title, &table));

@@ -52,7 +52,8 @@ pub(super) struct Convergence {
     #[arg(long, value_name = "NAME")]
     output: String,
 
-    /// File for the table; the plot is written to the same folder [default: out/study-convergence/<model>.csv].
+    /// File for the table; the plot is written to the same folder [default: out/study-convergence/<model>.csv, or <model>-2.csv and so on if
+    /// it exists].
     #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -76,8 +77,8 @@ impl Convergence {
         let request = self.request();
         let document = model.document(&request.first())?;
         show_warnings(&document);
+        let path = super::table_path(self.out.as_ref(), "convergence", &self.model.model)?;
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
-        let path = super::table_path(self.out.as_ref(), "convergence", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
         terminal::print(&render(&title, &request, &table));

@@ -31,7 +31,8 @@ pub(super) struct Factorization {
     #[command(flatten)]
     model: ModelArguments,
 
-    /// File for the table [default: out/study-factorization/<model>.csv].
+    /// File for the table [default: out/study-factorization/<model>.csv, or <model>-2.csv and so on if
+    /// it exists].
     #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -40,8 +41,8 @@ impl Factorization {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
         show_warnings(&document);
+        let path = super::table_path(self.out.as_ref(), "factorization", &self.model.model)?;
         let table = study(&model, &self.model.set)?;
-        let path = super::table_path(self.out.as_ref(), "factorization", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.as_deref().unwrap_or(model.name());
         terminal::print(&render(title, &table));

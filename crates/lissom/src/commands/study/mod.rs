@@ -61,12 +61,29 @@ impl From<StudyError> for Failure {
     }
 }
 
-/// Path of the table: the given one, or `out/study-<name>/<model>.csv`.
-fn table_path(out: Option<&PathBuf>, name: &str, model: &Path) -> PathBuf {
-    out.cloned().unwrap_or_else(|| {
-        let stem = model.file_stem().unwrap_or_default();
-        Path::new("out").join(format!("study-{name}")).join(stem).with_extension("csv")
-    })
+/// Path of the table: the given one, or `out/study-<name>/<model>.csv`. Results of earlier studies are not overwritten: by default
+/// a number is added to the name.
+///
+/// # Errors
+/// If the given file, or the plot beside it, exists.
+fn table_path(out: Option<&PathBuf>, name: &str, model: &Path) -> Result<PathBuf, Failure> {
+    let is_free =
+        |path: &PathBuf| !["csv", "svg", "png"].iter().any(|ending| path.with_extension(ending).exists());
+    if let Some(path) = out {
+        if path.exists() || !is_free(path) {
+            let message = format!(
+                "`{}` has the results of another study, which are not overwritten: choose another name by `--out`",
+                path.display()
+            );
+            return Err(Failure::request(message));
+        }
+        return Ok(path.clone());
+    }
+    let stem = model.file_stem().unwrap_or_default().to_string_lossy();
+    let folder = Path::new("out").join(format!("study-{name}"));
+    let first = folder.join(format!("{stem}.csv"));
+    let numbered = (2..).map(|number| folder.join(format!("{stem}-{number}.csv")));
+    Ok(std::iter::once(first.clone()).chain(numbered).find(is_free).unwrap_or(first))
 }
 
 /// Writes a file, with the folders above it.
@@ -172,9 +189,10 @@ mod tests {
 
     #[test]
     fn tables_have_a_place() {
-        let path = table_path(None, "conditioning", Path::new("models/arm.toml"));
+        let path = table_path(None, "conditioning", Path::new("models/arm.toml")).ok().unwrap();
         assert_eq!(path, Path::new("out/study-conditioning/arm.csv"));
-        let path = table_path(Some(&PathBuf::from("a/b.csv")), "conditioning", Path::new("arm.toml"));
+        let path =
+            table_path(Some(&PathBuf::from("a/b.csv")), "conditioning", Path::new("arm.toml")).ok().unwrap();
         assert_eq!(path, Path::new("a/b.csv"));
     }
 }

@@ -41,7 +41,8 @@ pub(super) struct Roundoff {
     #[arg(long, value_name = "NAME")]
     output: String,
 
-    /// File for the table; the plot is written to the same folder [default: out/study-roundoff/<model>.csv].
+    /// File for the table; the plot is written to the same folder [default: out/study-roundoff/<model>.csv, or <model>-2.csv and so on if
+    /// it exists].
     #[arg(long, short, value_name = "FILE.csv")]
     out: Option<PathBuf>,
 }
@@ -57,8 +58,8 @@ impl Roundoff {
         };
         let document = model.document(&request.first())?;
         show_warnings(&document);
+        let path = super::table_path(self.out.as_ref(), "roundoff", &self.model.model)?;
         let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
-        let path = super::table_path(self.out.as_ref(), "roundoff", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
         terminal::print(&render(&title, &request, &table));
