@@ -206,7 +206,7 @@ fn without_the_augmented_term_elimination_stops_at_the_massless_rotation() {
     }
     let csv = table.csv();
     assert!(csv.contains("none,false,skyline,false,coordinate `L.angle`,,"), "{csv}");
-    assert!(csv.lines().all(|line| line.split(',').count() == 15));
+    assert!(csv.lines().all(|line| line.split(',').count() == 16));
 }
 
 #[test]
@@ -359,5 +359,27 @@ fn one_step_of_a_tenth_of_a_second_is_solved() {
         assert!(divisions.contains(&totals.rejected_steps), "{model}: {totals:?}");
         assert!(totals.steps <= 1 + 3 * totals.rejected_steps, "{model}: {totals:?}");
         assert!(report.violation < 1e-14, "{model}: {:e}", report.violation);
+    }
+}
+
+#[test]
+fn slopes_are_drawn_within_the_range_of_the_curves() {
+    let model = lissom::Model::read(std::path::Path::new(&crate::support::example("pendulum"))).unwrap();
+    let texts = |list: &[&str]| list.iter().map(|&text| text.to_owned()).collect::<Vec<_>>();
+    let request = lissom::study::convergence::Request {
+        schemes: texts(&["radau-iia", "hht(-0.3)"]),
+        steps: texts(&["2e-2", "1e-2", "5e-3"]),
+        reference: ("radau-iia".to_owned(), "1e-3".to_owned()),
+        output: "bob".to_owned(),
+        overrides: vec![("analysis.end".to_owned(), "0.2".to_owned())],
+    };
+    let table =
+        lissom::study::convergence::study(&model, &request, &|_, _| std::ops::ControlFlow::Continue(()));
+    let figure = table.unwrap().figure("Pendulum");
+    let names: Vec<&str> = figure.guides.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(names, ["order 2", "order 3"]);
+    for ((_, points), order) in figure.guides.iter().zip([2.0, 3.0]) {
+        let slope = (points[1].1 / points[0].1).ln() / (points[1].0 / points[0].0).ln();
+        assert!((slope + order).abs() < 1e-9 && points[1].0 <= 200.0 * (1.0 + 1e-9), "{points:?}");
     }
 }

@@ -22,6 +22,7 @@ pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
         "growth",
         "error of coordinates",
         "error of multipliers",
+        "backward error",
         "last update",
         "residual [N]",
         "violation [m]",
@@ -37,13 +38,14 @@ fn line(case: &Case) -> Vec<String> {
     match &case.outcome {
         Err(stopped) => {
             cells.push(format!("stops at the {}", stopped.unknown));
-            cells.resize(10, String::new());
+            cells.resize(11, String::new());
         }
         Ok(factored) => {
             let growth = factored.report.growth;
             cells.push(one(factored.report.relative_pivot()));
             cells.push(if growth.is_nan() { String::new() } else { two(growth) });
             cells.extend([factored.coordinate_error, factored.multiplier_error].map(|e| error(factored, e)));
+            cells.push(one(factored.backward_error));
             let newton = &factored.newton;
             cells.extend([newton.update, newton.residual, newton.violation].map(one));
         }

@@ -53,6 +53,9 @@ pub struct Factored {
     pub coordinate_error: f64,
     /// The same for multipliers.
     pub multiplier_error: f64,
+    /// Componentwise backward error: the smallest relative change of all entries of matrix and right-hand side for which the computed
+    /// solution of that problem is exact [Oettli and Prager 1964]. Scaling of rows and columns does not change it.
+    pub backward_error: f64,
     /// Whether iterative refinement converged, so that the errors are known.
     pub errors_known: bool,
     /// How far Newton's method comes.
@@ -129,13 +132,14 @@ fn examine(
     if let Some(factors) = equations.work.tangent.row_factors() {
         sizes.iter_mut().zip(factors).for_each(|(size, factor)| *size /= factor);
     }
-    let [coordinate_error, multiplier_error, known] =
+    let [coordinate_error, multiplier_error, backward_error, known] =
         forward_errors(&mut equations.work.tangent.matrices, &system.pattern(), layout, &sizes);
     Ok(Factored {
         smallest_pivot: layout.name_of(report.smallest_pivot_unknown),
         report,
         coordinate_error,
         multiplier_error,
+        backward_error,
         errors_known: known > 0.0,
         newton: iterate(&mut equations),
     })
@@ -186,24 +190,25 @@ fn largest(start: f64, values: impl Iterator<Item = f64>) -> f64 {
     values.fold(start, |most, value| if value.abs() <= most { most } else { value.abs() })
 }
 
-/// Errors of coordinates and multipliers when a known problem is solved, and 1 if they are certain. The problem
+/// Errors of coordinates and multipliers when a known problem is solved, its backward error, and 1 if the errors are certain. The problem
 /// is the same in SI whatever the scaling: each unknown is of its size in `sizes` times a number of order one.
 fn forward_errors(
     tangents: &mut StageTangents,
     pattern: &Pattern,
     layout: &Layout,
     sizes: &[f64],
-) -> [f64; 3] {
+) -> [f64; 4] {
     let of = |system: &mut FactoredSystem| match system {
         FactoredSystem::Real(own) => forward_errors_of(&mut *own.solver, pattern, &own.values, layout, sizes),
         FactoredSystem::Complex(own) => {
             forward_errors_of(&mut *own.solver, pattern, &own.values, layout, sizes)
         }
     };
-    let worst = |[a, b, certain]: [f64; 3], own: [f64; 3]| {
-        [largest(a, [own[0]].into_iter()), largest(b, [own[1]].into_iter()), certain.min(own[2])]
+    let worst = |all: [f64; 4], own: [f64; 4]| {
+        let [a, b, c] = std::array::from_fn(|place| largest(all[place], [own[place]].into_iter()));
+        [a, b, c, all[3].min(own[3])]
     };
-    tangents.systems.iter_mut().map(of).fold([0.0, 0.0, 1.0], worst)
+    tangents.systems.iter_mut().map(of).fold([0.0, 0.0, 0.0, 1.0], worst)
 }
 
 fn forward_errors_of<S: Scalar>(
@@ -212,7 +217,7 @@ fn forward_errors_of<S: Scalar>(
     values: &[S],
     layout: &Layout,
     sizes: &[f64],
-) -> [f64; 3] {
+) -> [f64; 4] {
     let count = layout.coordinate_count();
     let mut seed = 1;
     let known: Vec<S> =
@@ -227,7 +232,24 @@ fn forward_errors_of<S: Scalar>(
         let solved = largest_of(&refined.solved, range.clone());
         if solved == 0.0 { 0.0 } else { largest_of(&refined.errors, range) / solved }
     };
-    [error(0..count), error(layout.multiplier_rows()), f64::from(u8::from(refined.converged))]
+    let backward = backward_error(pattern, values, &refined.solved, &right_hand_side);
+    [error(0..count), error(layout.multiplier_rows()), backward, f64::from(u8::from(refined.converged))]
+}
+
+/// The largest of |b - A x| / (|A| |x| + |b|) over all rows.
+fn backward_error<S: Scalar>(pattern: &Pattern, values: &[S], solved: &[S], right_hand_side: &[S]) -> f64 {
+    let absolute = |values: &[S]| -> Vec<S> {
+        values.iter().map(|value| S::from_parts(value.magnitude(), 0.0)).collect()
+    };
+    let (mut product, mut terms) = (vec![S::zero(); solved.len()], vec![S::zero(); solved.len()]);
+    pattern.multiply(values, solved, &mut product);
+    pattern.multiply(&absolute(values), &absolute(solved), &mut terms);
+    let rows = right_hand_side.iter().zip(product).zip(terms);
+    let errors = rows.map(|((&b, product), terms)| {
+        let size = terms.magnitude() + b.magnitude();
+        if size == 0.0 { 0.0 } else { (b - product).magnitude() / size }
+    });
+    largest(0.0, errors)
 }
 
 /// The next number in -1 … 1 of a linear congruential generator [Knuth 1981, section 3.3.4].

@@ -47,6 +47,7 @@ impl Table {
             "growth",
             "coordinate_error",
             "multiplier_error",
+            "backward_error",
             "errors_known",
             "iterations",
             "update",
@@ -59,15 +60,19 @@ impl Table {
             match &case.outcome {
                 Err(stopped) => {
                     fields.extend(["false".to_owned(), stopped.unknown.clone()]);
-                    fields.resize(15, String::new());
+                    fields.resize(16, String::new());
                 }
                 Ok(factored) => {
                     let newton = &factored.newton;
                     fields.extend(["true".to_owned(), newton.stopped_at.clone().unwrap_or_default()]);
                     fields.push(format!("{:e}", factored.report.relative_pivot()));
                     fields.push(factored.smallest_pivot.clone());
-                    let errors =
-                        [factored.report.growth, factored.coordinate_error, factored.multiplier_error];
+                    let errors = [
+                        factored.report.growth,
+                        factored.coordinate_error,
+                        factored.multiplier_error,
+                        factored.backward_error,
+                    ];
                     fields.extend(errors.map(|value| format!("{value:e}")));
                     fields.extend([factored.errors_known.to_string(), newton.iterations.to_string()]);
                     let attained = [newton.update, newton.residual, newton.violation];
