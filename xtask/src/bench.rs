@@ -241,6 +241,7 @@ fn scale(folder: &Path) -> Result<(), BenchError> {
         x_label: "bodies or elements".to_owned(),
         y_label: "time per step and body [µs]".to_owned(),
         curves,
+        guides: Vec::new(),
     };
     let svg = figure
         .svg()

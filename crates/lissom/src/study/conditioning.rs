@@ -223,6 +223,7 @@ impl Table {
             x_label,
             y_label: "condition number of the tangent [-]".to_owned(),
             curves,
+            guides: Vec::new(),
         }
     }
 }

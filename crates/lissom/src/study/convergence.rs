@@ -1,6 +1,8 @@
 //! Convergence of schemes: the error of one output against a reference run, over the step size, as in figure 2.4 of
 //! [Epple 2008], for any model.
 
+use std::collections::BTreeMap;
+
 use lissom_core::schemes::Scheme;
 use lissom_model::lower::Lowered;
 use lissom_model::output::LogFigure;
@@ -17,6 +19,9 @@ pub const TOLERANCE: f64 = 1e-10;
 const WHOLE: f64 = 1e-9;
 /// A last step shorter by this fraction of it is a whole step.
 const ROUNDED: f64 = 1e-6;
+
+/// Distance of a guide below the first point of a curve, as a factor.
+const GUIDE: f64 = 0.4;
 
 /// A run with this error is unrelated to the reference [-].
 const FAR: f64 = 0.5;
@@ -213,7 +218,31 @@ impl Table {
             title: title.to_owned(),
             x_label: "1 / step size [1/s]".to_owned(),
             y_label: "relative error [-]".to_owned(),
+            guides: self.guides(&curves),
             curves,
         }
+    }
+
+    /// Lines of the slopes of the schemes' orders, below the curves. The order of a scheme is the median of those observed.
+    fn guides(&self, curves: &[(String, Vec<(f64, f64)>)]) -> Vec<(String, Vec<(f64, f64)>)> {
+        let floor =
+            curves.iter().flat_map(|(_, points)| points).map(|point| point.1).fold(f64::INFINITY, f64::min);
+        let mut starts: BTreeMap<i32, (f64, f64)> = BTreeMap::new();
+        for (scheme, points) in curves {
+            let mut orders: Vec<f64> =
+                self.rows.iter().filter(|row| row.scheme == *scheme).filter_map(|row| row.order).collect();
+            orders.sort_by(f64::total_cmp);
+            let order = orders.get(orders.len() / 2).map_or(0, |order| order.round() as i32);
+            let Some(&(x, y)) = points.first().filter(|_| order > 0) else { continue };
+            let start = starts.entry(order).or_insert((x, GUIDE * y));
+            start.1 = start.1.min(GUIDE * y);
+        }
+        let right = curves.iter().flat_map(|(_, points)| points).map(|point| point.0).fold(0.0, f64::max);
+        // A guide ends within the range of the curves.
+        let guide = |(order, (x, y)): (i32, (f64, f64))| {
+            let end = right.min(x * (y / floor).powf(1.0 / f64::from(order)));
+            (format!("order {order}"), vec![(x, y), (end, y * (x / end).powi(order))])
+        };
+        starts.into_iter().filter(|(_, (_, y))| *y > floor).map(guide).collect()
     }
 }

@@ -156,6 +156,7 @@ impl Table {
             x_label: "step size [s]".to_owned(),
             y_label: "relative error and noise [-]".to_owned(),
             curves: vec![curve("error", |m| m.error), curve("noise", |m| m.noise)],
+            guides: Vec::new(),
         }
     }
 }
