@@ -98,6 +98,8 @@ enum Chore {
         #[arg(default_value = "lissom-core")]
         name: String,
     },
+    /// Measure the claims of the source of the method and write them to docs/claims.md
+    Claims,
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -233,6 +235,7 @@ fn main() -> ExitCode {
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),
+        Chore::Claims => book::claims().map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {

@@ -1,7 +1,9 @@
 //! Table of the results of `cargo xtask figures`: a name, as in a chapter's marker, and the function that makes the text.
 
 use super::fragment::Fragment;
-use super::{BookError, Studio, conditioning, convergence, factorization, roundoff, simulation, work};
+use super::{
+    BookError, Studio, claims, conditioning, convergence, factorization, roundoff, simulation, work,
+};
 
 /// Makes the text between the markers of one name.
 pub(super) struct Generator {
@@ -19,6 +21,8 @@ const fn quick(name: &'static str, make: fn(&Studio) -> Result<Fragment, BookErr
 
 /// All of them.
 pub(super) const GENERATORS: &[Generator] = &[
+    quick("claims", claims::claims),
+    quick("claims-penalty", claims::penalties),
     quick("tip-crank", simulation::tip_crank),
     quick("conditioning-steps", conditioning::steps),
     quick("conditioning-mass", conditioning::mass),

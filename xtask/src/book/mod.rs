@@ -2,6 +2,7 @@
 //! chapters, and checks markers and links. Independent of the studies.
 
 mod check;
+mod claims;
 mod conditioning;
 mod convergence;
 mod factorization;
@@ -46,6 +47,14 @@ pub(crate) enum BookError {
         example: &'static str,
         /// Why.
         reason: String,
+    },
+    /// A claim of the source agrees that did not, or does not agree that did.
+    #[error("the comparison with the claim `{claim}` has changed: {measured}")]
+    Claim {
+        /// The claim.
+        claim: &'static str,
+        /// The measurement.
+        measured: String,
     },
     /// There is no such figure.
     #[error("there is no figure `{0}`: they are {1}")]
@@ -96,6 +105,12 @@ impl Studio {
             ControlFlow::Continue(())
         }
     }
+}
+
+/// Measures the claims of the source and writes them to docs/claims.md.
+pub(crate) fn claims() -> Result<bool, BookError> {
+    let names = ["claims", "claims-penalty"].map(str::to_owned).to_vec();
+    figures(&FiguresArguments { names, long: false, check: false })
 }
 
 /// Generates or checks what is requested; whether it succeeded.

@@ -1,0 +1,450 @@
+//! The claims of [Epple 2008] about the method, each with the command that measures it, the figure, and whether they agree.
+
+use lissom::Override;
+use lissom::core::analysis::factorization_study::{Case, Factored};
+use lissom::study::conditioning::{self, Table as Conditions};
+use lissom::study::convergence;
+use lissom::study::factorization::{self, scaling_name};
+
+use super::fragment::{Fragment, overrides, study_command, texts};
+use super::numbers::{one, two};
+use super::published::{MASSES, STEPS};
+use super::{BookError, Studio};
+
+const PENDULUM: &str = "pendulum";
+const CRANK: &str = "tip-crank";
+const MASS: &str = "point_masses.bob.mass";
+const STIFFNESS: &str = "springs.spring.stiffness";
+
+/// Columns of condition numbers.
+const NONE: usize = 0;
+const UNIT: usize = 1;
+const PHYSICAL: usize = 2;
+/// Largest ratio of condition numbers that are called independent of a parameter.
+const FLAT: f64 = 2.0;
+/// Distance of an exponent or order from the expected one.
+const EXPONENT: f64 = 0.15;
+/// Ends of the axis of figure 2.3 [m].
+const AXIS: [f64; 2] = [-4e-3, 12e-3];
+/// Lateral displacement at the onset of buckling [m].
+const ONSET: f64 = 1e-4;
+/// Violation of a constraint that is round-off [m].
+const ROUNDOFF: f64 = 1e-12;
+
+/// A claim and its measurement.
+struct Claim {
+    source: &'static str,
+    measured: String,
+    agrees: bool,
+    /// Whether it is known to agree: a difference from this is a failure of the command.
+    expected: bool,
+    command: String,
+}
+
+/// All claims as a table.
+///
+/// # Errors
+/// If a measurement fails, or a claim agrees that did not, or does not agree that did.
+pub(super) fn claims(studio: &Studio) -> Result<Fragment, BookError> {
+    let mut claims = Vec::new();
+    over_step(studio, &mut claims)?;
+    over_mass_and_stiffness(studio, &mut claims)?;
+    of_schemes(studio, &mut claims)?;
+    buckling(studio, &mut claims)?;
+    elimination(studio, &mut claims)?;
+    orders(studio, &mut claims)?;
+    drift(studio, &mut claims)?;
+    let mut fragment = Fragment::default();
+    let rows: Vec<Vec<String>> = claims
+        .iter()
+        .map(|claim| {
+            let agrees = if claim.agrees { "yes" } else { "**no**" };
+            let command = format!("`{}`", claim.command);
+            vec![claim.source.to_owned(), claim.measured.clone(), agrees.to_owned(), command]
+        })
+        .collect();
+    fragment.table(&["claim", "measured", "agrees", "command"], &rows);
+    match claims.iter().find(|claim| claim.agrees != claim.expected) {
+        Some(claim) => Err(BookError::Claim { claim: claim.source, measured: claim.measured.clone() }),
+        None => Ok(fragment),
+    }
+}
+
+/// Condition numbers of a column, in the order of the rows.
+fn column(table: &Conditions, scaling: usize) -> Vec<f64> {
+    let of =
+        |row: &conditioning::Row| row.outcome.as_ref().map_or(f64::NAN, |found| found.conditions[scaling]);
+    table.rows.iter().map(of).collect()
+}
+
+/// Smallest and largest value; not a number if a value is none.
+fn extremes(values: &[f64]) -> (f64, f64) {
+    if values.iter().any(|value| value.is_nan()) {
+        return (f64::NAN, f64::NAN);
+    }
+    let fold = |of: fn(f64, f64) -> f64| values.iter().copied().fold(f64::NAN, of);
+    (fold(f64::min), fold(f64::max))
+}
+
+/// Lengths in millimetres with one decimal.
+fn in_millimetres((least, most): (f64, f64)) -> (f64, f64) {
+    // Zero is added so that it has no sign.
+    let round = |value: f64| (1e4 * value).round() / 10.0 + 0.0;
+    (round(least), round(most))
+}
+
+/// Largest over smallest value.
+fn spread(values: &[f64]) -> f64 {
+    let (least, most) = extremes(values);
+    most / least
+}
+
+/// Exponent of values between the first and the last of `at`.
+fn exponent(values: &[f64], at: &[f64]) -> f64 {
+    let [from, to] = [0, values.len() - 1];
+    (values[to] / values[from]).ln() / (at[to] / at[from]).ln()
+}
+
+fn condition(
+    studio: &Studio,
+    example: &str,
+    steps: &[&str],
+    vary: Option<(&str, &[&str])>,
+    set: &[(&str, &str)],
+) -> Result<(Conditions, String), BookError> {
+    let request = conditioning::Request {
+        steps: texts(steps),
+        vary: vary.map(|(path, values)| (path.to_owned(), texts(values))),
+        overrides: overrides(set),
+    };
+    let steps = steps.join(",");
+    let varied = vary.map(|(path, values)| format!("{path}={}", values.join(",")));
+    let mut options = vec![("steps", steps.as_str())];
+    options.extend(varied.as_deref().map(|varied| ("vary", varied)));
+    let command = study_command("conditioning", example, &options, &request.overrides);
+    Ok((conditioning::study(&studio.example(example)?, &request, &studio.watch())?, command))
+}
+
+fn numbers(texts: &[&str]) -> Vec<f64> {
+    texts.iter().map(|text| text.parse().unwrap_or(f64::NAN)).collect()
+}
+
+fn over_step(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let steps = STEPS.map(|(step, _)| step);
+    let (table, command) = condition(studio, PENDULUM, &steps, None, &[])?;
+    let none = exponent(&column(&table, NONE), &numbers(&steps));
+    let printed = numbers(&STEPS.map(|(_, values)| values[NONE]));
+    let ratios: Vec<f64> =
+        column(&table, NONE).iter().zip(printed).map(|(ours, printed)| ours / printed).collect();
+    let ratio = extremes(&ratios);
+    claims.push(Claim {
+        source: "table 2.1: without scaling, κ grows as h⁻⁴",
+        measured: format!("h^{none:.2}; {:.1} to {:.1} times the printed values", ratio.0, ratio.1),
+        agrees: (none + 4.0).abs() < EXPONENT,
+        expected: true,
+        command: command.clone(),
+    });
+    let flat = [UNIT, PHYSICAL].map(|scaling| spread(&column(&table, scaling)));
+    claims.push(Claim {
+        source: "table 2.1: with s = 1 and with s of eq. (2.6), κ is independent of h",
+        measured: format!("largest / smallest κ over four decades of h: {:.2} and {:.2}", flat[0], flat[1]),
+        agrees: flat.iter().all(|&ratio| ratio < FLAT),
+        expected: true,
+        command,
+    });
+    Ok(())
+}
+
+fn over_mass_and_stiffness(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let masses = MASSES.map(|(mass, _)| mass);
+    let (table, command) = condition(studio, PENDULUM, &["1e-2"], Some((MASS, &masses)), &[])?;
+    let none = exponent(&column(&table, NONE), &numbers(&masses));
+    // From 1 kg on: lighter masses are below s = 1.
+    let unit = exponent(&column(&table, UNIT)[3..], &numbers(&masses)[3..]);
+    let physical = spread(&column(&table, PHYSICAL));
+    claims.push(Claim {
+        source: "table 2.2: κ grows with the mass without scaling and with s = 1, as m² for large masses",
+        measured: format!("m^{none:.2} and m^{unit:.2}"),
+        agrees: (none - 2.0).abs() < EXPONENT && (unit - 2.0).abs() < EXPONENT,
+        expected: true,
+        command: command.clone(),
+    });
+    claims.push(Claim {
+        source: "table 2.2: with s of eq. (2.6), κ is independent of the mass",
+        measured: format!("largest / smallest κ over six decades: {physical:.2}"),
+        agrees: physical < FLAT,
+        expected: true,
+        command,
+    });
+    let stiffnesses = ["1e-1", "1e0", "1e1", "1e2", "1e3", "1e4"];
+    let (table, command) = condition(studio, PENDULUM, &["1e-2"], Some((STIFFNESS, &stiffnesses)), &[])?;
+    let physical = spread(&column(&table, PHYSICAL));
+    claims.push(Claim {
+        source: "similar results if the stiffness is varied",
+        measured: format!("largest / smallest κ with (2.6) over five decades: {physical:.2}"),
+        agrees: physical < FLAT,
+        expected: true,
+        command,
+    });
+    let label = |table: &[super::published::Row], name: &str| {
+        table.iter().find(|(label, _)| *label == name).map_or("", |(_, values)| values[NONE])
+    };
+    let rows = [label(&STEPS, "1e-2"), label(&MASSES, "1e0")];
+    claims.push(Claim {
+        source: "tables 2.1 and 2.2 have one case in common: 1 kg, h = 0.01 s",
+        measured: format!(
+            "printed without scaling: {} and {}; the tables contradict each other",
+            rows[0], rows[1]
+        ),
+        agrees: rows[0] == rows[1],
+        expected: false,
+        command: "cargo xtask figures conditioning-contradiction".to_owned(),
+    });
+    Ok(())
+}
+
+fn of_schemes(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let mut ratios = Vec::new();
+    let mut command = String::new();
+    for scheme in ["generalized-alpha", "hht", "radau-iia", "energy-decaying"] {
+        // The parameter of the scheme in the model is for generalized-α.
+        let set = [("analysis.scheme", scheme), ("analysis.end", "0.1")];
+        let (table, own) = condition(studio, PENDULUM, &["1e-2", "1e-3", "1e-4", "1e-5"], None, &set)?;
+        ratios.push((scheme, spread(&column(&table, PHYSICAL))));
+        command = own;
+    }
+    let listed: Vec<String> = ratios.iter().map(|(scheme, ratio)| format!("{scheme} {ratio:.2}")).collect();
+    claims.push(Claim {
+        source: "scaling before discretisation benefits all schemes",
+        measured: format!("largest / smallest κ over three decades of h: {}", listed.join(", ")),
+        agrees: ratios.iter().all(|(_, ratio)| *ratio < FLAT),
+        expected: true,
+        command,
+    });
+    Ok(())
+}
+
+fn buckling(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let (columns, _) = midspan(studio, &[])?;
+    let [times, u1, u2, u3] = columns;
+    let onset = times.iter().zip(&u2).find(|(_, u2)| u2.abs() > ONSET).map_or(f64::NAN, |(time, _)| *time);
+    let command = format!("lissom run examples/{CRANK}.toml");
+    claims.push(Claim {
+        source: "figure 2.3: the beam buckles laterally at about 0.05 s",
+        measured: format!("u2 exceeds 0.1 mm at {onset:.3} s"),
+        agrees: (onset - 0.05).abs() < 0.01,
+        expected: true,
+        command: command.clone(),
+    });
+    let is_inside = |values: &[f64]| values.iter().all(|value| *value >= AXIS[0] && *value <= AXIS[1]);
+    let [of_u1, of_u2, of_u3] = [&u1, &u2, &u3].map(|values| in_millimetres(extremes(values)));
+    claims.push(Claim {
+        source: "figure 2.3: u1 and u3 are within its axis, -4 to 12 mm",
+        measured: format!("{:.1} to {:.1} mm and {:.1} to {:.1} mm", of_u1.0, of_u1.1, of_u3.0, of_u3.1),
+        agrees: is_inside(&u1) && is_inside(&u3),
+        expected: true,
+        command: command.clone(),
+    });
+    claims.push(Claim {
+        source: "figure 2.3: so is u2",
+        measured: format!("{:.1} to {:.1} mm", of_u2.0, of_u2.1),
+        agrees: is_inside(&u2),
+        expected: false,
+        command,
+    });
+    Ok(())
+}
+
+/// Times [s] and displacements u1, u2, u3 at mid-span [m] of a complete run, and the largest violation of a constraint [m].
+fn midspan(studio: &Studio, set: &[(&str, &str)]) -> Result<([Vec<f64>; 4], f64), BookError> {
+    let fail = |reason: String| BookError::Run { example: CRANK, reason };
+    let mut session =
+        studio.example(CRANK)?.session(&overrides(set)).map_err(|error| fail(error.to_string()))?;
+    let (record, report) = session.record();
+    if let Some(error) = report.error() {
+        return Err(fail(error.to_string()));
+    }
+    let of = |component: &str| record.column("midspan", component).map(<[f64]>::to_vec).unwrap_or_default();
+    Ok(([record.times.clone(), of("u1"), of("u2"), of("u3")], report.violation))
+}
+
+fn elimination(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let command = study_command("factorization", CRANK, &[], &[]);
+    let table = factorization::study(&studio.example(CRANK)?, &[])?;
+    let case = |scaling: &str, augmented: bool| {
+        let is_it = |case: &&Case| {
+            case.solver == "skyline" && case.augmented == augmented && scaling_name(case) == scaling
+        };
+        table.cases.iter().find(is_it)
+    };
+    let stop = case("none", false).and_then(|case| case.outcome.as_ref().err());
+    claims.push(Claim {
+        source: "without the augmented term, the skyline solver fails at the first iteration of the first step",
+        measured: stop.map_or("it has factors".to_owned(), |stop| format!("stops at the {}", stop.unknown)),
+        agrees: stop.is_some(),
+        expected: true,
+        command: command.clone(),
+    });
+    let unscaled = factors(case("none", true))?;
+    let scaled = factors(case("physical", true))?;
+    claims.push(Claim {
+        source: "with it, but without scaling, the skyline solver factors the tangent",
+        measured: format!("smallest / largest pivot {}", one(unscaled.report.relative_pivot())),
+        agrees: true,
+        expected: true,
+        command: command.clone(),
+    });
+    let set = [("analysis.scaling", "none"), ("analysis.solver", "skyline")];
+    let ([_, _, plain, _], _) = midspan(studio, &[])?;
+    let ([_, _, without, _], _) = midspan(studio, &set)?;
+    let apart = plain.iter().zip(&without).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    claims.push(Claim {
+        source: "... but the iterations do not converge, because of the conditioning",
+        measured: format!(
+            "they converge: residual {} N in the first step, as with scaling ({} N); all 800 steps, u2 differs by {} m",
+            one(unscaled.newton.residual),
+            one(scaled.newton.residual),
+            one(apart)
+        ),
+        // A run that completes does not agree with it.
+        agrees: unscaled.newton.residual > 10.0 * scaled.newton.residual,
+        expected: false,
+        command: format!("lissom run examples/{CRANK}.toml --set analysis.scaling=none --set analysis.solver=skyline"),
+    });
+    claims.push(Claim {
+        source: "with it and with scaling, factorisation without pivoting is safe",
+        measured: format!(
+            "backward error {} (without scaling {}); all 800 steps",
+            one(scaled.backward_error),
+            one(unscaled.backward_error)
+        ),
+        agrees: scaled.backward_error < 1e-11,
+        expected: true,
+        command,
+    });
+    Ok(())
+}
+
+fn factors(case: Option<&Case>) -> Result<&Factored, BookError> {
+    let found = case.and_then(|case| case.outcome.as_ref().ok());
+    found.ok_or_else(|| BookError::Run {
+        example: CRANK,
+        reason: "the augmented tangent has no factors".to_owned(),
+    })
+}
+
+/// Backward errors and results of Newton's method in the first step without scaling, by the weight of the augmented term.
+pub(super) fn penalties(studio: &Studio) -> Result<Fragment, BookError> {
+    let model = studio.example(CRANK)?;
+    let (mut commands, mut rows) = (Vec::new(), Vec::new());
+    for penalty in ["1", "1e-3", "1e-6", "1e-9"] {
+        let set: Vec<Override> = overrides(&[("analysis.penalty", penalty)]);
+        commands.push(study_command("factorization", CRANK, &[], &set));
+        let table = factorization::study(&model, &set)?;
+        let mut line = vec![penalty.to_owned()];
+        for scaling in ["none", "physical", "equilibrated"] {
+            let is_it =
+                |case: &&Case| case.solver == "skyline" && case.augmented && scaling_name(case) == scaling;
+            let found = factors(table.cases.iter().find(is_it))?;
+            line.extend([found.backward_error, found.newton.violation].map(one));
+        }
+        rows.push(line);
+    }
+    let mut fragment = Fragment::default();
+    fragment.commands(&commands);
+    let heading = [
+        "p",
+        "none: backward error",
+        "violation [m]",
+        "s of (2.6): backward error",
+        "violation [m]",
+        "equilibrated: backward error",
+        "violation [m]",
+    ];
+    fragment.table(&heading, &rows);
+    Ok(fragment)
+}
+
+fn orders(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let schemes = [("radau-iia", 3.0), ("energy-decaying", 3.0), ("hht(-0.3)", 2.0)];
+    let names = schemes.map(|(name, _)| name);
+    let steps = ["2e-3", "1e-3", "5e-4", "1e-4", "1e-5"];
+    let request = convergence::Request {
+        schemes: texts(&names),
+        steps: texts(&steps),
+        reference: ("radau-iia".to_owned(), "5e-6".to_owned()),
+        output: "midspan.u2".to_owned(),
+        overrides: overrides(&[("analysis.end", "0.1")]),
+    };
+    let (listed, written) = (names.join(","), steps.join(","));
+    let options = [
+        ("schemes", listed.as_str()),
+        ("steps", &written),
+        ("reference", "radau-iia:5e-6"),
+        ("output", "midspan.u2"),
+    ];
+    let command = study_command("convergence", CRANK, &options, &request.overrides);
+    let table = convergence::study(&studio.example(CRANK)?, &request, &studio.watch())?;
+    let rows = |scheme: &str| table.rows.iter().filter(move |row| row.scheme == scheme).collect::<Vec<_>>();
+    let order = |scheme: &str| rows(scheme).get(1).and_then(|row| row.order).unwrap_or(f64::NAN);
+    let observed: Vec<String> = names.iter().map(|name| format!("{name} {:.2}", order(name))).collect();
+    claims.push(Claim {
+        source: "figure 2.4: the three schemes converge with their orders: 3 for Radau IIA, 2 for HHT-α",
+        measured: format!("{} from 2 to 1 ms", observed.join(", ")),
+        agrees: schemes.iter().all(|(name, expected)| (order(name) - expected).abs() < EXPONENT),
+        expected: true,
+        command: command.clone(),
+    });
+    let errors = |scheme: &str| -> Vec<f64> {
+        rows(scheme).iter().map(|row| *row.outcome.as_ref().unwrap_or(&f64::NAN)).collect()
+    };
+    let last: Vec<String> = names
+        .iter()
+        .map(|name| format!("{name} {}", errors(name).last().copied().map_or(String::new(), two)))
+        .collect();
+    claims.push(Claim {
+        source: "figure 2.4: they converge even for very small steps",
+        measured: format!("errors decrease down to h = 10 µs: {}", last.join(", ")),
+        agrees: names.iter().all(|name| errors(name).windows(2).all(|pair| pair[1] < pair[0])),
+        expected: true,
+        command,
+    });
+    Ok(())
+}
+
+fn drift(studio: &Studio, claims: &mut Vec<Claim>) -> Result<(), BookError> {
+    let set = [("analysis.step", "1e-4"), ("analysis.end", "20"), ("analysis.output_every", "1000")];
+    let fail = |reason: String| BookError::Run { example: PENDULUM, reason };
+    let mut session =
+        studio.example(PENDULUM)?.session(&overrides(&set)).map_err(|error| fail(error.to_string()))?;
+    let (_, report) = session.record();
+    if let Some(error) = report.error() {
+        return Err(fail(error.to_string()));
+    }
+    claims.push(Claim {
+        source: "index-3 equations that are solved directly do not drift",
+        measured: format!("violation after 200 000 steps: below {} m", one(report.violation.max(1e-16))),
+        agrees: report.violation < ROUNDOFF,
+        expected: true,
+        command: format!(
+            "lissom run examples/{PENDULUM}.toml{}",
+            set.map(|(path, value)| format!(" --set {path}={value}")).concat()
+        ),
+    });
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_and_spreads_are_measured() {
+        assert!((exponent(&[1.0, 16.0, 256.0], &[4.0, 2.0, 1.0]) + 4.0).abs() < 1e-12);
+        assert!((spread(&[2.0, 8.0, 4.0]) - 4.0).abs() < 1e-12);
+        // A failed run makes a claim fail.
+        assert!(spread(&[2.0, f64::NAN]).is_nan());
+        assert_eq!(in_millimetres((-4.549_7e-2, -1e-9)), (-45.5, 0.0));
+        assert!(exponent(&[f64::NAN, 1.0], &[1.0, 2.0]).is_nan());
+    }
+}
