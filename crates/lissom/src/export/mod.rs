@@ -2,6 +2,7 @@
 
 mod buffer;
 mod gltf;
+mod netcdf;
 pub(crate) mod npy;
 mod npz;
 mod parquet;
@@ -52,7 +53,7 @@ pub struct Format {
 }
 
 /// All formats.
-pub static FORMATS: &[Format] = &[gltf::FORMAT, npz::FORMAT, parquet::FORMAT, vtk::FORMAT];
+pub static FORMATS: &[Format] = &[gltf::FORMAT, netcdf::FORMAT, npz::FORMAT, parquet::FORMAT, vtk::FORMAT];
 
 /// Files of earlier exports in a folder of results.
 pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {

@@ -208,7 +208,7 @@ fn series_hold_sections_with_their_forces() {
         fs::read_dir(folder.path().join("out/vtk")).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(left, ["mine.csv"]);
     for (args, words) in [
-        (vec!["export", "out", "--format", "step"], "possible values: gltf, npz, parquet, vtk, urdf"),
+        (vec!["export", "out", "--format", "step"], "possible values: gltf, netcdf, npz, parquet, vtk, urdf"),
         (vec!["export", "nowhere", "--format", "npz"], "history.csv"),
         (vec!["export", "bar.toml", "--format", "npz"], "specify a folder of results"),
         (vec!["export", "out", "--format", "npz", "--frames", "0"], "0 is not in"),
@@ -217,4 +217,81 @@ fn series_hold_sections_with_their_forces() {
         assert_eq!(export.code, 2, "{args:?}");
         assert!(export.errors.contains(words), "{args:?} {}", export.errors);
     }
+}
+
+/// A reader of the header of a NetCDF file.
+struct Header<'a>(&'a [u8], usize);
+
+impl Header<'_> {
+    fn number(&mut self) -> usize {
+        self.1 += 4;
+        u32::from_be_bytes(number(self.0, self.1 - 4)) as usize
+    }
+
+    fn text(&mut self) -> String {
+        let length = self.number();
+        let text = String::from_utf8(self.0[self.1..self.1 + length].to_vec()).unwrap();
+        self.1 += length.next_multiple_of(4);
+        text
+    }
+
+    fn attributes(&mut self) -> Vec<(String, String)> {
+        let tag = self.number();
+        let count = self.number();
+        assert_eq!(tag, if count == 0 { 0 } else { 12 });
+        let mut all = Vec::new();
+        for _ in 0..count {
+            let name = self.text();
+            assert_eq!(self.number(), 2);
+            all.push((name, self.text()));
+        }
+        all
+    }
+}
+
+#[test]
+fn netcdf_holds_the_table_and_the_motion() {
+    let folder = Folder::new("export-netcdf");
+    run_four_bar(&folder);
+    let export = lissom(&["export", "out", "--format", "netcdf"], folder.path());
+    assert_eq!((export.code, export.output.trim()), (0, "out/results.nc"), "{}", export.errors);
+    let bytes = fs::read(folder.path().join("out/results.nc")).unwrap();
+    assert!(bytes.starts_with(b"CDF\x02"));
+    let mut header = Header(&bytes, 4);
+    assert_eq!((header.number(), header.number()), (0, 10));
+    let dimensions: Vec<(String, usize)> =
+        (0..header.number()).map(|_| (header.text(), header.number())).collect();
+    assert!(header.attributes()[0].1.starts_with("lissom "));
+    assert_eq!(header.number(), 11);
+    let mut variables = Vec::new();
+    for _ in 0..header.number() {
+        let name = header.text();
+        let shape: Vec<usize> = (0..header.number()).map(|_| dimensions[header.number()].1).collect();
+        let attributes = header.attributes();
+        let (kind, size) = (header.number(), header.number());
+        let begin = u64::from_be_bytes(number(&bytes, header.1)) as usize;
+        header.1 += 8;
+        let width = if kind == 6 { 8 } else { 1 };
+        assert_eq!(size, (width * shape.iter().product::<usize>()).next_multiple_of(4), "{name}");
+        variables.push((name, attributes, begin, size));
+    }
+    let last = variables.last().unwrap();
+    assert_eq!((variables[0].2, last.2 + last.3), (header.1, bytes.len()));
+    let values = |wanted: &str| -> Vec<f64> {
+        let (_, _, begin, size) = variables.iter().find(|variable| variable.0 == wanted).unwrap();
+        bytes[*begin..begin + size]
+            .chunks(8)
+            .map(|value| f64::from_be_bytes(value.try_into().unwrap()))
+            .collect()
+    };
+    let out = folder.path().join("out");
+    let table = Record::from_csv(&fs::read_to_string(out.join("history.csv")).unwrap()).unwrap();
+    assert_eq!(values("time"), table.times);
+    for (column, recorded) in table.columns.iter().zip(&table.values) {
+        assert_eq!(&values(&column.name()), recorded, "{}", column.name());
+    }
+    let time = &variables[0];
+    assert_eq!(time.1, [("units".to_owned(), "s".to_owned())]);
+    let rotations = values("rotation");
+    assert!(rotations.chunks(4).all(|q| (q.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() < 1e-6));
 }
