@@ -11,7 +11,12 @@ use crate::terminal;
 /// The model, complete except for its title.
 const TEMPLATE: &str = include_str!("new_model.toml");
 
+/// Schema of model files beside the model, which its first line names for editors.
+const SCHEMA: &str = "lissom.schema.json";
+
 /// Write a commented model to start from: a slider crank with a flexible rod.
+///
+/// The JSON schema of model files is written beside it, for completion in editors, unless there is one.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -42,7 +47,14 @@ impl New {
         // Quoted as TOML text, because it may contain any letters.
         let title = stem.replace('\\', "\\\\").replace('"', "\\\"");
         let text = TEMPLATE.replace("@title@", &title);
-        files::write(&path, text.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
+        let write = |path: &Path, text: &str| {
+            files::write(path, text.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))
+        };
+        write(&path, &text)?;
+        let schema = path.with_file_name(SCHEMA);
+        if !schema.exists() {
+            write(&schema, &super::schema::text())?;
+        }
         terminal::print(&render(&path));
         Ok(Exit::Done)
     }

@@ -20,7 +20,12 @@ impl Schema {
     // All commands have one signature.
     #[expect(clippy::unused_self, clippy::unnecessary_wraps)]
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        terminal::print(&format!("{:#}\n", lissom_model::schema(&registry())));
+        terminal::print(&text());
         Ok(Exit::Done)
     }
+}
+
+/// The schema.
+pub(super) fn text() -> String {
+    format!("{:#}\n", lissom_model::schema(&registry()))
 }

@@ -12,6 +12,11 @@ fn a_new_model_runs_as_it_is() {
     let made = lissom(&["new", "press"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
     assert!(made.output.contains("lissom view press.toml --open"), "{}", made.output);
+    // The first line names a schema for editors, which is there.
+    let text = fs::read_to_string(folder.path().join("press.toml")).unwrap();
+    let schema = text.lines().next().unwrap().strip_prefix("#:schema ./").unwrap();
+    let schema = fs::read_to_string(folder.path().join(schema)).unwrap();
+    assert_eq!(schema, lissom(&["schema"], folder.path()).output);
     let check = lissom(&["check", "press.toml"], folder.path());
     assert_eq!((check.code, check.errors.as_str()), (0, ""), "{}", check.output);
     let run = lissom(&["run", "press.toml", "--no-plots", "--quiet"], folder.path());
