@@ -123,7 +123,7 @@ fn file(dimensions: &[(&str, usize)], variables: &[Variable]) -> Result<Vec<u8>,
         begin += variable.bytes.len() as u64;
     }
     let mut bytes = header(dimensions, variables, &begins);
-    variables.iter().for_each(|variable| bytes.extend(&variable.bytes));
+    bytes.extend(variables.iter().flat_map(|variable| &variable.bytes));
     Ok(bytes)
 }
 
@@ -142,9 +142,13 @@ fn header(dimensions: &[(&str, usize)], variables: &[Variable], begins: &[u64]) 
     for (variable, begin) in variables.iter().zip(begins) {
         text(&mut bytes, &variable.name);
         number(&mut bytes, variable.dimensions.len() as u32);
-        variable.dimensions.iter().for_each(|&dimension| number(&mut bytes, dimension));
+        for &dimension in &variable.dimensions {
+            number(&mut bytes, dimension);
+        }
         list(&mut bytes, ATTRIBUTES, variable.attributes.len());
-        variable.attributes.iter().for_each(|(name, value)| attribute(&mut bytes, name, value));
+        for (name, value) in &variable.attributes {
+            attribute(&mut bytes, name, value);
+        }
         number(&mut bytes, variable.kind);
         number(&mut bytes, variable.bytes.len() as u32);
         bytes.extend(begin.to_be_bytes());
