@@ -24,6 +24,7 @@ export const connect = (viewer) => {
     $("ortho").setAttribute("aria-pressed", String(stage.isOrthographic));
   };
   on("ortho", "click", ortho);
+  on("fit", "click", () => viewer.model && stage.fit());
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => viewer.model && viewer.look(button.dataset.view));
   }
@@ -68,6 +69,7 @@ export const connect = (viewer) => {
     "=": () => player.faster(true),
     l: loop,
     o: ortho,
+    a: () => viewer.model && stage.fit(),
     d: theme,
     c: nextColour,
     f: () => follow(!viewer.choices.follow),

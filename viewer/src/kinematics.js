@@ -244,6 +244,17 @@ export class Kinematics {
     return { low: low.map((x) => x - room), high: high.map((x) => x + room) };
   }
 
+  /** Whether a node turns by more than this about another axis than the one of this number, as wheels and shafts do in a plane. */
+  turnsOutOfPlane(axis, angle = 0.1) {
+    if (this.mode) return false;
+    const { rotations } = this.motion;
+    for (let at = 0; at < rotations.length; at += 3) {
+      const about = Math.hypot(...[0, 1, 2].filter((k) => k !== axis).map((k) => rotations[at + k]));
+      if (about > angle) return true;
+    }
+    return false;
+  }
+
   /** Places of a carried point in all frames, one after the other. */
   path(anchor) {
     // A mode has a period of 48 places instead of frames.

@@ -11,6 +11,20 @@ import { shade } from "./theme.js";
 
 const spaced = (kind) => kind.replaceAll("_", " ");
 
+/** Points of the drawn geometry over the motion, about so many at most. */
+const MAX_POINTS = 120000;
+/** Vertices that represent a solid. */
+const MAX_CORNERS = 64;
+
+/** Vertices that represent a geometry: all, or some at equal distances. */
+const corners = ({ attributes }) => {
+  const { count } = attributes.position;
+  const stride = Math.max(1, Math.floor(count / MAX_CORNERS));
+  return Array.from({ length: Math.ceil(count / stride) }, (_, k) => k * stride);
+};
+
+const isShown = (object) => object === null || (object.visible && isShown(object.parent));
+
 export class ModelView {
   constructor(scene, kinematics, stage, theme, choices) {
     this.scene = scene;
@@ -149,6 +163,33 @@ export class ModelView {
         else drawn.paint((out) => shade(share(value), out), own);
       }
     }
+  }
+
+  /** Points of all that is drawn, at so many instants of the motion as are cheap. */
+  points() {
+    const { kinematics } = this;
+    const { time } = kinematics;
+    const { start, end, motion } = kinematics;
+    const sources = [];
+    this.group.traverse((mesh) => mesh.isMesh && sources.push([mesh, corners(mesh.geometry)]));
+    const count = sources.reduce((sum, [, indices]) => sum + indices.length, 0);
+    const instants = end > start ? Math.min(Math.max(Math.floor(MAX_POINTS / count), 8), 48, Math.max(motion.frames, 24)) : 1;
+    const found = [];
+    const at = new THREE.Vector3();
+    for (let k = 0; k < instants; k++) {
+      kinematics.set(start + ((end - start) * k) / Math.max(instants - 1, 1));
+      for (const drawn of this.moving) drawn.update();
+      this.group.updateMatrixWorld(true);
+      for (const [mesh, indices] of sources) {
+        if (!isShown(mesh)) continue;
+        for (const index of indices) {
+          at.fromBufferAttribute(mesh.geometry.attributes.position, index).applyMatrix4(mesh.matrixWorld);
+          found.push(at.x, at.y, at.z);
+        }
+      }
+    }
+    kinematics.set(time);
+    return new Float32Array(found.length ? found : [0, 0, 0]);
   }
 
   /** Marks a part; none for nothing. */

@@ -12,6 +12,11 @@ const drawsInSoftware = () => {
   return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
 };
 
+/** Half of the angle of view [rad]. */
+const HALF_ANGLE = (16 * Math.PI) / 180;
+/** Share of the height and the width of the picture that the drawn geometry may fill. */
+const FILLED = 0.8;
+
 export class Stage {
   constructor(holder, changed) {
     this.holder = holder;
@@ -24,11 +29,16 @@ export class Stage {
     this.hemisphere = new THREE.HemisphereLight(0xffffff, 0x888888, 1.7);
     this.sun = new THREE.DirectionalLight(0xffffff, 1.9);
     this.scene.add(this.hemisphere, this.sun, this.sun.target);
-    this.perspective = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
+    this.perspective = new THREE.PerspectiveCamera((360 * HALF_ANGLE) / Math.PI, 1, 0.01, 1000);
     this.orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, -1000, 1000);
     this.camera = this.perspective;
     this.centre = new THREE.Vector3();
     this.size = 1;
+    this.filled = FILLED;
+    /** Points of the drawn geometry over the motion, one after the other. */
+    this.points = new Float32Array();
+    /** Whether the camera is where `look` has put it, so that it follows the size of the window. */
+    this.isFramed = false;
     this.up = new THREE.Vector3(0, 0, 1);
     this.gizmo = holder.querySelector(".gizmo");
     new ResizeObserver(() => this.resize()).observe(holder);
@@ -49,6 +59,7 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.target.copy(this.centre);
     this.controls.addEventListener("change", this.changed);
+    this.controls.addEventListener("start", () => (this.isFramed = false));
   }
 
   resize() {
@@ -58,13 +69,14 @@ export class Stage {
     this.perspective.aspect = width / height;
     this.perspective.updateProjectionMatrix();
     this.fitOrthographic();
+    if (this.isFramed) this.look(this.direction, this.upward);
     this.changed();
   }
 
   /** The orthographic camera sees as much as the other one at the same distance. */
   fitOrthographic() {
     const { clientWidth: width, clientHeight: height } = this.holder;
-    const half = this.camera.position.distanceTo(this.controls.target) * Math.tan((16 * Math.PI) / 180);
+    const half = this.camera.position.distanceTo(this.controls.target) * Math.tan(HALF_ANGLE);
     const o = this.orthographic;
     [o.left, o.right, o.top, o.bottom] = [(-half * width) / height, (half * width) / height, half, -half];
     o.near = -20 * this.size;
@@ -91,17 +103,39 @@ export class Stage {
     this.changed();
   }
 
-  /** Puts ground and axes around what lies between two corners. */
-  surround({ low, high }, up, theme) {
-    this.low = new THREE.Vector3(...low);
-    this.high = new THREE.Vector3(...high);
-    this.centre.copy(this.low).add(this.high).multiplyScalar(0.5);
-    this.size = Math.max(this.high.clone().sub(this.low).length(), 1e-9);
+  /** The size of what lies between two corners, by which symbols are drawn, and the direction that is upward. */
+  measure({ low, high }, up) {
+    this.size = Math.max(Math.hypot(...high.map((x, k) => x - low[k])), 1e-9);
     this.up.copy(up);
+  }
+
+  /** Puts ground and axes around the points of the drawn geometry. `ground` is the height of a plane on which parts roll. */
+  surround(points, ground, theme) {
+    this.points = points;
+    this.ground = ground;
+    const box = new THREE.Box3();
+    const at = new THREE.Vector3();
+    for (let k = 0; k < points.length; k += 3) box.expandByPoint(at.fromArray(points, k));
+    [this.low, this.high] = [box.min, box.max];
+    box.getCenter(this.centre);
     this.perspective.near = this.size / 500;
     this.perspective.far = this.size * 60;
     this.perspective.updateProjectionMatrix();
     this.dress(theme);
+  }
+
+  /** Whether some of the drawn geometry is out of the picture, or it fills less than a third of it. */
+  isPoorlyFramed() {
+    this.camera.updateMatrixWorld();
+    const seen = new THREE.Vector3();
+    const [low, high] = [new THREE.Vector2(Infinity, Infinity), new THREE.Vector2(-Infinity, -Infinity)];
+    for (let k = 0; k < this.points.length; k += 3) {
+      seen.fromArray(this.points, k).project(this.camera);
+      low.min(seen);
+      high.max(seen);
+    }
+    const { x, y } = high.clone().sub(low);
+    return Math.max(-low.x, -low.y, high.x, high.y) > 1 || Math.max(x, y) < 0.67;
   }
 
   dress(theme) {
@@ -121,7 +155,7 @@ export class Stage {
     this.grid = new THREE.GridHelper(cells * step, cells, theme.gridMain, theme.grid);
     this.grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), this.up);
     const snapped = this.centre.clone().divideScalar(step).round().multiplyScalar(step);
-    const lowest = this.lowest() - 0.06 * this.size;
+    const lowest = this.ground ?? this.lowest();
     snapped.addScaledVector(this.up, lowest - snapped.dot(this.up));
     this.grid.position.copy(snapped);
     this.grid.raycast = () => {};
@@ -138,23 +172,52 @@ export class Stage {
     return of(0) + of(1) + of(2);
   }
 
-  /** Looks along `direction`, from so far that all is seen. */
+  /** Looks along `direction`, with all points of `surroundings` in the picture. */
   look(direction, up = this.up) {
+    this.direction = direction;
+    this.upward = up;
     const away = new THREE.Vector3(...direction).normalize();
-    const { clientWidth: width, clientHeight: height } = this.holder;
-    const half = this.high.clone().sub(this.low).multiplyScalar(0.5);
     this.camera.up.copy(up);
     const right = new THREE.Vector3().crossVectors(up, away).normalize();
     const above = new THREE.Vector3().crossVectors(away, right);
-    const reach = (axis) => Math.abs(axis.x * half.x) + Math.abs(axis.y * half.y) + Math.abs(axis.z * half.z) + 0.05 * this.size;
-    const needed = Math.max(reach(above), (reach(right) * height) / Math.max(width, 1));
-    const distance = (1.08 * needed) / Math.tan((16 * Math.PI) / 180) + reach(away);
-    this.controls.target.copy(this.centre);
-    this.camera.position.copy(this.centre).addScaledVector(away, distance);
+    const { clientWidth: width, clientHeight: height } = this.holder;
+    const slope = this.filled * Math.tan(HALF_ANGLE);
+    const slopes = [(slope * width) / Math.max(height, 1), slope];
+    // A point at depth w toward the camera is in the picture if r + slope w and slope w - r do not exceed its edges.
+    const reach = [-Infinity, -Infinity, -Infinity, -Infinity];
+    let [near, far] = [-Infinity, Infinity];
+    const { points } = this;
+    for (let k = 0; k < points.length; k += 3) {
+      const [x, y, z] = [points[k], points[k + 1], points[k + 2]];
+      const along = (axis) => axis.x * x + axis.y * y + axis.z * z;
+      const w = along(away);
+      near = Math.max(near, w);
+      far = Math.min(far, w);
+      [right, above].forEach((axis, k) => {
+        const r = along(axis);
+        const depth = this.isOrthographic ? 0 : slopes[k] * w;
+        reach[2 * k] = Math.max(reach[2 * k], depth + r);
+        reach[2 * k + 1] = Math.max(reach[2 * k + 1], depth - r);
+      });
+    }
+    const half = (k) => (reach[2 * k] + reach[2 * k + 1]) / 2;
+    const middle = (near + far) / 2;
+    const distance = Math.max(half(0) / slopes[0], half(1) / slopes[1], 1e-3 * this.size) + (this.isOrthographic ? middle : 0);
+    const eye = new THREE.Vector3().addScaledVector(away, distance);
+    [right, above].forEach((axis, k) => eye.addScaledVector(axis, (reach[2 * k] - reach[2 * k + 1]) / 2));
+    this.controls.target.copy(eye).addScaledVector(away, middle - distance);
+    this.camera.position.copy(eye);
     this.camera.zoom = 1;
     this.controls.update();
+    this.isFramed = true;
     this.fitOrthographic();
     this.changed();
+  }
+
+  /** Brings all into the picture from the direction in which the camera looks. */
+  fit() {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    this.look(away.toArray(), this.camera.up.clone());
   }
 
   /** Moves target and camera together. */

@@ -100,6 +100,7 @@ export class Viewer {
     const selected = keeps ? this.model?.selected : null;
     this.rebuild();
     if (this.kinematics && !keeps) this.firstLook();
+    else if (this.kinematics && this.stage.isPoorlyFramed()) this.stage.fit();
     this.player.load(...span, isStatic, keeps);
     if (this.modes.current) this.player.speed = 0.5;
     this.offerColours();
@@ -181,10 +182,10 @@ export class Viewer {
     }
     this.model = null;
     if (this.kinematics) {
-      const bounds = this.kinematics.bounds();
-      this.stage.surround(this.padded(bounds), this.upward(), this.theme);
-      this.stage.grid.visible = $("grid").checked;
+      this.stage.measure(this.padded(this.kinematics.bounds()), this.upward());
       this.model = new ModelView(this.result.scene, this.kinematics, this.stage, this.theme, this.choices);
+      this.stage.surround(this.model.points(), null, this.theme);
+      this.stage.grid.visible = $("grid").checked;
       for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
       this.colourBy(this.choices.colour);
       this.setTraces(this.choices.traces);
@@ -206,7 +207,17 @@ export class Viewer {
         });
       }
     }
-    const boxes = this.result.scene.bodies.flatMap((body) => body.shape.sides);
+    const { bodies } = this.result.scene;
+    for (const { node, surface } of bodies) {
+      const at = this.kinematics.motion.reference.subarray(7 * node, 7 * node + 3);
+      for (const point of surface?.points ?? []) {
+        point.forEach((x, k) => {
+          low[k] = Math.min(low[k], at[k] + x);
+          high[k] = Math.max(high[k], at[k] + x);
+        });
+      }
+    }
+    const boxes = bodies.flatMap((body) => body.shape.sides);
     const least = Math.max(...high.map((x, k) => x - low[k]), 0) > 0 ? 0 : Math.max(...boxes, 1) / 2;
     return { low: low.map((x) => x - least), high: high.map((x) => x + least) };
   }
@@ -222,16 +233,14 @@ export class Viewer {
     return new THREE.Vector3(0, 0, 1);
   }
 
-  /** Models in a plane are looked at from the front, others from above at an angle. */
+  /** Plane motion is looked at almost from the front, all other motion at an angle. */
   firstLook() {
     const { low, high, size } = this.stage;
-    const flat = [0, 1, 2].filter((k) => high.getComponent(k) - low.getComponent(k) < 0.02 * size);
-    if (flat.length !== 1) return this.look("iso");
-    const [k] = flat;
-    const along = this.stage.up.getComponent(k) !== 0;
-    const toward = along ? [0.001, -0.35, 1] : k === 0 ? [1, -0.32, 0.24] : [0.28, -1, 0.24];
-    if (along) return this.look("top");
-    this.stage.look(this.oriented(toward));
+    const thickness = [0, 1, 2].map((k) => high.getComponent(k) - low.getComponent(k));
+    const k = thickness.indexOf(Math.min(...thickness));
+    if (thickness[k] > 0.12 * size || this.kinematics.turnsOutOfPlane(k)) return this.look("iso");
+    if (this.stage.up.getComponent(k) !== 0) return this.look("top");
+    this.stage.look(this.oriented(k === 0 ? [1, -0.32, 0.24] : [0.28, -1, 0.24]));
   }
 
   /** A direction given for z upward, for the axis that is upward here. */

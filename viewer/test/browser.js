@@ -9,6 +9,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 import { launch, open as openPage } from "../browser.js";
+import { examples } from "./examples.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
@@ -196,6 +197,7 @@ const enlarges = async (page) => {
 };
 
 const tests = {
+  ...examples({ root, view, open }),
   "a mechanism of beams": async (browser) => {
     const out = view("examples/tip-crank.toml", "analysis.end=0.2");
     const { page, complaints } = await open(browser, join(out, "view.html"));
