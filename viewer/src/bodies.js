@@ -2,6 +2,11 @@
 
 import * as THREE from "three";
 
+/** Sides of boxes are drawn at least this large, relative to the model. */
+const LEAST = 0.003;
+/** Boxes whose second side is so many times the reach of the attachments are those of inertias that are not a solid's. */
+const BULKY = 2.5;
+
 const up = new THREE.Vector3(0, 1, 0);
 
 /** A thin rod between two points. */
@@ -45,18 +50,26 @@ export class BodyMesh extends Carried {
     this.name = body.name;
     this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.6, metalness: 0.05 });
     if (body.surface) {
-      this.group.add(new THREE.Mesh(surface(body.surface), this.material));
+      const solid = new THREE.Mesh(surface(body.surface), this.material);
+      this.group.add(solid);
+      solid.geometry.computeBoundingBox();
+      const { center } = body.shape;
+      // Points of attachment beyond the surface hang on arms.
+      const within = solid.geometry.boundingBox.clone().expandByScalar(0.02 * size);
+      for (const at of anchors) {
+        if (!within.containsPoint(new THREE.Vector3(...at))) this.group.add(rod(center, at, 0.0055 * size, this.material));
+      }
       this.group.traverse((child) => (child.userData.part = body.name));
       return;
     }
     const { center, sides, quaternion } = body.shape;
     const reach = Math.max(...anchors.map((at) => Math.hypot(...at.map((x, k) => x - center[k]))), 0);
     // Inertias far bulkier than what the body reaches, as of models in a plane, must not hide all else.
-    const most = reach > 0.02 * size ? 0.8 * reach : 0.3 * size;
+    const usual = reach > 0.02 * size ? reach : 0.375 * size;
     const [, second] = sides.toSorted((a, b) => b - a);
-    this.isShrunk = second > most;
-    const share = this.isShrunk ? (0.35 * most) / second : 1;
-    const least = 0.012 * size;
+    this.isShrunk = second > BULKY * usual;
+    const share = this.isShrunk ? (0.28 * usual) / second : 1;
+    const least = LEAST * size;
     const drawn = sides.map((side) => Math.max(share * side, least));
     const geometry =
       shape === "ellipsoid" ? new THREE.SphereGeometry(Math.sqrt(5 / 12), 32, 20) : new THREE.BoxGeometry(1, 1, 1);

@@ -32,21 +32,28 @@ const axisLine = (axis, length, colour) => {
 /** Radius of a symbol that sections of this half thickness do not hide. */
 const radiusOf = (around, size) => Math.max(0.0135 * size, Math.min(1.45 * around, 0.04 * size));
 
+/** Turns the second axis of a solid to `axis`, and the first one to `side`; without a side by the shortest way. */
+const orient = (mesh, axis, side) => {
+  if (!side) return mesh.quaternion.setFromUnitVectors(along, axis);
+  const first = new THREE.Vector3(...side);
+  return mesh.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(first, axis, first.clone().cross(axis)));
+};
+
 /** A symbol that one node carries. */
 class Symbol extends Carried {
   constructor(symbol, kinematics, size, theme) {
     super(symbol.anchor.node, kinematics);
-    this.radius = radiusOf(symbol.around, size);
+    this.radius = symbol.unit ?? radiusOf(symbol.around, size);
     this.holder = new THREE.Group();
     this.holder.position.set(...symbol.anchor.position);
     this.group.add(this.holder);
-    for (const { form, size: sizes, place, axis, tone } of symbol.solids) {
+    for (const { form, size: sizes, place, axis, side, tone } of symbol.solids) {
       const geometry = forms[form](sizes.map((length) => length * this.radius));
       const metalness = tone === "dark" ? 0.2 : 0.1;
       const material = new THREE.MeshStandardMaterial({ color: theme[tones[tone]], roughness: 0.45, metalness });
       const mesh = new THREE.Mesh(geometry, material);
       mesh.position.set(...place).multiplyScalar(this.radius);
-      mesh.quaternion.setFromUnitVectors(along, new THREE.Vector3(...axis));
+      orient(mesh, new THREE.Vector3(...axis), side);
       this.holder.add(mesh);
     }
   }
@@ -78,8 +85,10 @@ export class Symbols {
     this.symbols = symbols.map((symbol) => new Symbol(symbol, kinematics, size, theme));
     for (const symbol of this.symbols) this.group.add(symbol.group);
     const [first] = this.symbols;
-    if (first && part.axes) first.addAxes(part.axes, theme);
-    if (first && part.axes && part.anchors?.[0].node === 0) first.addGround(theme);
+    // What rolls on the ground is no support.
+    const isSchematic = first && symbols[0].unit === undefined;
+    if (isSchematic && part.axes) first.addAxes(part.axes, theme);
+    if (isSchematic && part.axes && part.anchors?.[0].node === 0) first.addGround(theme);
     const material = new THREE.MeshStandardMaterial({ color: theme.pin, roughness: 0.5, metalness: 0.2 });
     this.rods = rods.map(({ anchors }) => {
       const mesh = rod([0, 0, 0], [0, 1, 0], 0.35 * radiusOf(0, size), material);

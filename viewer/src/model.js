@@ -6,7 +6,7 @@ import { BeamMesh } from "./beams.js";
 import { BodyMesh, PointMassMesh } from "./bodies.js";
 import { fields, rangeOf } from "./fields.js";
 import { Symbols } from "./joints.js";
-import { BeamLoad, LoadArrow, SpringMesh } from "./springs.js";
+import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
 
 const spaced = (kind) => kind.replaceAll("_", " ");
@@ -88,7 +88,7 @@ export class ModelView {
         this.parts.set(spring.name, { kind, part: spring });
         continue;
       }
-      const drawn = new SpringMesh(spring, kinematics, size, theme);
+      const drawn = new (spring.cable === undefined ? SpringMesh : CableMesh)(spring, kinematics, size, theme);
       this.add(spring.name, drawn, drawn.mesh, null, { kind, part: spring });
       this.byKind.springs.push(drawn.mesh);
     }

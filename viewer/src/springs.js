@@ -48,6 +48,46 @@ export class SpringMesh {
   }
 }
 
+/** Points of a cable. */
+const POINTS = 33;
+
+/** A cable, which hangs between its ends where it is slack: a parabola whose length is the free length. */
+export class CableMesh {
+  constructor(spring, kinematics, size, theme) {
+    this.name = spring.name;
+    this.kinematics = kinematics;
+    this.ends = spring.anchors;
+    this.free = spring.cable;
+    this.up = theme.up;
+    this.radius = 0.0022 * size;
+    this.material = new THREE.MeshStandardMaterial({ color: theme.spring, roughness: 0.6 });
+    this.mesh = new THREE.Group();
+    const geometry = new THREE.CylinderGeometry(this.radius, this.radius, 1, 8);
+    this.pieces = Array.from({ length: POINTS - 1 }, () => new THREE.Mesh(geometry, this.material));
+    for (const piece of this.pieces) piece.userData.part = spring.name;
+    this.mesh.add(...this.pieces);
+  }
+
+  update() {
+    const [a, b] = this.ends.map((anchor) => new THREE.Vector3(...this.kinematics.point(anchor)));
+    const span = b.clone().sub(a);
+    const distance = span.length();
+    const slack = Math.max(this.free - distance, 0);
+    // A shallow parabola of sag s over the chord d is longer by 8 s²/(3 d).
+    const sag = slack > 1e-6 * distance ? Math.sqrt((3 / 8) * distance * slack) : 0;
+    const down = this.up.clone().negate();
+    // A vertical cable hangs to one side.
+    const across = down.clone().addScaledVector(span, -down.dot(span) / Math.max(distance * distance, 1e-300));
+    if (across.length() < 0.05) across.crossVectors(span, Math.abs(span.x) > 0.7 * distance ? new THREE.Vector3(0, 1, 0) : new THREE.Vector3(1, 0, 0));
+    across.normalize();
+    const at = (k) => {
+      const s = k / (POINTS - 1);
+      return a.clone().addScaledVector(span, s).addScaledVector(across, 4 * sag * s * (1 - s));
+    };
+    this.pieces.forEach((piece, k) => placeRod(piece, at(k), at(k + 1)));
+  }
+}
+
 export class LoadArrow {
   constructor(load, kinematics, size, theme, span) {
     this.name = load.name;

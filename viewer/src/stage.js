@@ -17,6 +17,15 @@ const HALF_ANGLE = (16 * Math.PI) / 180;
 /** Share of the height and the width of the picture that the drawn geometry may fill. */
 const FILLED = 0.8;
 
+/** Length of the scale bar at most [pixels]. */
+const LONGEST_BAR = 110;
+
+/** A length in the unit in which it is a short number. */
+const metres = (length) => {
+  const [factor, unit] = [[1e-3, "km"], [1, "m"], [1e3, "mm"], [1e6, "µm"]].find(([factor]) => length * factor >= 0.0999) ?? [1e6, "µm"];
+  return `${Number((length * factor).toPrecision(3))} ${unit}`;
+};
+
 export class Stage {
   constructor(holder, changed) {
     this.holder = holder;
@@ -41,6 +50,7 @@ export class Stage {
     this.isFramed = false;
     this.up = new THREE.Vector3(0, 0, 1);
     this.gizmo = holder.querySelector(".gizmo");
+    this.scale = holder.querySelector("#scale");
     new ResizeObserver(() => this.resize()).observe(holder);
     this.makeControls();
   }
@@ -109,10 +119,9 @@ export class Stage {
     this.up.copy(up);
   }
 
-  /** Puts ground and axes around the points of the drawn geometry. `ground` is the height of a plane on which parts roll. */
-  surround(points, ground, theme) {
+  /** Puts ground and axes around the points of the drawn geometry. */
+  surround(points, theme) {
     this.points = points;
-    this.ground = ground;
     const box = new THREE.Box3();
     const at = new THREE.Vector3();
     for (let k = 0; k < points.length; k += 3) box.expandByPoint(at.fromArray(points, k));
@@ -155,7 +164,7 @@ export class Stage {
     this.grid = new THREE.GridHelper(cells * step, cells, theme.gridMain, theme.grid);
     this.grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), this.up);
     const snapped = this.centre.clone().divideScalar(step).round().multiplyScalar(step);
-    const lowest = this.ground ?? this.lowest();
+    const lowest = this.lowest();
     snapped.addScaledVector(this.up, lowest - snapped.dot(this.up));
     this.grid.position.copy(snapped);
     this.grid.raycast = () => {};
@@ -244,6 +253,26 @@ export class Stage {
     this.sun.target.position.copy(this.controls.target);
     this.renderer.render(this.scene, this.camera);
     this.drawGizmo();
+    this.drawScale();
+  }
+
+  /** Pixels of a metre at the distance of the point that the camera looks at. */
+  pixelsPerMetre() {
+    const { clientHeight: height } = this.holder;
+    if (this.isOrthographic) return (height * this.camera.zoom) / (this.camera.top - this.camera.bottom);
+    return height / (2 * this.camera.position.distanceTo(this.controls.target) * Math.tan(HALF_ANGLE));
+  }
+
+  /** A bar of a round length, true at the distance of the point that the camera looks at, and the cell of the grid. */
+  drawScale() {
+    const most = LONGEST_BAR / this.pixelsPerMetre();
+    const power = 10 ** Math.floor(Math.log10(most));
+    const length = power * [5, 2, 1].find((factor) => factor * power <= most * (1 + 1e-9));
+    const width = `${(length * this.pixelsPerMetre()).toFixed(1)}px`;
+    const text = `${metres(length)}${this.grid?.visible ? ` · grid ${metres(this.cell)}` : ""}`;
+    const [bar, label] = this.scale.children;
+    if (bar.style.width !== width) bar.style.width = width;
+    if (label.textContent !== text) label.textContent = text;
   }
 
   /** The global axes in a corner. */

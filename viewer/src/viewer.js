@@ -184,7 +184,7 @@ export class Viewer {
     if (this.kinematics) {
       this.stage.measure(this.padded(this.kinematics.bounds()), this.upward());
       this.model = new ModelView(this.result.scene, this.kinematics, this.stage, this.theme, this.choices);
-      this.stage.surround(this.model.points(), null, this.theme);
+      this.stage.surround(this.model.points(), this.theme);
       this.stage.grid.visible = $("grid").checked;
       for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
       this.colourBy(this.choices.colour);

@@ -197,7 +197,7 @@ const enlarges = async (page) => {
 };
 
 const tests = {
-  ...examples({ root, view, open }),
+  ...examples({ root, folder, view, open }),
   "a mechanism of beams": async (browser) => {
     const out = view("examples/tip-crank.toml", "analysis.end=0.2");
     const { page, complaints } = await open(browser, join(out, "view.html"));

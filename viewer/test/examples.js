@@ -1,7 +1,7 @@
 // All examples at three sizes and in both themes, as pixels and boxes of the page.
 
 import assert from "node:assert/strict";
-import { readdirSync } from "node:fs";
+import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 const SIZES = [[1400, 900], [1000, 700], [390, 800]];
@@ -42,9 +42,43 @@ const coverage = (page) =>
     return { across: (right - left + 1) / width, down: (bottom - top + 1) / height, isCut: left === 0 || top === 0 || right === width - 1 || bottom === height - 1 };
   });
 
-export const examples = ({ root, view, open }) => {
+export const examples = ({ root, folder, view, open }) => {
   const files = readdirSync(join(root, "examples")).filter((file) => file.endsWith(".toml") && file !== "connecting-rod.toml");
   return {
+    "parts have the dimensions of their data": async (browser) => {
+      // Every body of every example has a shape.
+      for (const file of files) {
+        const text = readFileSync(join(root, "examples", file), "utf8");
+        const count = (pattern) => text.match(pattern)?.length ?? 0;
+        assert.ok(count(/^shape = \{|^mesh = /gm) >= count(/^\[.*bodies\.\w+\]/gm), `${file}: a body without a shape`);
+      }
+      const panel = join(folder, "panel.toml");
+      // The inertia of a panel of 1.2 x 0.02 x 1 m, and a cable that becomes slack.
+      const sides = [1.2, 0.02, 1];
+      const inertia = [0, 1, 2].map((k) => sides.reduce((sum, side, j) => sum + (j === k ? 0 : side * side), 0) / 12);
+      writeFileSync(panel, `lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.panel]\nmass = 1\ninertia = ${JSON.stringify(inertia)}\nposition = [0, 0, -1.5]\n[springs.cable]\nkind = "point"\nbase = "ground"\ntip = "panel"\nat_base = [0, 0, 0]\nat_tip = [0, 0, -1]\nlength = 1.2\nstiffness = 1e4\nside = "tension"\n[analysis]\nkind = "dynamics"\nend = 0.1\nstep = 0.01\n`);
+      const { page, complaints } = await open(browser, join(view(panel), "view.html"));
+      const drawn = await page.evaluate(() => {
+        lissom.player.seek(0);
+        lissom.move();
+        const { object } = lissom.model.parts.get("panel");
+        const box = object.children.find(({ geometry }) => geometry.type === "BoxGeometry");
+        const cable = lissom.model.parts.get("cable").drawn;
+        const length = cable.pieces.reduce((sum, piece) => sum + piece.scale.y, 0);
+        const { stage } = lissom;
+        lissom.look("front");
+        const ends = [0, 1].map((x) => stage.pixel([stage.controls.target.x + x, stage.controls.target.y, stage.controls.target.z]));
+        stage.render();
+        const [bar, label] = stage.scale.children;
+        return { box: box.scale.toArray(), length, metre: ends[1][0] - ends[0][0], bar: bar.getBoundingClientRect().width, label: label.textContent };
+      });
+      drawn.box.forEach((side, k) => assert.ok(Math.abs(side - sides[k]) < 1e-6, `${drawn.box}`));
+      assert.ok(Math.abs(drawn.length - 1.2) < 0.05, `a slack cable of ${drawn.length} m`);
+      const [, number, unit, cell] = drawn.label.match(/^([\d.]+) (m|mm) · grid ([\d.]+ m+)$/);
+      const length = Number(number) * (unit === "mm" ? 1e-3 : 1);
+      assert.ok(cell && Math.abs(drawn.bar - length * drawn.metre) < 2, `a bar of ${drawn.bar} pixels for ${drawn.label}`);
+      assert.deepEqual(complaints(), []);
+    },
     "all examples at three sizes and in both themes": async (browser) => {
       for (const file of files) {
         const { page, complaints } = await open(browser, join(view(`examples/${file}`), "view.html"));

@@ -44,6 +44,9 @@ pub struct Spring {
     pub anchors: Option<[Anchor; 2]>,
     /// The joint it acts on.
     pub joint: Option<String>,
+    /// Free length [m] of a spring that transmits tension alone: it is drawn as a cable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cable: Option<f64>,
 }
 
 /// A force or moment from outside.
@@ -100,9 +103,20 @@ pub(super) fn springs(document: &Document, places: &Places<'_>) -> Vec<Spring> {
     let drawn = |component: &Component| {
         let (parts, anchors) = attached(component, places)?;
         let (name, kind) = (component.name.value.clone(), component.kind.value.clone());
-        Some(Spring { name, kind, parts, anchors, joint: joint_of(component) })
+        let cable = cable(component, places, anchors);
+        Some(Spring { name, kind, parts, anchors, joint: joint_of(component), cable })
     };
     document.springs.iter().filter_map(drawn).collect()
+}
+
+/// Free length of a spring that transmits tension alone.
+fn cable(component: &Component, places: &Places<'_>, anchors: Option<[Anchor; 2]>) -> Option<f64> {
+    let parameters = &component.parameters;
+    if component.kind.value != "point" || parameters.word("side").ok().flatten() != Some("tension") {
+        return None;
+    }
+    let [a, b] = anchors?.map(|end| places.frame(end.node).transform_point(&Vector3::from(end.position)));
+    parameters.number_or("length", (b - a).norm()).ok()
 }
 
 pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {

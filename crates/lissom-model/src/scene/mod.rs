@@ -5,6 +5,7 @@
 //! node they name. Node 0 is the ground.
 
 mod connections;
+mod dimensions;
 mod kinds;
 mod parts;
 mod path_values;

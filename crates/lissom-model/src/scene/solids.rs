@@ -54,6 +54,9 @@ pub struct Solid {
     pub place: [f64; 3],
     /// Its axis in the frame of the node, of length one. It leads there from the solid's second axis by the shortest turn.
     pub axis: [f64; 3],
+    /// Direction of the first side of a block, of length one and perpendicular to the axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side: Option<[f64; 3]>,
     /// Its role, for its colour.
     pub tone: Tone,
 }
@@ -81,7 +84,8 @@ impl Axes {
         tone: Tone,
     ) -> Solid {
         let place: Vector3 = (0..3).map(|k| self.0[k] * place[k]).sum();
-        Solid { form, size, place: place.into(), axis: self.0[along].into(), tone }
+        let side = (form == Form::Block).then(|| self.0[(along + 1) % 3].into());
+        Solid { form, size, place: place.into(), axis: self.0[along].into(), side, tone }
     }
 
     /// A cylinder about the axis `along` through the position of the symbol.
@@ -89,7 +93,7 @@ impl Axes {
         self.solid(Form::Cylinder, [radius, length, 0.0], (along, [0.0; 3]), tone)
     }
 
-    /// A block whose second side is along the first axis.
+    /// A block whose second side is along the first axis, the first one along the second.
     pub(super) fn block(&self, size: [f64; 3], place: [f64; 3], tone: Tone) -> Solid {
         self.solid(Form::Block, size, (0, place), tone)
     }

@@ -30,7 +30,7 @@ pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Jo
             } else {
                 axes.ball(0.5, [0.0; 3], Tone::Light)
             };
-            symbols.push(Symbol { name: name.clone(), anchor, around: 0.0, solids: vec![solid] });
+            symbols.push(Symbol { name: name.clone(), anchor, around: 0.0, unit: None, solids: vec![solid] });
             if !is_floating {
                 rods.push(Rod { name: name.clone(), anchors: [anchors[element.floating], anchor] });
             }

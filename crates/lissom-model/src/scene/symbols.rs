@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::kinds::{Drawn, drawn};
 use super::shapes::Outline;
 use super::solids::{Axes, Solid};
-use super::{Anchor, Places, part_of};
+use super::{Anchor, Places, dimensions, part_of};
 use crate::document::{Attachment, Component, Document, NodeReference};
 use crate::report::Located;
 use lissom_core::kinematics::{GROUND, NodeId};
@@ -20,6 +20,9 @@ pub struct Symbol {
     pub anchor: Anchor,
     /// Half the thickness [m] of the thickest beam that ends there, which a symbol must not hide in.
     pub around: f64,
+    /// Length [m] of which sizes and positions of its solids are multiples; none for symbols whose size depends on the picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<f64>,
     /// Its solids.
     pub solids: Vec<Solid>,
 }
@@ -43,6 +46,15 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
             continue;
         };
         let Some(ends) = ends(component, document, places) else { continue };
+        let dimensioned = dimensions::solids(component, document, places, &ends);
+        let is_symbol = dimensioned.is_empty() || !dimensions::replace_symbol(component);
+        symbols.extend(dimensioned.into_iter().map(|(anchor, solids)| Symbol {
+            name: component.name.value.clone(),
+            anchor,
+            around: 0.0,
+            unit: Some(1.0),
+            solids,
+        }));
         let axes = [ends[0].1, ends[ends.len().min(2) - 1].1];
         let [base, tip] = solids(&axes);
         // A relation of several coordinates has its sign at each of them.
@@ -53,11 +65,12 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
                 (Attachment::JointCoordinates { .. }, _) => of_others,
                 _ => &tip,
             };
-            if !solids.is_empty() {
+            if is_symbol && !solids.is_empty() {
                 symbols.push(Symbol {
                     name: component.name.value.clone(),
                     anchor: *anchor,
                     around: thickness(document, places, anchor.node),
+                    unit: None,
                     solids: solids.clone(),
                 });
             }
@@ -72,7 +85,7 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
     (symbols, rods)
 }
 
-type End = (Anchor, Axes);
+pub(super) type End = (Anchor, Axes);
 
 /// Positions of a component with their axes: base and tip, one node, or those of the joints whose coordinates it acts on.
 fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Option<Vec<End>> {
@@ -107,9 +120,10 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
         Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
             let first = given("axis").unwrap_or_else(Vector3::x);
             let second = given("second_axis");
+            let on_tip = given("wheel_axis").unwrap_or(first);
             Some(vec![
                 end(base, at_base, &first, second.as_ref())?,
-                end(tip, at_tip, &first, second.as_ref())?,
+                end(tip, at_tip, &on_tip, second.as_ref())?,
             ])
         }
         Attachment::OneNode { on, at } => {
@@ -149,10 +163,13 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
 /// The base's position and axes of the joint called `name`.
 fn of_joint(name: &str, document: &Document, places: &Places<'_>) -> Option<End> {
     let joint = document.joints.iter().find(|joint| joint.name.value == name)?;
+    joint_ends(joint, document, places)?.first().copied()
+}
+
+/// Positions and axes of a joint on its base and its tip; none for other constraints.
+pub(super) fn joint_ends(joint: &Component, document: &Document, places: &Places<'_>) -> Option<Vec<End>> {
     match &joint.attachment {
-        Attachment::TwoNodes { .. } | Attachment::TwoPlaces { .. } => {
-            ends(joint, document, places)?.first().copied()
-        }
+        Attachment::TwoNodes { .. } | Attachment::TwoPlaces { .. } => ends(joint, document, places),
         _ => None,
     }
 }

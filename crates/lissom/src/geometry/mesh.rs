@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use lissom_model::scene::{Form, Solid, Surface};
-use lissom_motion::{Motion as Pose, Rotation, Vector3};
+use lissom_motion::{Matrix3, Motion as Pose, Rotation, Vector3};
 
 /// Number of sides of round shapes.
 const ROUND: usize = 20;
@@ -167,7 +167,9 @@ impl Mesh {
             Form::Octahedron => Self::octahedron(a),
         };
         let place = radius * Vector3::from(solid.place);
-        mesh.moved(&Pose::new(turn_to(&Vector3::from(solid.axis)), place))
+        let axis = Vector3::from(solid.axis);
+        let turn = solid.side.map_or_else(|| turn_to(&axis), |side| turn_of(&Vector3::from(side), &axis));
+        mesh.moved(&Pose::new(turn, place))
     }
 
     /// Orients faces away from the origin, for a convex solid about it.
@@ -226,6 +228,11 @@ pub fn turn_to(direction: &Vector3) -> Rotation {
         return if cosine > 0.0 { Rotation::identity() } else { Rotation::about_axis(&Vector3::x(), PI) };
     }
     Rotation::about_axis(&(axis / sine), sine.atan2(cosine))
+}
+
+/// The rotation that leads from the first two axes to these perpendicular directions.
+fn turn_of(first: &Vector3, second: &Vector3) -> Rotation {
+    Rotation::from_matrix(&Matrix3::from_columns(&[*first, *second, first.cross(second)]))
 }
 
 #[cfg(test)]

@@ -12,6 +12,10 @@ use lissom_core::kinematics::{GROUND, NodeId};
 const MIN_THICKNESS: f64 = 0.0045;
 /// The same for true dimensions: sections of zero thickness have no surface.
 const MIN_TRUE: f64 = 1e-4;
+/// Minimum side of a box of a body, relative to the model.
+const MIN_SIDE: f64 = 0.003;
+/// Boxes whose second side exceeds the reach of the attachments by this factor are drawn smaller.
+const BULKY: f64 = 2.5;
 /// Turns of the coil of a spring.
 const TURNS: f64 = 9.0;
 
@@ -200,28 +204,43 @@ impl Geometry {
 
     /// The surface of a body if it has one; otherwise its box, with arms to the points of attachment.
     fn body(&self, body: &Body, anchors: &[Vector3]) -> Mesh {
-        if let Some(surface) = &body.surface {
-            return Mesh::of_surface(surface);
-        }
         let center = Vector3::from(body.shape.center);
+        if let Some(surface) = &body.surface {
+            let mut mesh = Mesh::of_surface(surface);
+            let margin = Vector3::repeat(0.02 * self.size);
+            let low = mesh.points.iter().fold(Vector3::repeat(f64::INFINITY), |low, at| low.inf(at)) - margin;
+            let high =
+                mesh.points.iter().fold(Vector3::repeat(-f64::INFINITY), |high, at| high.sup(at)) + margin;
+            // Points of attachment beyond the surface hang on arms.
+            for at in anchors.iter().filter(|at| (0..3).any(|k| at[k] < low[k] || at[k] > high[k])) {
+                mesh.append(self.arm(&center, at));
+            }
+            return mesh;
+        }
         let reach = anchors.iter().map(|at| (at - center).norm()).fold(0.0, f64::max);
         // Boxes much larger than the body's attachments, for example in planar models, must not hide the rest.
-        let most = if reach > 0.02 * self.size { 0.8 * reach } else { 0.3 * self.size };
+        let usual = if reach > 0.02 * self.size { reach } else { 0.375 * self.size };
         let mut sides = body.shape.sides;
         sides.sort_by(f64::total_cmp);
-        let share = if sides[1] > most { 0.35 * most / sides[1] } else { 1.0 };
-        let least = 0.012 * self.size;
+        let share = if sides[1] > BULKY * usual { 0.28 * usual / sides[1] } else { 1.0 };
+        let least = MIN_SIDE * self.size;
         let drawn = body.shape.sides.map(|side| (share * side).max(least));
         let axes = Rotation::from_quaternion(body.shape.quaternion).unwrap_or_default();
         let mut mesh = Mesh::block(drawn).moved(&Pose::new(axes, center));
         for at in anchors {
-            let along = at - center;
-            if along.norm() > 0.5 * least {
-                let pose = Pose::new(turn_to(&along.normalize()), center + 0.5 * along);
-                mesh.append(Mesh::cylinder(0.0055 * self.size, along.norm()).moved(&pose));
+            if (at - center).norm() > 0.5 * least {
+                mesh.append(self.arm(&center, at));
             }
         }
         mesh
+    }
+
+    /// A rod from the centre of a body to a point of attachment.
+    fn arm(&self, center: &Vector3, at: &Vector3) -> Mesh {
+        let along = at - center;
+        let direction = along.try_normalize(0.0).unwrap_or_else(Vector3::y);
+        let pose = Pose::new(turn_to(&direction), center + 0.5 * along);
+        Mesh::cylinder(0.0055 * self.size, along.norm()).moved(&pose)
     }
 
     fn symbols(&mut self, scene: &Scene) {
@@ -236,7 +255,7 @@ impl Geometry {
         };
         for symbol in &scene.symbols {
             let role = role(&symbol.name);
-            let radius = self.radius(symbol.around);
+            let radius = symbol.unit.unwrap_or_else(|| self.radius(symbol.around));
             let at = Pose::translation(Vector3::from(symbol.anchor.position));
             // Solids of one colour are one piece.
             let mut tones: Vec<Tone> = Vec::new();
@@ -257,9 +276,12 @@ impl Geometry {
         // A plinth is drawn below every joint on the ground.
         for joint in &scene.joints {
             let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == GROUND) else { continue };
-            let around =
-                scene.symbols.iter().find(|symbol| symbol.name == joint.name).map_or(0.0, |s| s.around);
-            let radius = self.radius(around);
+            let symbol = scene.symbols.iter().find(|symbol| symbol.name == joint.name);
+            // What rolls on the ground is no support.
+            if symbol.is_some_and(|symbol| symbol.unit.is_some()) {
+                continue;
+            }
+            let radius = self.radius(symbol.map_or(0.0, |symbol| symbol.around));
             let pose = Pose::new(turn_to(&self.up), Vector3::from(base.position) - 1.15 * radius * self.up);
             let mesh = Mesh::plinth(0.55 * radius, 1.75 * radius, 1.9 * radius).moved(&pose);
             self.add(&joint.name, (Role::Joint, Colour::Ground), mesh, Carrier::Node(GROUND));
@@ -282,7 +304,11 @@ impl Geometry {
             let Some(anchors) = spring.anchors else { continue };
             let (_, length) = span(&anchors, motion.reference());
             let length = if length > 0.0 { length } else { self.size };
-            let mesh = Mesh::coil(0.016 * self.size, 0.0035 * self.size, TURNS, length);
+            let mesh = if spring.cable.is_some() {
+                Mesh::cylinder(0.0025 * self.size, 1.0)
+            } else {
+                Mesh::coil(0.016 * self.size, 0.0035 * self.size, TURNS, length)
+            };
             self.add(&spring.name, (Role::Spring, Colour::Tone(Tone::Spring)), mesh, Carrier::Span(anchors));
         }
     }
