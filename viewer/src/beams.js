@@ -111,6 +111,8 @@ export class BeamMesh {
     geometry.setAttribute("color", this.colours);
     this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.55, metalness: 0.1 });
     this.material.side = THREE.DoubleSide;
+    // Without light, so that colours are those of the legend.
+    this.plain = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(geometry, this.material);
     this.mesh.frustumCulled = false;
     this.mesh.userData.part = this.beam.name;
@@ -235,13 +237,8 @@ export class BeamMesh {
 
   /** Colours the beam by a function of the fraction s that writes red, green and blue; none for its own colour. */
   paint(colourAt, own) {
-    const isPainted = Boolean(colourAt);
-    if (this.material.vertexColors !== isPainted) {
-      this.material.vertexColors = isPainted;
-      this.material.color.set(isPainted ? 0xffffff : own);
-      this.material.needsUpdate = true;
-    }
-    if (!isPainted) return;
+    this.mesh.material = colourAt ? this.plain : this.material;
+    if (!colourAt) return void this.material.color.set(own);
     const colours = this.colours.array;
     const colour = [0, 0, 0];
     for (let ring = 0; ring < this.rings; ring++) {

@@ -88,10 +88,16 @@ export class BodyMesh extends Carried {
   }
 
   paint(colourAt, own) {
+    // Without light, so that colours are those of the legend.
+    this.plain ??= new THREE.MeshBasicMaterial();
+    const wanted = colourAt ? this.plain : this.material;
+    this.group.traverse((child) => {
+      if (child.material === this.plain || child.material === this.material) child.material = wanted;
+    });
     if (!colourAt) return void this.material.color.set(own);
     const colour = [0, 0, 0];
     colourAt(colour);
-    this.material.color.setRGB(...colour, THREE.LinearSRGBColorSpace);
+    this.plain.color.setRGB(...colour, THREE.LinearSRGBColorSpace);
   }
 }
 

@@ -55,7 +55,18 @@ export const readTable = (text, known = []) => {
     times[row] = Number(numbers[0]);
     for (let k = 0; k < columns.length; k++) columns[k].values[row] = Number(numbers[k + 1]);
   }
-  return { times, columns };
+  return { times, columns: withoutRoundOff(columns) };
+};
+
+/** Columns whose values are round-off beside the largest of their unit, and numbers of no size at all, are zero. */
+const withoutRoundOff = (columns) => {
+  const largest = ({ values }) => values.reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
+  const most = new Map();
+  for (const column of columns) most.set(column.unit, Math.max(most.get(column.unit) ?? 0, largest(column)));
+  for (const column of columns) {
+    if (largest(column) <= Math.max(1e-13 * most.get(column.unit), 1e-30)) column.values.fill(0);
+  }
+  return columns;
 };
 
 /** Reads the numbers of a packed motion one after the other. */

@@ -81,7 +81,7 @@ export const fields = (scene, kinematics) => {
   found["bending moment"] = ofForces("bending moment", "N m", (k) => Math.hypot(forces[k + 4], forces[k + 5]));
   found["shear force"] = ofForces("shear force", "N", (k) => Math.hypot(forces[k + 1], forces[k + 2]));
   names.forEach((name, j) => {
-    found[name] = ofForces(name, j < 3 ? "N" : "N m", (k) => forces[k + j]);
+    found[name] = { ...ofForces(name, j < 3 ? "N" : "N m", (k) => forces[k + j]), isSigned: true };
   });
   const compliances = kinematics.motion.forcePoints.flatMap(({ beam, at }) => {
     const part = scene.beams.find((each) => each.name === beam);
@@ -97,6 +97,18 @@ export const fields = (scene, kinematics) => {
     });
   }
   return found;
+};
+
+/** Values below this are round-off: section forces beside the largest of the run, motions beside the size of the model. */
+const ROUND_OFF = 1e-9;
+
+/** The largest value that is round-off in a field. */
+export const roundOff = (field, { motion }, size) => {
+  const { unit } = field;
+  if (unit === "m") return ROUND_OFF * size;
+  if (unit === "m/s") return (ROUND_OFF * size) / Math.max(motion.times[motion.frames - 1] - motion.times[0], 1e-300);
+  if (unit !== "N" && unit !== "N m") return 0;
+  return ROUND_OFF * motion.forces.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
 };
 
 /** The same over a period of a mode. */

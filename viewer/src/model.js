@@ -4,8 +4,9 @@ import * as THREE from "three";
 
 import { BeamMesh } from "./beams.js";
 import { BodyMesh, PointMassMesh } from "./bodies.js";
-import { fields, rangeOf } from "./fields.js";
+import { fields, rangeOf, roundOff } from "./fields.js";
 import { Symbols } from "./joints.js";
+import { Outline } from "./outline.js";
 import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
 
@@ -140,27 +141,48 @@ export class ModelView {
     if (this.field) this.paint();
   }
 
-  /** Colours parts by a field, or by their own colours. Gives the range of the field. */
-  colourBy(name) {
+  /** Colours parts by a field, or by their own colours. `covered` is `run`, `instant`, or two numbers. */
+  colourBy(name, covered) {
     this.field = fields(this.scene, this.kinematics)[name] ?? null;
-    this.range = this.field && rangeOf(this.field, this.kinematics);
-    for (const { drawn, own } of this.parts.values()) if (!this.field && drawn?.paint) drawn.paint(null, own);
-    if (this.field) this.paint();
-    return this.field && { range: this.range, ...this.field };
+    this.covered = covered;
+    if (!this.field) {
+      for (const { drawn, own } of this.parts.values()) drawn?.paint?.(null, own);
+      return;
+    }
+    this.floor = roundOff(this.field, this.kinematics, this.stage.size);
+    this.ofRun = this.rangeShown(rangeOf(this.field, this.kinematics));
+    this.paint();
+  }
+
+  /** Zero for what is round-off. */
+  clean(value) {
+    return Math.abs(value) > this.floor ? value : 0;
+  }
+
+  /** Fields of both signs have zero in the middle of their colours. */
+  rangeShown([low, high]) {
+    if (!this.field.isSigned) return [this.clean(low), this.clean(high)];
+    const most = Math.max(Math.abs(this.clean(low)), Math.abs(this.clean(high)));
+    return [-most, most];
+  }
+
+  /** The field with the range of its colours, as the legend shows it. */
+  shownField() {
+    return this.field && { ...this.field, range: this.range };
   }
 
   paint() {
+    const { field, covered, theme } = this;
+    this.range = covered === "run" ? this.ofRun : covered === "instant" ? this.rangeShown(field.extremes()) : covered;
     const [low, high] = this.range;
-    const share = (value) => (high > low ? (value - low) / (high - low) : 0);
-    for (const [name, { drawn, kind, own, part }] of this.parts) {
+    const share = (value) => (high > low ? (this.clean(value) - low) / (high - low) : field.isSigned ? 0.5 : 0);
+    for (const { drawn, kind, part } of this.parts.values()) {
       if (kind === "beam") {
-        const value = this.field.alongBeam(part);
-        if (value) drawn.paint((s, out) => shade(share(value(s)), out), own);
-        else drawn.paint(null, own);
+        const value = field.alongBeam(part);
+        drawn.paint(value ? (s, out) => shade(share(value(s)), field.isSigned, out) : null, theme.neutral);
       } else if (kind === "body" || kind === "point mass") {
-        const value = this.field.ofNode?.(part.node);
-        if (value === undefined) drawn.paint(null, own);
-        else drawn.paint((out) => shade(share(value), out), own);
+        const value = field.ofNode?.(part.node);
+        drawn.paint(value === undefined ? null : (out) => shade(share(value), field.isSigned, out), theme.neutral);
       }
     }
   }
@@ -192,14 +214,11 @@ export class ModelView {
     return new Float32Array(found.length ? found : [0, 0, 0]);
   }
 
-  /** Marks a part; none for nothing. */
+  /** Outlines a part; none for nothing. */
   select(name) {
-    const glow = (part, colour) => {
-      part?.object?.traverse((child) => child.material?.emissive?.set(colour));
-    };
-    glow(this.parts.get(this.selected), 0x000000);
     this.selected = this.parts.has(name) ? name : null;
-    glow(this.parts.get(this.selected), new THREE.Color(this.theme.selected).multiplyScalar(0.45));
+    this.outline ??= new Outline(0.012 * this.stage.size);
+    this.outline.surround(this.parts.get(this.selected)?.object, this.theme.selected, this.stage.holder);
   }
 
   /** The part that a diagnostic names: itself, the one that contains a node or coordinate, or the one of an output. */
@@ -266,5 +285,10 @@ export class ModelView {
       child.geometry?.dispose();
       child.material?.dispose?.();
     });
+    for (const { material, plain } of this.moving) {
+      material?.dispose();
+      plain?.dispose();
+    }
+    this.outline?.dispose();
   }
 }

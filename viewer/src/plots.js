@@ -2,10 +2,11 @@
 
 import uPlot from "uplot";
 
+import { element } from "./panel.js";
 import { PathPlot } from "./path.js";
 import { spectrum } from "./spectrum.js";
 import { curves } from "./theme.js";
-import { spelled } from "./words.js";
+import { spelled, tickLabels } from "./words.js";
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -73,7 +74,7 @@ export class Plots {
     const [{ component }] = columns;
     const isOne = columns.length === 1 && component;
     const measured = quantity && quantity !== output ? ` ${isOne ? component : quantity}` : "";
-    heading.append(output, Object.assign(document.createElement("span"), { textContent: `${measured}${unit ? ` [${unit}]` : ""}` }));
+    heading.append(element("b", { textContent: output, title: output }), element("span", { textContent: `${measured}${unit ? ` [${unit}]` : ""}` }));
     const key = `${output}\n${unit}`;
     const choice = this.choice(key);
     heading.append(choice);
@@ -108,11 +109,11 @@ export class Plots {
     const options = {
       width: 300,
       height: 170,
-      cursor: { sync: { key: "time", setSeries: false }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 }, focus: { prox: 24 } },
+      cursor: { sync: { key: "time", setSeries: false }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       scales: { x: { time: false } },
       axes: [
-        { ...axis, size: 28, values: (_, ticks) => ticks.map((tick) => spelled(tick, 5)) },
-        { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => spelled(tick, 4)) },
+        { ...axis, size: 28, values: (_, ticks) => tickLabels(ticks) },
+        { ...axis, size: 58, values: (_, ticks) => tickLabels(ticks) },
       ],
       series: [{ label: this.clock === "time" ? "t [s]" : this.clock, value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
       hooks: {
@@ -163,8 +164,8 @@ export class Plots {
       cursor: { points: { size: 6 } },
       scales: { x: { time: false }, y: { distr: 3 } },
       axes: [
-        { ...axis, size: 28, values: (_, ticks) => ticks.map((tick) => spelled(tick, 5)) },
-        { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => (tick == null ? "" : spelled(tick, 2))) },
+        { ...axis, size: 28, values: (_, ticks) => tickLabels(ticks) },
+        { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => (tick == null ? "" : spelled(tick, 4))) },
       ],
       series: [{ label: found.isCut ? "f [Hz], the lowest" : "f [Hz]", value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
     };

@@ -8,7 +8,7 @@ const light = {
   parts: ["#6f9bc8", "#d99a6c", "#74b49b", "#c59bbd", "#d8bf6b", "#8fb8d6", "#a3a8b0", "#b5a98f"],
   joint: "#f1b434", pin: "#4d5663", axis: "#8a94a3", ground: "#a9b2be", drive: "#d1495b", spring: "#5b8c5a", stop: "#8a6d3b",
   load: "#d1495b", moment: "#8e5bb5", grid: "#d3d9e1", gridMain: "#c0c8d2", trace: "#d55e00", text: "#1d2430",
-  faint: "#6b7686", line: "#e3e7ed", selected: "#1f6feb", sky: "#ffffff", floor: "#b9c0ca",
+  neutral: "#a7afba", faint: "#6b7686", line: "#e3e7ed", selected: "#1f6feb", sky: "#ffffff", floor: "#b9c0ca",
 };
 
 const dark = {
@@ -16,7 +16,7 @@ const dark = {
   background: "#12161c",
   parts: ["#7fadd9", "#e0a478", "#7fc4a9", "#cfa6c8", "#e0c977", "#9cc6e2", "#aab0b9", "#c2b698"],
   pin: "#8b95a3", axis: "#6b7686", ground: "#525c69", grid: "#232a33", gridMain: "#303945", trace: "#f0a35e",
-  text: "#e6eaf0", faint: "#98a3b3", line: "#2a323c", selected: "#58a6ff", sky: "#e9eef5", floor: "#4a5361",
+  neutral: "#58616d", text: "#e6eaf0", faint: "#98a3b3", line: "#2a323c", selected: "#58a6ff", sky: "#e9eef5", floor: "#4a5361",
 };
 
 export const themeOf = (name) => (name === "dark" ? dark : light);
@@ -31,13 +31,23 @@ const viridis = [
 /** From the numbers of a screen to those of light. */
 const linear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
 
+/** From blue over a light grey to red, at equal distances: for values of both signs [Moreland 2009]. */
+const diverging = [
+  [0.230, 0.299, 0.754], [0.404, 0.535, 0.930], [0.603, 0.732, 1.000], [0.788, 0.846, 0.940], [0.866, 0.866, 0.866],
+  [0.940, 0.806, 0.741], [0.968, 0.657, 0.537], [0.887, 0.413, 0.325], [0.706, 0.016, 0.150],
+];
+
+const mapOf = (isSigned) => (isSigned ? diverging : viridis);
+
 /** Writes the colour of a share from 0 to 1, in numbers of light. */
-export const shade = (share, out) => {
-  const x = (Number.isFinite(share) ? Math.min(Math.max(share, 0), 1) : 0) * (viridis.length - 1);
-  const k = Math.min(Math.floor(x), viridis.length - 2);
-  for (let i = 0; i < 3; i++) out[i] = linear(viridis[k][i] + (x - k) * (viridis[k + 1][i] - viridis[k][i]));
+export const shade = (share, isSigned, out) => {
+  const map = mapOf(isSigned);
+  const x = (Number.isFinite(share) ? Math.min(Math.max(share, 0), 1) : 0) * (map.length - 1);
+  const k = Math.min(Math.floor(x), map.length - 2);
+  for (let i = 0; i < 3; i++) out[i] = linear(map[k][i] + (x - k) * (map[k + 1][i] - map[k][i]));
 };
 
-export const gradient = `linear-gradient(to right, ${viridis
-  .map((colour) => `rgb(${colour.map((value) => Math.round(255 * value)).join(" ")})`)
-  .join(", ")})`;
+export const gradientOf = (isSigned) =>
+  `linear-gradient(to right, ${mapOf(isSigned)
+    .map((colour) => `rgb(${colour.map((value) => Math.round(255 * value)).join(" ")})`)
+    .join(", ")})`;

@@ -5,6 +5,7 @@ import * as THREE from "three";
 import { decodeHistory, decodeMotion, readTable } from "./decode.js";
 import { fields } from "./fields.js";
 import { Kinematics } from "./kinematics.js";
+import { Legend } from "./legend.js";
 import { ModelView } from "./model.js";
 import { Modes } from "./modes.js";
 import { Notices } from "./notices.js";
@@ -13,8 +14,8 @@ import { Player } from "./player.js";
 import { Plots } from "./plots.js";
 import { spectrum } from "./spectrum.js";
 import { Stage } from "./stage.js";
-import { gradient, themeOf } from "./theme.js";
-import { factor, spelled } from "./words.js";
+import { themeOf } from "./theme.js";
+import { factor, spelled, tickLabels } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const ICONS = {
@@ -28,6 +29,8 @@ const VIEWS = { iso: [1, -1.35, 0.75], front: [0, -1, 0], side: [1, 0, 0], top: 
 export class Viewer {
   /** For tests. */
   spectrum = spectrum;
+  tickLabels = tickLabels;
+  readTable = readTable;
 
   constructor() {
     this.themeName = this.storedTheme();
@@ -42,7 +45,8 @@ export class Viewer {
     this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name));
     this.shown = new Notices($("notices"), (notice) => this.point(notice));
     this.modes = new Modes($("modes"), (index) => this.showMode(index));
-    this.choices = { bodyShape: "box", colour: "part", magnification: 1, against: "", traces: false, follow: false };
+    this.legend = new Legend($("legend"), (covered) => this.cover(covered));
+    this.choices = { bodyShape: "box", colour: "part", covered: "run", magnification: 1, against: "", traces: false, follow: false };
     requestAnimationFrame((now) => this.draw(now));
   }
 
@@ -289,16 +293,15 @@ export class Viewer {
   colourBy(name) {
     this.choices.colour = name;
     $("colour").value = name;
-    const field = this.model?.colourBy(name);
-    $("legend").hidden = !field;
-    if (field) {
-      const [low, high] = field.range.map((value) => spelled(value, 3));
-      $("legend").innerHTML = '<span></span><div class="bar"></div><div class="ends"><span></span><span></span></div>';
-      const [title, least, most] = $("legend").querySelectorAll("span");
-      [title.textContent, least.textContent, most.textContent] = [`${field.title} [${field.unit}]`, low, high];
-      $("legend").querySelector(".bar").style.background = gradient;
-    }
+    this.model?.colourBy(name, this.choices.covered);
+    this.legend.show(this.model?.shownField());
     this.isMoved = true;
+  }
+
+  /** Colours cover the range of the run, that of this instant, or two numbers. */
+  cover(covered) {
+    this.choices.covered = covered;
+    this.colourBy(this.choices.colour);
   }
 
   magnify(value) {
@@ -348,6 +351,7 @@ export class Viewer {
     const { time } = this.player;
     this.kinematics?.set(time);
     this.model?.update();
+    if (this.choices.covered === "instant") this.legend.show(this.model?.shownField());
     if (this.choices.follow && this.model?.selected) {
       const anchor = this.model.anchorOf(this.model.selected);
       if (anchor) this.stage.follow(this.kinematics.point(anchor));

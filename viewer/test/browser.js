@@ -9,6 +9,7 @@ import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 import { launch, open as openPage } from "../browser.js";
+import { colours } from "./colours.js";
 import { examples } from "./examples.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -197,6 +198,7 @@ const enlarges = async (page) => {
 };
 
 const tests = {
+  ...colours({ view, open }),
   ...examples({ root, folder, view, open }),
   "a mechanism of beams": async (browser) => {
     const out = view("examples/tip-crank.toml", "analysis.end=0.2");
