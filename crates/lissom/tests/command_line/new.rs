@@ -33,6 +33,13 @@ fn a_new_model_runs_as_it_is() {
     let across = ["y", "z"].map(|letter| record.column("slider", letter).unwrap());
     assert!(across.iter().all(|values| values.iter().all(|value| value.abs() < 1e-9)));
     assert!(Vector3::new(ends[0], 0.0, 0.0).norm() > 0.2);
+    // It starts in equilibrium: while the motor is slow the rod hangs through as at the start.
+    let sag = record.column("bending", "u3").unwrap();
+    assert!(
+        sag[0] < -1e-5 && sag[..5].iter().all(|value| (value - sag[0]).abs() < 0.05 * sag[0].abs()),
+        "{:?}",
+        &sag[..5]
+    );
 }
 
 #[test]
