@@ -1,6 +1,8 @@
 //! `lissom live`: a local page that shows a model and simulates it again whenever its file is saved.
 
+mod address_word;
 mod http;
+mod parameter_order;
 mod server;
 mod simulation;
 
@@ -23,7 +25,8 @@ const PATIENCE: Duration = Duration::from_millis(100);
 ///
 /// The page has a slider for every number in `[parameters]`. While the model has errors the page shows them together with the
 /// last picture. The page is accessible only from this machine and at the printed address, which contains a random word. No
-/// file is written.
+/// file is written, except that the word of a port chosen by `--port` is kept in the user's runtime folder, so that open pages
+/// find a restarted program.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:

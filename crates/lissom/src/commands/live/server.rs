@@ -2,7 +2,6 @@
 //! serves only the page and the results: no file can be named.
 
 use std::collections::BTreeMap;
-use std::hash::{BuildHasher, RandomState};
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::Path;
@@ -12,6 +11,7 @@ use std::time::Duration;
 
 use lissom::view;
 
+use super::address_word;
 use super::http::{self, Request};
 use super::simulation::Shared;
 
@@ -25,9 +25,10 @@ const STACK_SIZE: usize = 1 << 18;
 /// Serves the page in threads of its own as long as the program runs. Returns the address.
 pub(super) fn start(port: u16, model: &Path, shared: &Arc<Shared>) -> io::Result<String> {
     let listener = TcpListener::bind(SocketAddr::from((Ipv4Addr::LOCALHOST, port)))?;
+    let word = address_word::word(port);
     let port = listener.local_addr()?.port();
     let title = model.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let site = Arc::new(Site { word: random_word(), port, page: view::empty_page(&title) });
+    let site = Arc::new(Site { word, port, page: view::empty_page(&title) });
     let address = format!("http://127.0.0.1:{port}/{}/", site.word);
     let shared = Arc::clone(shared);
     let busy = Arc::new(AtomicUsize::new(0));
@@ -63,12 +64,6 @@ impl Drop for Busy {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::SeqCst);
     }
-}
-
-/// A word that cannot be guessed: two values of a keyed hash whose 128-bit key the system has chosen at random.
-fn random_word() -> String {
-    let keyed = RandomState::new();
-    format!("{:016x}{:016x}", keyed.hash_one(0_u64), keyed.hash_one(1_u64))
 }
 
 struct Site {

@@ -18,6 +18,8 @@ use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use super::parameter_order::parameters_of;
+
 /// Interval of checks of the file.
 const LOOK: Duration = Duration::from_millis(5);
 /// A file that was changed more recently than this may still be being written.
@@ -196,9 +198,16 @@ fn simulate(
     for (name, value) in sliders.iter().filter(|(name, _)| bases.contains_key(*name)) {
         overrides.push((format!("parameters.{name}"), format!("{value:?}")));
     }
-    let parameters: Vec<Value> = bases
-        .iter()
-        .map(|(name, base)| json!({ "name": name, "base": base, "value": sliders.get(name).unwrap_or(base) }))
+    let mut named: Vec<(&String, &f64)> = bases.iter().collect();
+    let order = parameters_of(model.text());
+    let place = |name: &str| order.iter().position(|(known, _)| known == name).unwrap_or(usize::MAX);
+    named.sort_by_key(|(name, _)| place(name));
+    let parameters: Vec<Value> = named
+        .into_iter()
+        .map(|(name, base)| {
+            let comment = order.get(place(name)).map_or("", |(_, comment)| comment);
+            json!({ "name": name, "base": base, "value": sliders.get(name).unwrap_or(base), "comment": comment })
+        })
         .collect();
     match results(&model, &overrides, is_current) {
         Ok(None) => None,
