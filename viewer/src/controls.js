@@ -1,5 +1,8 @@
 // Buttons, keys and the pointer.
 
+import { film, picture } from "./capture.js";
+import { split } from "./splitter.js";
+
 const $ = (id) => document.getElementById(id);
 
 /** A pointer that has moved farther than this has dragged [pixels]. */
@@ -17,7 +20,7 @@ export const connect = (viewer) => {
     viewer.tell();
   };
   on("loop", "click", loop);
-  const theme = () => viewer.setTheme(viewer.themeName === "dark" ? "light" : "dark");
+  const theme = () => viewer.chooseTheme(viewer.themeName === "dark" ? "light" : "dark");
   on("theme", "click", theme);
   const ortho = () => {
     stage.setOrthographic(!stage.isOrthographic);
@@ -39,6 +42,13 @@ export const connect = (viewer) => {
     viewer.choices.follow = $("follow").checked = isWanted;
     viewer.isMoved = true;
   };
+  on("names", "change", () => {
+    viewer.labels.show($("names").checked);
+    viewer.isStale = true;
+  });
+  on("reactions", "change", () => viewer.showReactions($("reactions").checked));
+  on("picture", "click", () => picture(viewer));
+  on("film", "click", () => film(viewer));
   on("traces", "change", () => viewer.setTraces($("traces").checked));
   on("follow", "change", () => follow($("follow").checked));
   on("grid", "change", () => {
@@ -52,6 +62,7 @@ export const connect = (viewer) => {
     });
   }
   on("compare", "change", (event) => viewer.compare(event.target));
+  split($("splitter"), $("plots"));
   on("help", "click", () => $("keys").showModal());
   const nextColour = () => {
     const select = $("colour");
@@ -85,9 +96,9 @@ export const connect = (viewer) => {
   };
   document.addEventListener("keydown", (event) => {
     const isTyping = event.target.matches("select, textarea, input:not([type=range]):not([type=checkbox])");
-    const action = actions[event.key];
-    // Space on a button of a notice presses it.
-    const isPressing = event.key === " " && event.target.closest("#notices");
+    const action = event.target.closest("#splitter") ? null : actions[event.key];
+    // Space on a button or a box presses it.
+    const isPressing = event.key === " " && event.target.matches("button, summary, input[type=checkbox], input[type=file]");
     if (!action || isTyping || isPressing || event.ctrlKey || event.metaKey || event.altKey || $("keys").open || !viewer.history) return;
     event.preventDefault();
     action(event);

@@ -132,9 +132,54 @@ export class ModelView {
     this.hidden = { ...this.hidden, [kind]: !isShown };
   }
 
+  /** How a part is shown: `isHidden`, `isTransparent`, and whether its `initial` shape is drawn as a ghost. */
+  style(name, { isHidden = false, isTransparent = false, hasInitial = false }) {
+    const known = this.parts.get(name);
+    if (!known?.object) return;
+    known.isHidden = isHidden;
+    known.object.visible = !isHidden;
+    const materials = new Set([known.drawn.plain, known.drawn.material]);
+    known.object.traverse((child) => child.isMesh && child.material !== this.outline?.material && materials.add(child.material));
+    for (const material of materials) {
+      if (!material) continue;
+      Object.assign(material, { transparent: isTransparent, opacity: isTransparent ? 0.3 : 1, depthWrite: !isTransparent, needsUpdate: true });
+    }
+    if (known.initial) {
+      this.group.remove(known.initial);
+      known.initial.traverse((child) => child.geometry?.dispose());
+    }
+    known.initial = hasInitial ? this.initialShape(known) : null;
+    if (known.initial) this.group.add(known.initial);
+  }
+
+  /** A transparent copy of a part at the start of the run. */
+  initialShape({ drawn, object }) {
+    const { time, start } = this.kinematics;
+    this.kinematics.set(start);
+    drawn.update();
+    const material = new THREE.MeshBasicMaterial({ color: this.theme.faint, transparent: true, opacity: 0.35, depthWrite: false });
+    object.updateMatrix();
+    const copy = object.clone(true);
+    copy.visible = true;
+    copy.traverse((child) => {
+      child.raycast = () => {};
+      if (!child.isMesh) return;
+      child.geometry = child.geometry.clone();
+      child.material = material;
+    });
+    this.kinematics.set(time);
+    drawn.update();
+    return copy;
+  }
+
+  isHidden(name) {
+    return Boolean(this.parts.get(name)?.isHidden);
+  }
+
   /** Moves all to where the nodes are now. */
   update() {
     for (const drawn of this.moving) drawn.update();
+    for (const { isHidden, object } of this.parts.values()) if (isHidden) object.visible = false;
     for (const kind of Object.keys(this.hidden ?? {})) {
       if (this.hidden[kind]) for (const object of this.byKind[kind]) object.visible = false;
     }
@@ -271,6 +316,15 @@ export class ModelView {
       line.frustumCulled = false;
       this.group.add(line);
       return line;
+    });
+  }
+
+  /** Becomes a transparent copy that cannot be picked. */
+  becomeGhost() {
+    const material = new THREE.MeshBasicMaterial({ color: this.theme.faint, transparent: true, opacity: 0.35, depthWrite: false });
+    this.group.traverse((child) => {
+      child.raycast = () => {};
+      if (child.isMesh) child.material = material;
     });
   }
 

@@ -35,7 +35,9 @@ const constants = (kind, part, drawn) => {
 };
 
 export class Panel {
-  constructor({ selection, parts }, select) {
+  /** `style` is called with a part and how it is shown, which `styleOf` returns. */
+  constructor({ selection, parts }, select, { style, styleOf }) {
+    [this.style, this.styleOf] = [style, styleOf];
     this.selection = selection;
     this.parts = parts;
     this.select = select;
@@ -97,8 +99,19 @@ export class Panel {
       }
     }
     const heading = element("h2", { textContent: name }, element("span", { textContent: kind }));
-    this.selection.replaceChildren(heading, table);
+    this.selection.replaceChildren(heading, ...(known.object ? [this.switches(name)] : []), table);
     this.update();
+  }
+
+  /** Boxes for how a part is shown. */
+  switches(name) {
+    const now = this.styleOf(name);
+    const boxes = [["isHidden", "hide"], ["isTransparent", "transparent"], ["hasInitial", "initial shape"]].map(([key, text]) => {
+      const box = element("input", { type: "checkbox", checked: Boolean(now[key]) });
+      box.addEventListener("change", () => this.style(name, { ...this.styleOf(name), [key]: box.checked }));
+      return element("label", {}, box, text);
+    });
+    return element("div", { className: "checks" }, ...boxes);
   }
 
   /** Names of the outputs of a part. */

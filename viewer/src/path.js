@@ -1,14 +1,29 @@
 // A plot of columns over another column, with a mark where the time is now.
 
-import { spelled } from "./words.js";
+import { tickLabels } from "./words.js";
 
-const ROOM = { left: 62, right: 12, top: 8, bottom: 26 };
+const ROOM = { left: 74, right: 12, top: 8, bottom: 42 };
+/** Least distance of labels along an axis [pixels]. */
+const SPACING = { x: 70, y: 34 };
+
+/** Round values within a range, at most so many. */
+export const roundTicks = ([low, high], most) => {
+  const wanted = (high - low) / Math.max(most, 1);
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= wanted) ?? 10);
+  const first = Math.ceil(low / step - 1e-9);
+  return Array.from({ length: Math.max(Math.floor(high / step + 1e-9) - first + 1, 0) }, (_, k) => (first + k) * step);
+};
 
 export class PathPlot {
-  /** `curves` are { label, x, y, stroke, dash }; those of `owner` have its rows. */
-  constructor(card, curves, colours) {
+  /**
+   * `curves` are { x, y, stroke, dash, fill }; dashed ones and envelopes have no mark. `axes` names both axes with their units, and says
+   * whether lengths along both are equal, as those of a trajectory.
+   */
+  constructor(card, curves, colours, axes) {
     this.curves = curves;
     this.colours = colours;
+    this.axes = axes;
     this.canvas = document.createElement("canvas");
     card.append(this.canvas);
     const of = (key) => {
@@ -21,7 +36,7 @@ export class PathPlot {
       const room = high > low ? 0.03 * (high - low) : Math.abs(high) * 0.1 || 1;
       return [low - room, high + room];
     };
-    [this.x, this.y] = [of("x"), of("y")];
+    [this.x, this.y] = this.whole = [of("x"), of("y")];
     this.row = 0;
   }
 
@@ -33,7 +48,18 @@ export class PathPlot {
     this.canvas.style.width = `${width}px`;
     this.canvas.style.height = `${height}px`;
     this.ratio = ratio;
+    if (this.axes.isEqual) this.equalise();
     this.draw();
+  }
+
+  /** The shorter range grows until a length is as long along both axes. */
+  equalise() {
+    const sides = [this.width - ROOM.left - ROOM.right, this.height - ROOM.top - ROOM.bottom];
+    const scale = Math.max(...this.whole.map(([low, high], k) => (high - low) / sides[k]));
+    [this.x, this.y] = this.whole.map(([low, high], k) => {
+      const half = (scale * sides[k]) / 2;
+      return [(low + high) / 2 - half, (low + high) / 2 + half];
+    });
   }
 
   place(x, y) {
@@ -51,38 +77,76 @@ export class PathPlot {
 
   draw() {
     if (!this.width) return;
-    const { colours, width, height } = this;
+    const { width, height } = this;
     const pen = this.canvas.getContext("2d");
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, width, height);
-    pen.strokeStyle = colours.line;
-    pen.strokeRect(ROOM.left, ROOM.top, width - ROOM.left - ROOM.right, height - ROOM.top - ROOM.bottom);
-    pen.fillStyle = colours.faint;
-    pen.font = "11px system-ui";
-    pen.textAlign = "center";
-    for (const share of [0, 0.5, 1]) {
-      const value = this.x[0] + share * (this.x[1] - this.x[0]);
-      pen.fillText(spelled(value, 3), Math.min(this.place(value, this.y[0])[0], width - 24), height - 9);
-    }
-    pen.textAlign = "right";
-    for (const share of [0, 0.5, 1]) {
-      const value = this.y[0] + share * (this.y[1] - this.y[0]);
-      pen.fillText(spelled(value, 3), ROOM.left - 6, Math.max(this.place(this.x[0], value)[1] + 4, 11));
-    }
-    for (const { x, y, stroke, dash } of this.curves) {
-      pen.strokeStyle = stroke;
+    this.drawAxes(pen);
+    pen.save();
+    pen.beginPath();
+    pen.rect(ROOM.left, ROOM.top, width - ROOM.left - ROOM.right, height - ROOM.top - ROOM.bottom);
+    pen.clip();
+    for (const { x, y, stroke, dash, fill } of this.curves) {
+      pen.strokeStyle = pen.fillStyle = stroke;
       pen.lineWidth = 1.5;
       pen.setLineDash(dash ?? []);
       pen.beginPath();
       for (let row = 0; row < x.length; row++) pen.lineTo(...this.place(x[row], y[row]));
+      if (fill) {
+        pen.globalAlpha = fill;
+        pen.fill();
+        pen.globalAlpha = 1;
+        continue;
+      }
       pen.stroke();
       pen.setLineDash([]);
-      if (dash || this.row >= x.length) continue;
-      pen.fillStyle = stroke;
+      if (dash || this.row >= x.length || this.axes.hasNoMark) continue;
       pen.beginPath();
       pen.arc(...this.place(x[this.row], y[this.row]), 4, 0, 2 * Math.PI);
       pen.fill();
     }
+    pen.restore();
+  }
+
+  /** Lines and labels at round values, and the names of both axes. */
+  drawAxes(pen) {
+    const { colours, width, height, axes } = this;
+    const [right, bottom] = [width - ROOM.right, height - ROOM.bottom];
+    pen.strokeStyle = colours.line;
+    pen.fillStyle = colours.faint;
+    pen.font = "11px system-ui";
+    pen.lineWidth = 1;
+    pen.strokeRect(ROOM.left, ROOM.top, right - ROOM.left, bottom - ROOM.top);
+    const line = (from, to) => {
+      pen.beginPath();
+      pen.moveTo(...from);
+      pen.lineTo(...to);
+      pen.stroke();
+    };
+    const xs = roundTicks(this.x, (right - ROOM.left) / SPACING.x);
+    this.labels = { x: tickLabels(xs), y: [] };
+    pen.textAlign = "center";
+    xs.forEach((x, k) => {
+      const [at] = this.place(x, 0);
+      line([at, ROOM.top], [at, bottom]);
+      const half = pen.measureText(this.labels.x[k]).width / 2;
+      pen.fillText(this.labels.x[k], Math.min(at, width - half - 1), bottom + 14);
+    });
+    const ys = roundTicks(this.y, (bottom - ROOM.top) / SPACING.y);
+    this.labels.y = tickLabels(ys);
+    pen.textAlign = "right";
+    ys.forEach((y, k) => {
+      const [, at] = this.place(0, y);
+      line([ROOM.left, at], [right, at]);
+      pen.fillText(this.labels.y[k], ROOM.left - 6, Math.min(Math.max(at + 4, 11), bottom + 4));
+    });
+    pen.textAlign = "center";
+    pen.fillText(axes.x, (ROOM.left + right) / 2, height - 6, right - ROOM.left);
+    pen.save();
+    pen.translate(11, (ROOM.top + bottom) / 2);
+    pen.rotate(-Math.PI / 2);
+    pen.fillText(axes.y, 0, 0, bottom - ROOM.top);
+    pen.restore();
   }
 
   destroy() {

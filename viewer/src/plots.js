@@ -8,7 +8,13 @@ import { spectrum } from "./spectrum.js";
 import { curves } from "./theme.js";
 import { spelled, tickLabels } from "./words.js";
 
+/** Colours of axes. */
+export const colours = () => ({ line: css("--line"), faint: css("--faint") });
+
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Room for the labels of an axis. */
+const roomOf = (_, labels) => 20 + 7 * Math.max(...(labels ?? []).map((label) => label.length), 3);
 
 /** Columns of one output and one unit belong together. */
 const groups = (columns) => {
@@ -21,6 +27,11 @@ const groups = (columns) => {
   return [...found.values()];
 };
 
+/** Interval in which values beside the curves change [ms]. */
+const LEGIBLE = 100;
+
+const keyOf = ([{ output, unit }]) => `${output}\n${unit}`;
+
 export class Plots {
   /** `seek` is told the time that was clicked. */
   constructor(holder, seek) {
@@ -29,6 +40,11 @@ export class Plots {
     this.time = 0;
     this.range = null;
     this.plots = [];
+    /** Plots that are not shown, the one that fills the space, and their order, by output and unit. */
+    this.hidden = new Set();
+    this.largest = null;
+    this.order = [];
+    this.chooser = document.getElementById("chooser");
     /** What plots are drawn over where that is not time, by output and unit. */
     this.over = new Map();
     /** Another result on top of this one. */
@@ -60,10 +76,61 @@ export class Plots {
     for (const { plot } of this.plots) plot.destroy();
     this.holder.replaceChildren();
     this.plots = [];
+    if (this.diagram) this.holder.append(this.diagram.card);
+    this.chooser.hidden = this.history.times.length < 2;
     if (this.history.times.length < 2) return;
-    for (const columns of groups(this.history.columns)) this.plots.push(this.plot(columns));
+    const found = new Map(groups(this.history.columns).map((columns) => [keyOf(columns), columns]));
+    this.order = [...this.order.filter((key) => found.has(key)), ...[...found.keys()].filter((key) => !this.order.includes(key))];
+    if (!found.has(this.largest)) this.largest = null;
+    for (const key of this.order) {
+      if (this.largest ? key === this.largest : !this.hidden.has(key)) this.plots.push(this.plot(found.get(key)));
+    }
+    this.holder.classList.toggle("single", this.largest !== null);
+    this.offer();
     this.resize();
     this.mark(this.marked);
+  }
+
+  /** The list in which plots are chosen and moved up. */
+  offer() {
+    const rows = this.order.map((key, index) => {
+      const [output, unit] = key.split("\n");
+      const box = element("input", { type: "checkbox", checked: !this.hidden.has(key) });
+      box.addEventListener("change", () => this.hide(key, !box.checked));
+      const up = element("button", { type: "button", textContent: "↑", title: "move up", ariaLabel: `move ${output} up`, disabled: index === 0 });
+      up.addEventListener("click", () => {
+        this.order.splice(index - 1, 2, key, this.order[index - 1]);
+        this.redraw();
+      });
+      return element("li", {}, element("label", {}, box, ` ${output}${unit ? ` [${unit}]` : ""}`), up);
+    });
+    this.chooser.querySelector("ul").replaceChildren(...rows);
+  }
+
+  hide(key, isHidden) {
+    if (isHidden) this.hidden.add(key);
+    else this.hidden.delete(key);
+    this.redraw();
+  }
+
+  enlarge(key) {
+    this.largest = this.largest === key ? null : key;
+    this.redraw();
+  }
+
+  redraw() {
+    this.draw();
+    this.setTime(this.time);
+  }
+
+  /** Shows a diagram along a beam before the other plots; none for nothing. */
+  showDiagram(diagram) {
+    if (this.diagram) this.diagram.card.remove();
+    this.diagram = diagram;
+    if (!diagram) return;
+    this.holder.prepend(diagram.card);
+    this.resize();
+    diagram.update();
   }
 
   plot(columns) {
@@ -75,9 +142,15 @@ export class Plots {
     const isOne = columns.length === 1 && component;
     const measured = quantity && quantity !== output ? ` ${isOne ? component : quantity}` : "";
     heading.append(element("b", { textContent: output, title: output }), element("span", { textContent: `${measured}${unit ? ` [${unit}]` : ""}` }));
-    const key = `${output}\n${unit}`;
-    const choice = this.choice(key);
-    heading.append(choice);
+    const key = keyOf(columns);
+    const button = (textContent, title, action) => {
+      const made = element("button", { type: "button", textContent, title, ariaLabel: `${title}: ${output}` });
+      made.addEventListener("click", action);
+      return made;
+    };
+    const isLargest = this.largest === key;
+    heading.append(this.choice(key), button(isLargest ? "⤡" : "⤢", isLargest ? "show all plots" : "show this plot alone", () => this.enlarge(key)));
+    if (!isLargest) heading.append(button("×", "hide this plot", () => this.hide(key, true)));
     card.append(heading);
     this.holder.append(card);
     const over = this.over.get(key) ?? "time";
@@ -112,12 +185,12 @@ export class Plots {
       cursor: { sync: { key: "time", setSeries: false }, drag: { x: true, y: false, dist: 6 }, points: { size: 6 } },
       scales: { x: { time: false } },
       axes: [
-        { ...axis, size: 28, values: (_, ticks) => tickLabels(ticks) },
-        { ...axis, size: 58, values: (_, ticks) => tickLabels(ticks) },
+        { ...axis, size: 28, space: 64, values: (_, ticks) => tickLabels(ticks) },
+        { ...axis, size: roomOf, values: (_, ticks) => tickLabels(ticks) },
       ],
       series: [{ label: this.clock === "time" ? "t [s]" : this.clock, value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
       hooks: {
-        draw: [(plot) => this.drawTime(plot)],
+        draw: [(plot) => this.placeTime(plot)],
         ready: [(plot) => this.listen(plot)],
         setScale: [(plot, key) => key === "x" && this.share(plot)],
       },
@@ -164,8 +237,8 @@ export class Plots {
       cursor: { points: { size: 6 } },
       scales: { x: { time: false }, y: { distr: 3 } },
       axes: [
-        { ...axis, size: 28, values: (_, ticks) => tickLabels(ticks) },
-        { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => (tick == null ? "" : spelled(tick, 4))) },
+        { ...axis, size: 28, space: 64, values: (_, ticks) => tickLabels(ticks) },
+        { ...axis, size: roomOf, values: (_, ticks) => ticks.map((tick) => (tick == null ? "" : spelled(tick, 4))) },
       ],
       series: [{ label: found.isCut ? "f [Hz], the lowest" : "f [Hz]", value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
     };
@@ -183,7 +256,11 @@ export class Plots {
     this.others(columns).forEach((column, k) => {
       if (column && otherX) all.push({ x: otherX.values, y: column.values, stroke: curves[k % curves.length], dash: [6, 4] });
     });
-    return new PathPlot(card, all, { line: css("--line"), faint: css("--faint") });
+    const named = (column) => `${column.name}${column.unit ? ` [${column.unit}]` : ""}`;
+    // Both axes of a trajectory are lengths of one output.
+    const isEqual = x.unit !== "" && columns.every((column) => column.unit === x.unit && column.output === x.output);
+    const axes = { x: named(x), y: columns.length === 1 ? named(columns[0]) : `${columns[0].output}${columns[0].unit ? ` [${columns[0].unit}]` : ""}`, isEqual };
+    return new PathPlot(card, all, colours(), axes);
   }
 
   /** A click sets the time, a drag zooms, a double click shows all. */
@@ -210,33 +287,31 @@ export class Plots {
     this.isSharing = false;
   }
 
-  drawTime(plot) {
-    const x = plot.valToPos(this.time, "x", true);
-    const { left, top, width, height } = plot.bbox;
-    if (!(x >= left && x <= left + width)) return;
-    const pen = plot.ctx;
-    pen.save();
-    pen.strokeStyle = css("--accent");
-    pen.lineWidth = 1.5 * devicePixelRatio;
-    pen.beginPath();
-    pen.moveTo(x, top);
-    pen.lineTo(x, top + height);
-    pen.stroke();
-    pen.restore();
+  /** Moves the line of the time over a plot, which is not drawn again for it. */
+  placeTime(plot) {
+    const line = plot.over.querySelector(".now") ?? plot.over.appendChild(element("div", { className: "now" }));
+    const { min, max } = plot.scales.x;
+    line.hidden = !(this.time >= min && this.time <= max);
+    if (!line.hidden) line.style.transform = `translateX(${plot.valToPos(this.time, "x").toFixed(1)}px)`;
   }
 
   setTime(time) {
     this.time = time;
+    this.diagram?.update();
     const row = this.row();
+    // Values that change faster cannot be read.
+    const isLegible = !(performance.now() - this.lastLegend < LEGIBLE);
+    if (isLegible) this.lastLegend = performance.now();
+    else this.late ??= setTimeout(() => ((this.late = null), this.setTime(this.time)), LEGIBLE);
     for (const { plot, card, isFree, isJoined } of this.plots) {
       if (!this.isSeen(card)) continue;
       if (isFree) {
         plot.mark?.(row);
         continue;
       }
-      plot.redraw(false, false);
+      this.placeTime(plot);
       // Where no pointer asks for others, the legend tells the values now.
-      if (!(plot.cursor.left >= 0)) plot.setLegend({ idx: isJoined ? plot.valToIdx(this.time) : row }, false);
+      if (isLegible && !(plot.cursor.left >= 0)) plot.setLegend({ idx: isJoined ? plot.valToIdx(this.time) : row }, false);
     }
   }
 
@@ -273,13 +348,17 @@ export class Plots {
       card.classList.toggle("marked", isMarked);
       if (isMarked) first ??= card;
     }
-    if (first) this.holder.scrollTo({ left: first.offsetLeft - this.holder.offsetLeft - 8, top: first.offsetTop - this.holder.offsetTop - 8, behavior: "smooth" });
+    if (this.diagram && outputs.length) this.holder.scrollTo({ top: 0 });
+    else if (first) this.holder.scrollTo({ left: first.offsetLeft - this.holder.offsetLeft - 8, top: first.offsetTop - this.holder.offsetTop - 8, behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
   }
 
   resize() {
-    for (const { plot, card } of this.plots) {
+    const height = this.largest === null ? 170 : Math.max(this.holder.clientHeight - 110, 170);
+    const fit = (plot, card) => {
       const width = Math.max(card.clientWidth - 4, 160);
-      if (width !== plot.width) plot.setSize({ width, height: 170 });
-    }
+      if (width !== plot.width || height !== plot.height) plot.setSize({ width, height });
+    };
+    for (const { plot, card } of this.plots) fit(plot, card);
+    if (this.diagram) fit(this.diagram.plot, this.diagram.card);
   }
 }

@@ -69,6 +69,7 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.target.copy(this.centre);
     this.controls.addEventListener("change", this.changed);
+    this.controls.addEventListener("end", () => this.linkCamera());
     this.controls.addEventListener("start", () => (this.isFramed = false));
   }
 
@@ -227,6 +228,30 @@ export class Stage {
   fit() {
     const away = this.camera.position.clone().sub(this.controls.target);
     this.look(away.toArray(), this.camera.up.clone());
+  }
+
+  /** Writes position, target and upward direction of the camera into the address, so that a link shows the same picture. */
+  linkCamera() {
+    const { position, up, zoom } = this.camera;
+    const numbers = [position, this.controls.target, up].flatMap((vector) => vector.toArray().map((x) => Number(x.toPrecision(6))));
+    const others = location.hash.slice(1).split("&").filter((word) => word && !word.startsWith("camera="));
+    history.replaceState(null, "", `#${[...others, `camera=${[...numbers, Number(zoom.toPrecision(5)), Number(this.isOrthographic)].join(",")}`].join("&")}`);
+  }
+
+  /** Looks as the address has it, if it has a camera. */
+  lookAsLinked(hash) {
+    const numbers = hash.match(/camera=([^&]+)/)?.[1].split(",").map(Number) ?? [];
+    if (numbers.length !== 11 || !numbers.every(Number.isFinite)) return;
+    this.setOrthographic(numbers[10] === 1);
+    this.isFramed = false;
+    this.camera.position.fromArray(numbers, 0);
+    this.controls.target.fromArray(numbers, 3);
+    this.camera.up.fromArray(numbers, 6);
+    this.camera.zoom = numbers[9];
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.fitOrthographic();
+    this.changed();
   }
 
   /** Moves target and camera together. */

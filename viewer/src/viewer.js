@@ -5,17 +5,23 @@ import * as THREE from "three";
 import { decodeHistory, decodeMotion, readTable } from "./decode.js";
 import { fields } from "./fields.js";
 import { Kinematics } from "./kinematics.js";
+import { Labels } from "./labels.js";
 import { Legend } from "./legend.js";
 import { ModelView } from "./model.js";
 import { Modes } from "./modes.js";
 import { Notices } from "./notices.js";
-import { Panel } from "./panel.js";
+import { Panel, element } from "./panel.js";
 import { Player } from "./player.js";
-import { Plots } from "./plots.js";
+import { Plots, colours } from "./plots.js";
+import { Reactions } from "./reactions.js";
+import { SectionDiagram } from "./section_diagram.js";
 import { spectrum } from "./spectrum.js";
 import { Stage } from "./stage.js";
 import { themeOf } from "./theme.js";
 import { factor, spelled, tickLabels } from "./words.js";
+
+/** Marks of events at most. */
+const MAX_EVENTS = 200;
 
 const $ = (id) => document.getElementById(id);
 const ICONS = {
@@ -42,33 +48,48 @@ export class Viewer {
     this.stage = new Stage($("stage"), () => (this.isStale = true));
     this.player = new Player(() => (this.isMoved = true));
     this.plots = new Plots($("plots"), (time) => this.player.seek(time));
-    this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name));
+    this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name), {
+      style: (name, style) => this.style(name, style),
+      styleOf: (name) => this.choices.styles.get(name) ?? {},
+    });
+    this.labels = new Labels(this.stage);
     this.shown = new Notices($("notices"), (notice) => this.point(notice));
     this.modes = new Modes($("modes"), (index) => this.showMode(index));
     this.legend = new Legend($("legend"), (covered) => this.cover(covered));
-    this.choices = { bodyShape: "box", colour: "part", covered: "run", magnification: 1, against: "", traces: false, follow: false };
+    this.choices = { bodyShape: "box", colour: "part", covered: "run", component: 5, styles: new Map(), reactions: false, magnification: 1, against: "", traces: false, follow: false };
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.chosenTheme() || this.setTheme(this.storedTheme()));
     requestAnimationFrame((now) => this.draw(now));
   }
 
+  /** The theme that was chosen, otherwise that of the system, which may change. */
   storedTheme() {
+    return this.chosenTheme() ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
+  }
+
+  chosenTheme() {
     try {
-      const stored = localStorage.getItem("lissom-theme");
-      if (stored) return stored;
+      return localStorage.getItem("lissom-theme") ?? this.chosen ?? null;
     } catch {
       // Pages from files may have no storage.
+      return this.chosen ?? null;
     }
-    return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  }
+
+  /** Chooses a theme instead of the system's. */
+  chooseTheme(name) {
+    this.chosen = name;
+    try {
+      localStorage.setItem("lissom-theme", name);
+    } catch {
+      // The choice is then for this page alone.
+    }
+    this.setTheme(name);
   }
 
   setTheme(name) {
     this.themeName = name;
     document.documentElement.dataset.theme = name;
     this.theme = themeOf(name);
-    try {
-      localStorage.setItem("lissom-theme", name);
-    } catch {
-      // The choice is then for this page alone.
-    }
     $("theme").textContent = ICONS[name === "dark" ? "light" : "dark"];
     if (this.kinematics) this.rebuild();
     this.plots.history && this.plots.draw();
@@ -103,13 +124,17 @@ export class Viewer {
     this.plots.load(history, isStatic ? (scene.path ? "length" : "load") : "time");
     const selected = keeps ? this.model?.selected : null;
     this.rebuild();
-    if (this.kinematics && !keeps) this.firstLook();
-    else if (this.kinematics && this.stage.isPoorlyFramed()) this.stage.fit();
+    if (this.kinematics && !keeps) {
+      this.firstLook();
+      this.stage.lookAsLinked(location.hash);
+    }
+    if (this.kinematics && keeps && this.stage.isPoorlyFramed()) this.stage.fit();
     this.player.load(...span, isStatic, keeps);
     if (this.modes.current) this.player.speed = 0.5;
     this.offerColours();
     this.select(selected);
     this.notices(result.notices ?? []);
+    this.markEvents(result.events ?? []);
     $("scrub").disabled = $("play").disabled = !this.player.canPlay;
     this.isMoved = true;
   }
@@ -121,7 +146,7 @@ export class Viewer {
     if (!file) return;
     try {
       const text = await file.text();
-      let [history, name] = [null, file.name.replace(/\.[a-z]+$/, "")];
+      let [history, name, other] = [null, file.name.replace(/\.[a-z]+$/, ""), null];
       if (text.trimStart().startsWith("<")) {
         const page = new DOMParser().parseFromString(text, "text/html");
         const held = page.getElementById("result");
@@ -129,6 +154,7 @@ export class Viewer {
         const result = JSON.parse(held.textContent);
         history = await decodeHistory(result.history, result.columns ?? []);
         name = result.name || name;
+        other = { scene: result.scene, motion: await decodeMotion(result.motion) };
       } else {
         history = readTable(text);
       }
@@ -136,10 +162,49 @@ export class Viewer {
       if (!history.columns.some((column) => own.has(column.name))) throw new Error("it has no column of these results");
       this.plots.compare(history, name);
       this.plots.compared = file.name;
+      this.setGhost(other);
+      const remove = element("button", { type: "button", textContent: "×", title: `remove ${name}`, ariaLabel: `remove ${name}` });
+      remove.addEventListener("click", () => this.dropComparison());
+      $("compared").replaceChildren(`with ${name} `, remove);
+      $("compared").hidden = false;
       this.isMoved = true;
     } catch (error) {
       this.notices([...(this.result.notices ?? []), { kind: "error", text: `${file.name} cannot be compared: ${error.message}` }]);
     }
+  }
+
+  /** Marks under the time line; each shows its time. */
+  markEvents(events) {
+    const { start, end } = this.player;
+    const marks = events.slice(0, MAX_EVENTS).map(({ time, name }) => {
+      const title = `${name} at ${spelled(time, 5)} s`;
+      const mark = element("button", { type: "button", title, ariaLabel: title });
+      mark.style.left = `${(100 * (time - start)) / (end - start || 1)}%`;
+      mark.addEventListener("click", () => this.point({ time }));
+      return mark;
+    });
+    $("events").replaceChildren(...marks);
+  }
+
+  /** Removes the other results from plots and picture. */
+  dropComparison() {
+    this.plots.compare(null);
+    this.setGhost(null);
+    $("compared").hidden = true;
+    this.isMoved = true;
+  }
+
+  /** Draws the model of other results, with its own motion, as a ghost; none for nothing. */
+  setGhost(other) {
+    this.ghost?.leave();
+    this.ghost?.dispose();
+    this.ghost = null;
+    this.compared = other;
+    if (!other?.motion?.frames || !this.kinematics || this.modes.current) return;
+    const kinematics = new Kinematics(other.motion);
+    this.ghost = new ModelView(other.scene, kinematics, this.stage, this.theme, this.choices);
+    this.ghost.becomeGhost();
+    for (const kind of ["joints", "springs", "loads"]) this.ghost.show(kind, false);
   }
 
   /** Shows another mode, from the first to the last. */
@@ -191,9 +256,14 @@ export class Viewer {
       this.stage.surround(this.model.points(), this.theme);
       this.stage.grid.visible = $("grid").checked;
       for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
+      this.reactions = new Reactions(this.result.scene, this.history, this.kinematics, this.stage.size, this.theme.load);
+      this.model.group.add(this.reactions.group);
+      this.showReactions(this.choices.reactions);
+      for (const [name, style] of this.choices.styles) this.model.style(name, style);
       this.colourBy(this.choices.colour);
       this.setTraces(this.choices.traces);
     }
+    if (this.compared) this.setGhost(this.compared);
     this.panel.list(this.model);
     this.select(selected);
     this.isMoved = true;
@@ -264,9 +334,18 @@ export class Viewer {
     this.model?.select(name);
     const selected = this.model?.selected ?? null;
     this.panel.show(selected, this.plots);
+    this.showDiagram();
     this.plots.mark(selected ? this.panel.outputsOf(selected) : []);
     if (this.choices.traces) this.setTraces(true);
     this.isMoved = true;
+  }
+
+  /** The section forces along the selected beam. */
+  showDiagram(component = this.choices.component) {
+    this.choices.component = component;
+    const known = this.model?.parts.get(this.model.selected);
+    const isBeam = known?.kind === "beam" && this.kinematics.motion.points > 0;
+    this.plots.showDiagram(isBeam ? SectionDiagram.of(known.part, this.kinematics, component, colours(), (other) => this.showDiagram(other)) : null);
   }
 
   /** Paths of the selected part, or of all points that are observed. */
@@ -295,6 +374,25 @@ export class Viewer {
     $("colour").value = name;
     this.model?.colourBy(name, this.choices.covered);
     this.legend.show(this.model?.shownField());
+    this.isMoved = true;
+  }
+
+  /** How a part is shown, also after the model is drawn anew. */
+  style(name, style) {
+    this.choices.styles.set(name, style);
+    this.model?.style(name, style);
+    this.isMoved = true;
+  }
+
+  /** Reactions as arrows, with the force that the longest one stands for. */
+  showReactions(isShown) {
+    this.choices.reactions = isShown;
+    if (!this.reactions) return;
+    const { most, length, arrows } = this.reactions;
+    $("reactions").closest("label").hidden = arrows.length === 0;
+    this.reactions.group.visible = isShown;
+    $("force-scale").hidden = !(isShown && arrows.length);
+    $("force-scale").textContent = `reactions: ${spelled(most / length, 3)} N per m of arrow, at most ${spelled(most, 3)} N`;
     this.isMoved = true;
   }
 
@@ -351,12 +449,18 @@ export class Viewer {
     const { time } = this.player;
     this.kinematics?.set(time);
     this.model?.update();
+    if (this.ghost) {
+      const { start, end } = this.ghost.kinematics;
+      this.ghost.kinematics.set(Math.min(Math.max(time, start), end));
+      this.ghost.update();
+    }
     if (this.choices.covered === "instant") this.legend.show(this.model?.shownField());
     if (this.choices.follow && this.model?.selected) {
       const anchor = this.model.anchorOf(this.model.selected);
       if (anchor) this.stage.follow(this.kinematics.point(anchor));
     }
     this.plots.setTime(time);
+    this.reactions?.update(this.plots.row());
     this.panel.update();
     this.tell();
     this.isMoved = false;
@@ -401,6 +505,7 @@ export class Viewer {
     if (this.isStale && this.model) {
       this.stage.sharpen(!this.player.isPlaying);
       this.stage.render();
+      this.labels.update(this.model);
       for (const model of this.replaced.splice(0)) model.dispose();
       this.isStale = false;
       this.drawn = (this.drawn ?? 0) + 1;

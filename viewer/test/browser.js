@@ -11,6 +11,9 @@ import { fileURLToPath } from "node:url";
 import { launch, open as openPage } from "../browser.js";
 import { colours } from "./colours.js";
 import { examples } from "./examples.js";
+import { live } from "./live.js";
+import { parts } from "./parts.js";
+import { plots } from "./plots.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
@@ -199,6 +202,9 @@ const enlarges = async (page) => {
 
 const tests = {
   ...colours({ view, open }),
+  ...plots({ view, open }),
+  ...parts({ root, folder, view, open }),
+  ...live({ program, folder }),
   ...examples({ root, folder, view, open }),
   "a mechanism of beams": async (browser) => {
     const out = view("examples/tip-crank.toml", "analysis.end=0.2");

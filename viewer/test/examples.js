@@ -42,6 +42,31 @@ const coverage = (page) =>
     return { across: (right - left + 1) / width, down: (bottom - top + 1) / height, isCut: left === 0 || top === 0 || right === width - 1 || bottom === height - 1 };
   });
 
+/** Pairs of texts in headings, legends and controls whose boxes overlap, and boxes that reach out of the page. */
+const overlaps = (page) =>
+  page.evaluate(() => {
+    const shown = (selector) => [...document.querySelectorAll(selector)].filter((each) => each.getClientRects().length > 0);
+    const box = (each) => ({ each, ...each.getBoundingClientRect().toJSON() });
+    const name = (each) => `${each.className || each.tagName} ${each.textContent.slice(0, 30)}`;
+    const found = [];
+    const meets = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1;
+    const disjoint = (boxes) => {
+      for (let i = 0; i < boxes.length; i++) for (let j = 0; j < i; j++) if (meets(boxes[i], boxes[j])) found.push(`${name(boxes[j].each)} over ${name(boxes[i].each)}`);
+    };
+    for (const card of shown(".plot")) {
+      const own = (selector) => [...card.querySelectorAll(selector)].map(box);
+      // The drawing, with the labels of its axes, lies between heading and legend.
+      disjoint([...own("h3 > *"), ...own(":scope > canvas, .u-wrap"), ...own(".u-legend .u-series")]);
+      const outer = card.getBoundingClientRect();
+      for (const inner of own("h3, canvas, .u-legend")) if (inner.right > outer.right + 1) found.push(`${name(inner.each)} out of its card`);
+    }
+    disjoint(shown("#transport > *").map(box));
+    disjoint(shown("header > :not(.fill)").map(box));
+    disjoint(shown("#stage > .views, #scale, #legend, .gizmo").map(box));
+    if (document.documentElement.scrollWidth > innerWidth) found.push(`the page is ${document.documentElement.scrollWidth} pixels wide`);
+    return found;
+  });
+
 export const examples = ({ root, folder, view, open }) => {
   const files = readdirSync(join(root, "examples")).filter((file) => file.endsWith(".toml") && file !== "connecting-rod.toml");
   return {
@@ -91,6 +116,7 @@ export const examples = ({ root, folder, view, open }) => {
             const { across, down, isCut } = await coverage(page);
             const filled = Math.max(across, down);
             const what = `${file} at ${width} x ${height}, ${theme}`;
+            assert.deepEqual(await overlaps(page), [], what);
             assert.ok(filled >= 0.3 && filled <= 0.9 && !isCut, `${what}: ${across} across, ${down} down, cut off: ${isCut}`);
           }
         }

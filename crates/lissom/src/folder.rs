@@ -31,7 +31,7 @@ const PAGE: &str = "view.html";
 /// Names of the picture of the mechanism.
 const PICTURES: [&str; 2] = ["snapshot.svg", "snapshot.png"];
 /// Instants at which events happened.
-const EVENTS: &str = "events.csv";
+pub(crate) const EVENTS: &str = "events.csv";
 /// Names of the tables of natural modes.
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";

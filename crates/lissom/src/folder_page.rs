@@ -8,7 +8,7 @@ use lissom_model::output::Record;
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
-use crate::folder::{FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
+use crate::folder::{EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
 use crate::motion::{Motion, MotionError};
 use crate::view::{Notice, Results};
 
@@ -69,6 +69,9 @@ impl ResultFolder {
         }
         let (_, record, _) = Self::open(path)?;
         let mut results = results.with_record(&record);
+        if let Ok(events) = files::read_text(&path.join(EVENTS)) {
+            results = results.with_events(&events);
+        }
         if summary.is_null() {
             let text = "There is no summary: the run is incomplete or still in progress.";
             results = results.with_notice(Notice::warning(text));

@@ -19,7 +19,7 @@ use lissom_core::kinematics::{GROUND, NodeId};
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Document, NodeReference, OutputSource, interface_name};
+use crate::document::{Document, NodeReference, OutputSource, ReactionAxes, interface_name};
 use crate::lower::Lowered;
 use crate::report::Located;
 
@@ -106,6 +106,9 @@ pub struct Output {
     pub of: Option<String>,
     /// The point that is observed, if it is carried by a node.
     pub point: Option<Anchor>,
+    /// Whether it is a reaction with components along the global axes.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_global: bool,
 }
 
 impl Scene {
@@ -232,7 +235,9 @@ impl Places<'_> {
                 (Some(part_of(&node.value).to_owned()), self.observed(&node.value, point.as_ref()))
             }
         };
-        Output { name: output.name.value.clone(), kind: output.kind.name().to_owned(), of, point }
+        let kind = output.kind.name().to_owned();
+        let is_global = kind == "reaction" && output.axes == ReactionAxes::Ground;
+        Output { name: output.name.value.clone(), kind, of, point, is_global }
     }
 
     /// The point that an output observes: a beam's is that of its section, not of the node.

@@ -83,6 +83,7 @@ pub struct Results {
     modes: Vec<modes::Mode>,
     columns: Vec<Value>,
     history: Option<String>,
+    events: Vec<Value>,
     #[serde(skip)]
     effort: packed::Effort,
 }
@@ -185,6 +186,18 @@ impl Results {
             self.notices.push(Notice::warning(text));
         }
         self.history = Some(packed::table(record, stride, self.effort));
+        self
+    }
+
+    /// With the instants of events, from the table `events.csv`: time and name; lines of another form are omitted.
+    #[must_use]
+    pub fn with_events(mut self, table: &str) -> Self {
+        let event = |line: &str| {
+            let (time, name) = line.split_once(',')?;
+            let time = time.parse::<f64>().ok().filter(|time| time.is_finite())?;
+            Some(serde_json::json!({ "time": time, "name": name.trim_matches('"') }))
+        };
+        self.events = table.lines().skip(1).filter_map(event).collect();
         self
     }
 

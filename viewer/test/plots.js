@@ -1,0 +1,81 @@
+// Plots: chosen, enlarged and arranged, over another column, along beams, and of other results.
+
+import assert from "node:assert/strict";
+import { join } from "node:path";
+
+export const plots = ({ view, open }) => ({
+  "plots are chosen, enlarged, moved and split": async (browser) => {
+    const { page, complaints } = await open(browser, join(view("examples/pendulum.toml"), "view.html"));
+    const names = () => page.evaluate(() => lissom.plots.plots.map(({ output }) => output));
+    const all = await names();
+    await page.locator("#chooser summary").click();
+    await page.locator("#chooser li input").first().uncheck();
+    assert.deepEqual(await names(), all.slice(1));
+    await page.locator("#chooser li input").first().check();
+    await page.locator("#chooser li button").nth(1).click();
+    assert.deepEqual((await names()).slice(0, 2), [all[1], all[0]]);
+    await page.locator("#chooser summary").click();
+    await page.locator(".plot h3 button").first().click();
+    assert.deepEqual(await names(), [all[1]]);
+    await page.locator("#splitter").focus();
+    const height = () => page.evaluate(() => document.getElementById("plots").clientHeight);
+    const before = await height();
+    await page.keyboard.press("ArrowUp");
+    assert.equal((await height()) - before, 24);
+    await page.locator(".plot h3 button").first().click();
+    assert.equal((await names()).length, all.length);
+    // Hovering one plot leaves the curves of the others as they are.
+    const faded = await page.evaluate(() => lissom.plots.plots.filter(({ plot }) => plot.over).map(({ plot }) => [plot.cursor.focus?.prox ?? -1, plot.cursor.sync.setSeries]));
+    for (const [proximity, isShared] of faded) assert.ok(!(proximity > 0) && !isShared);
+    // A trajectory has names, units and equal lengths on its axes.
+    await page.locator(".plot", { hasText: "bob position" }).locator(".over").selectOption("column bob.x");
+    const { axes, scale } = await page.evaluate(() => {
+      const { plot } = lissom.plots.plots.find(({ plot }) => plot.place);
+      const [a, b, c] = [plot.place(0, 0), plot.place(0.1, 0), plot.place(0, 0.1)];
+      return { axes: plot.axes, scale: (b[0] - a[0]) / (a[1] - c[1]) };
+    });
+    assert.equal(axes.x, "bob.x [m]");
+    assert.match(axes.y, /bob.*\[m\]/);
+    assert.ok(Math.abs(scale - 1) < 1e-6, `${scale}`);
+    assert.deepEqual(complaints(), []);
+  },
+  "section forces along a beam, events, and a ghost": async (browser) => {
+    const out = view("examples/turbine-rotor.toml", "analysis.end=0.5");
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    await page.evaluate(() => lissom.select(lissom.model.scene.beams[0].name));
+    await page.locator(".plot.sections .over").selectOption("0");
+    const found = await page.evaluate(() => {
+      const { diagram } = lissom.plots;
+      const { motion } = lissom.kinematics;
+      const [low, high] = diagram.envelope;
+      let isWithin = true;
+      for (const time of motion.times) {
+        lissom.player.seek(time);
+        lissom.move();
+        isWithin &&= diagram.now.y.every((value, k) => value >= low[k] && value <= high[k]);
+      }
+      return { isWithin, first: diagram.now.y[0], force: lissom.kinematics.forces[0], reached: high[0] > low[0] };
+    });
+    assert.deepEqual([found.isWithin, found.reached, found.first === found.force], [true, true, true]);
+    const other = view("examples/turbine-rotor.toml", "analysis.end=0.5", "parameters.speed=8");
+    await page.setInputFiles("#compare input", join(other, "view.html"));
+    await page.locator("#compared").waitFor();
+    const apart = await page.evaluate(() => {
+      lissom.player.seek(lissom.player.end);
+      lissom.move();
+      const { node } = { node: lissom.model.scene.beams[0].nodes.at(-1) };
+      const at = (kinematics) => kinematics.point({ node, position: [0, 0, 0] });
+      return Math.hypot(...at(lissom.kinematics).map((x, k) => x - at(lissom.ghost.kinematics)[k]));
+    });
+    assert.ok(apart > 1, `the ghost is ${apart} m apart`);
+    await page.locator("#compared button").click();
+    assert.equal(await page.evaluate(() => lissom.ghost ?? lissom.plots.other), null);
+    assert.deepEqual(complaints(), []);
+    const bounces = await open(browser, join(view("examples/bouncing-mass.toml"), "view.html"));
+    const mark = bounces.page.locator("#events button").first();
+    assert.match(await mark.getAttribute("title"), /^bounce at 0\.319/);
+    await mark.focus();
+    await bounces.page.keyboard.press("Enter");
+    assert.ok(Math.abs((await bounces.page.evaluate(() => lissom.player.time)) - 0.31927543) < 1e-6);
+  },
+});
