@@ -439,7 +439,8 @@ frames_per_second = 1000
     const model = join(own, "press.toml");
     execFileSync(program, ["new", "press"], { cwd: own });
     const bodies = Array.from({ length: 7 }, (_, k) => `\n[bodies.loose${k}]\nmass = 0.1\ninertia = [1e-5, 1e-5, 1e-5]\nposition = [${0.1 * k}, 0.5, 0]\n`);
-    writeFileSync(model, readFileSync(model, "utf8") + bodies.join(""));
+    // From a straight rod, whose vibration the long steps do not resolve.
+    writeFileSync(model, readFileSync(model, "utf8").replace("equilibrium = true", "") + bodies.join(""));
     const { page, complaints } = await open(browser, join(view(model, "analysis.step=0.01", "analysis.end=1"), "view.html"));
     const first = page.locator("#notices p").first();
     assert.match(await first.textContent(), /model.*`loose0` is not connected to anything.*Remedy: add a joint/s);

@@ -94,7 +94,10 @@ fn sliders_simulate_again() {
     folder.write("bar.toml", &model());
     let live = Live::start("bar.toml", folder.path());
     let first = live.after(0);
-    assert_eq!(first["parameters"][0], serde_json::json!({ "name": "load", "base": 3.0, "value": 3.0 }));
+    assert_eq!(
+        first["parameters"][0],
+        serde_json::json!({ "name": "load", "base": 3.0, "value": 3.0, "comment": "" })
+    );
     assert_eq!(live.set("{\"load\": 4.5, \"unknown\": 1}"), 204);
     let second = live.after(version(&first));
     assert_eq!(second["parameters"][0]["value"], 4.5);

@@ -217,6 +217,8 @@ fn warnings_are_in_the_page_with_code_part_time_and_remedy() {
     let folder = Folder::new("view-warnings");
     assert_eq!(lissom(&["new", "press"], folder.path()).code, 0);
     let text = fs::read_to_string(folder.path().join("press.toml")).unwrap();
+    // From a straight rod, whose vibration the long steps do not resolve.
+    let text = text.replace("equilibrium = true", "");
     folder.write("press.toml", &format!("{text}{SPARE_SECTION}"));
     let notices =
         |page: &str| results(&fs::read_to_string(folder.path().join(page)).unwrap())["notices"].clone();
