@@ -7,6 +7,7 @@ import { BodyMesh, PointMassMesh } from "./bodies.js";
 import { fields, rangeOf, roundOff } from "./fields.js";
 import { Symbols } from "./joints.js";
 import { Outline } from "./outline.js";
+import { SectionAxes } from "./section_axes.js";
 import { BeamLoad, CableMesh, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
 
@@ -132,8 +133,8 @@ export class ModelView {
     this.hidden = { ...this.hidden, [kind]: !isShown };
   }
 
-  /** How a part is shown: `isHidden`, `isTransparent`, and whether its `initial` shape is drawn as a ghost. */
-  style(name, { isHidden = false, isTransparent = false, hasInitial = false }) {
+  /** How a part is shown: `isHidden`, `isTransparent`, whether its initial shape is drawn as a ghost, and a beam with the axes of its sections. */
+  style(name, { isHidden = false, isTransparent = false, hasInitial = false, hasAxes = false }) {
     const known = this.parts.get(name);
     if (!known?.object) return;
     known.isHidden = isHidden;
@@ -148,6 +149,12 @@ export class ModelView {
       this.group.remove(known.initial);
       known.initial.traverse((child) => child.geometry?.dispose());
     }
+    if (known.axes) {
+      this.group.remove(known.axes.lines);
+      known.axes.dispose();
+    }
+    known.axes = hasAxes && known.kind === "beam" ? new SectionAxes(known.drawn, 0.05 * this.stage.size) : null;
+    if (known.axes) this.group.add(known.axes.lines);
     known.initial = hasInitial ? this.initialShape(known) : null;
     if (known.initial) this.group.add(known.initial);
   }
@@ -179,7 +186,10 @@ export class ModelView {
   /** Moves all to where the nodes are now. */
   update() {
     for (const drawn of this.moving) drawn.update();
-    for (const { isHidden, object } of this.parts.values()) if (isHidden) object.visible = false;
+    for (const { isHidden, object, axes } of this.parts.values()) {
+      if (isHidden) object.visible = false;
+      axes?.update();
+    }
     for (const kind of Object.keys(this.hidden ?? {})) {
       if (this.hidden[kind]) for (const object of this.byKind[kind]) object.visible = false;
     }

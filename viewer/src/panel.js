@@ -99,14 +99,14 @@ export class Panel {
       }
     }
     const heading = element("h2", { textContent: name }, element("span", { textContent: kind }));
-    this.selection.replaceChildren(heading, ...(known.object ? [this.switches(name)] : []), table);
+    this.selection.replaceChildren(heading, ...(known.object ? [this.switches(name, kind)] : []), table);
     this.update();
   }
 
   /** Boxes for how a part is shown. */
-  switches(name) {
+  switches(name, kind) {
     const now = this.styleOf(name);
-    const boxes = [["isHidden", "hide"], ["isTransparent", "transparent"], ["hasInitial", "initial shape"]].map(([key, text]) => {
+    const boxes = [["isHidden", "hide"], ["isTransparent", "transparent"], ["hasInitial", "initial shape"], ...(kind === "beam" ? [["hasAxes", "section axes"]] : [])].map(([key, text]) => {
       const box = element("input", { type: "checkbox", checked: Boolean(now[key]) });
       box.addEventListener("change", () => this.style(name, { ...this.styleOf(name), [key]: box.checked }));
       return element("label", {}, box, text);

@@ -6,6 +6,7 @@ import { element } from "./panel.js";
 import { PathPlot } from "./path.js";
 import { spectrum } from "./spectrum.js";
 import { curves } from "./theme.js";
+import { WaterfallPlot, hasWaterfall, waterfall } from "./waterfall.js";
 import { spelled, tickLabels } from "./words.js";
 
 /** Colours of axes. */
@@ -76,7 +77,7 @@ export class Plots {
     for (const { plot } of this.plots) plot.destroy();
     this.holder.replaceChildren();
     this.plots = [];
-    if (this.diagram) this.holder.append(this.diagram.card);
+    if (this.diagram && this.largest === null) this.holder.append(this.diagram.card);
     this.chooser.hidden = this.history.times.length < 2;
     if (this.history.times.length < 2) return;
     const found = new Map(groups(this.history.columns).map((columns) => [keyOf(columns), columns]));
@@ -127,7 +128,7 @@ export class Plots {
   showDiagram(diagram) {
     if (this.diagram) this.diagram.card.remove();
     this.diagram = diagram;
-    if (!diagram) return;
+    if (!diagram || this.largest !== null) return;
     this.holder.prepend(diagram.card);
     this.resize();
     diagram.update();
@@ -158,6 +159,12 @@ export class Plots {
     if (over === "frequency") {
       const drawn = this.spectrum(columns, others, card);
       if (drawn) return { plot: drawn, card, output, isFree: true };
+    } else if (over === "waterfall") {
+      const [column] = columns;
+      const drawn = waterfall(this.history.times, column.values);
+      const range = [this.history.times[0], this.history.times.at(-1)];
+      const axes = { x: `t [s], largest amplitude of ${column.name} ${drawn && spelled(drawn.most, 3)} ${column.unit}`, y: "f [Hz]" };
+      if (drawn) return { plot: new WaterfallPlot(card, drawn, range, colours(), axes), card, output, isFree: true };
     } else if (over !== "time") {
       const drawn = this.path(columns, over, card);
       if (drawn) return { plot: drawn, card, output, isFree: true };
@@ -205,7 +212,7 @@ export class Plots {
     select.className = "over";
     select.setAttribute("aria-label", "drawn over");
     const names = this.history.columns.map((column) => column.name);
-    const options = [["time", `over ${this.clock}`], ...(this.clock === "time" ? [["frequency", "spectrum"]] : [])];
+    const options = [["time", `over ${this.clock}`], ...(this.clock === "time" ? [["frequency", "spectrum"], ...(hasWaterfall(this.history.times.length) ? [["waterfall", "waterfall"]] : [])] : [])];
     select.append(...[...options, ...names.map((name) => [`column ${name}`, `over ${name}`])].map(([value, text]) => new Option(text, value)));
     select.value = this.over.get(key) ?? "time";
     select.addEventListener("change", () => {

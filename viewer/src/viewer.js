@@ -18,6 +18,7 @@ import { SectionDiagram } from "./section_diagram.js";
 import { spectrum } from "./spectrum.js";
 import { Stage } from "./stage.js";
 import { themeOf } from "./theme.js";
+import { waterfall } from "./waterfall.js";
 import { factor, spelled, tickLabels } from "./words.js";
 
 /** Marks of events at most. */
@@ -35,6 +36,7 @@ const VIEWS = { iso: [1, -1.35, 0.75], front: [0, -1, 0], side: [1, 0, 0], top: 
 export class Viewer {
   /** For tests. */
   spectrum = spectrum;
+  waterfall = waterfall;
   tickLabels = tickLabels;
   readTable = readTable;
 

@@ -10,7 +10,7 @@ export const spelled = (value, digits = 6) => {
   return `${Number(mantissa)}e${Number(exponent)}`;
 };
 
-/** Labels of ascending ticks: all of one format, with as many digits as tell them apart. */
+/** Labels of ascending ticks: all of one format, with as many digits as they need to differ. */
 export const tickLabels = (ticks) => {
   const numbers = ticks.filter((tick) => Number.isFinite(tick));
   const most = Math.max(...numbers.map(Math.abs), 0);

@@ -27,6 +27,14 @@ export const plots = ({ view, open }) => ({
     // Hovering one plot leaves the curves of the others as they are.
     const faded = await page.evaluate(() => lissom.plots.plots.filter(({ plot }) => plot.over).map(({ plot }) => [plot.cursor.focus?.prox ?? -1, plot.cursor.sync.setSeries]));
     for (const [proximity, isShared] of faded) assert.ok(!(proximity > 0) && !isShared);
+    // A sine whose frequency grows from 5 to 15 Hz: the largest amplitude of each window is at the frequency of its centre.
+    const swept = await page.evaluate(() => {
+      const times = Float64Array.from({ length: 4801 }, (_, k) => k / 1200);
+      const values = times.map((t) => 0.5 * Math.sin(2 * Math.PI * (5 * t + 1.25 * t * t)));
+      return lissom.waterfall(times, values).windows.map(({ at, frequencies, amplitudes }) => [5 + 2.5 * at, frequencies[amplitudes.indexOf(Math.max(...amplitudes))]]);
+    });
+    assert.ok(swept.length >= 20);
+    for (const [wanted, found] of swept) assert.ok(Math.abs(wanted - found) < 3.1, `${found} Hz for ${wanted}`);
     // A trajectory has names, units and equal lengths on its axes.
     await page.locator(".plot", { hasText: "bob position" }).locator(".over").selectOption("column bob.x");
     const { axes, scale } = await page.evaluate(() => {
@@ -42,6 +50,9 @@ export const plots = ({ view, open }) => ({
   "section forces along a beam, events, and a ghost": async (browser) => {
     const out = view("examples/turbine-rotor.toml", "analysis.end=0.5");
     const { page, complaints } = await open(browser, join(out, "view.html"));
+    const long = await open(browser, join(view("examples/turbine-rotor.toml"), "view.html"));
+    await long.page.locator(".plot .over").first().selectOption("waterfall");
+    assert.ok(await long.page.evaluate(() => lissom.plots.plots[0].plot.found.windows.length >= 20));
     await page.evaluate(() => lissom.select(lissom.model.scene.beams[0].name));
     await page.locator(".plot.sections .over").selectOption("0");
     const found = await page.evaluate(() => {
@@ -57,6 +68,20 @@ export const plots = ({ view, open }) => ({
       return { isWithin, first: diagram.now.y[0], force: lissom.kinematics.forces[0], reached: high[0] > low[0] };
     });
     assert.deepEqual([found.isWithin, found.reached, found.first === found.force], [true, true, true]);
+    // Section axes are perpendicular, and the first one is along the beam.
+    await page.locator("#selection .checks label", { hasText: "section axes" }).locator("input").check();
+    const cosines = await page.evaluate(() => {
+      lissom.move();
+      const { axes, drawn } = lissom.model.parts.get(lissom.model.selected);
+      const { array } = axes.lines.geometry.attributes.position;
+      const arm = (k) => [0, 1, 2].map((i) => (array[6 * k + 3 + i] - array[6 * k + i]) / axes.length);
+      const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+      const [next] = axes.nodes.slice(1);
+      const along = [0, 1, 2].map((i) => drawn.frames[7 * next + i] - drawn.frames[i]);
+      const length = Math.hypot(...along);
+      return [dot(arm(0), arm(1)), dot(arm(0), arm(2)), dot(arm(1), arm(2)), dot(arm(0), along) / length];
+    });
+    assert.ok(cosines.slice(0, 3).every((value) => Math.abs(value) < 1e-3) && cosines[3] > 0.99, `${cosines}`);
     const other = view("examples/turbine-rotor.toml", "analysis.end=0.5", "parameters.speed=8");
     await page.setInputFiles("#compare input", join(other, "view.html"));
     await page.locator("#compared").waitFor();
