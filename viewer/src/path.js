@@ -17,8 +17,8 @@ export const roundTicks = ([low, high], most) => {
 
 export class PathPlot {
   /**
-   * `curves` are { x, y, stroke, dash, fill }; dashed ones and envelopes have no mark. `axes` names both axes with their units, and says
-   * whether lengths along both are equal, as those of a trajectory.
+   * `curves` are { x, y, stroke, dash, fill }; dashed ones and envelopes have no mark. `axes` contains the names of both
+   * axes with their units, and whether lengths along both are equal, as for a trajectory.
    */
   constructor(card, curves, colours, axes) {
     this.curves = curves;

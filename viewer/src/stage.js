@@ -114,7 +114,7 @@ export class Stage {
     this.changed();
   }
 
-  /** The size of what lies between two corners, by which symbols are drawn, and the direction that is upward. */
+  /** Sets the size of the model from two corners, by which symbols are drawn, and the upward direction. */
   measure({ low, high }, up) {
     this.size = Math.max(Math.hypot(...high.map((x, k) => x - low[k])), 1e-9);
     this.up.copy(up);

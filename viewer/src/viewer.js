@@ -386,7 +386,7 @@ export class Viewer {
     this.isMoved = true;
   }
 
-  /** Reactions as arrows, with the force that the longest one stands for. */
+  /** Reactions as arrows, with their scale. */
   showReactions(isShown) {
     this.choices.reactions = isShown;
     if (!this.reactions) return;

@@ -55,7 +55,7 @@ const overlaps = (page) =>
     };
     for (const card of shown(".plot")) {
       const own = (selector) => [...card.querySelectorAll(selector)].map(box);
-      // The drawing, with the labels of its axes, lies between heading and legend.
+      // The drawing with the labels of its axes must be between heading and legend.
       disjoint([...own("h3 > *"), ...own(":scope > canvas, .u-wrap"), ...own(".u-legend .u-series")]);
       const outer = card.getBoundingClientRect();
       for (const inner of own("h3, canvas, .u-legend")) if (inner.right > outer.right + 1) found.push(`${name(inner.each)} out of its card`);
