@@ -327,7 +327,7 @@ mod tests {
         let mut secants = Anderson::new(1, 12, &[1.0; 12]);
         let wanted: Vec<f64> = (0..12).map(|row| f64::from(row).cos()).collect();
         for stiffness in [1.0, 0.6] {
-            let mut x = vec![0.0; 12];
+            let mut x = [0.0; 12];
             secants.interrupt();
             for _ in 0..30 {
                 let residual = x.iter().zip(&wanted).map(|(x, wanted)| stiffness * (x - wanted));

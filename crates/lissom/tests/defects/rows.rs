@@ -400,14 +400,19 @@ fn instants_that_steps_of_planned_size_miss_are_reported() {
     }
 }
 
+#[test]
+fn degrees_in_the_range_of_a_stop_are_reported() {
+    let results = Results::of("run", "stop-range-in-degrees.toml", &["--no-plots"]);
+    results.assert_done();
+    assert!(results.ended.errors.contains("is 7.2 revolutions"), "{}", results.ended.errors);
+}
+
 /// Newton's method accepted a step whose residual was large: secants of a longer step, which had been rejected, contradicted those of
 /// the step.
 #[test]
 fn head_on_collision() {
     let elastic = 0.56 * (0.807 - 1.47) / (0.807 + 1.47);
-    for options in
-        [&[][..], &["--set", "analysis.relative_tolerance=1e-8"], &["--set", "analysis.end=20"]]
-    {
+    for options in [&[][..], &["--set", "analysis.relative_tolerance=1e-8"], &["--set", "analysis.end=20"]] {
         let results = Results::clean("head-on-collision.toml", options);
         near("v1", results.last("o.v1"), elastic, 1e-4);
     }
