@@ -288,7 +288,7 @@ impl<'c, 'a> Reader<'c, 'a> {
     /// Warns of an angle [rad] that seems to be in degrees.
     pub(crate) fn warn_of_degrees(&self, key: &str, angle: f64) {
         let Some(node) = self.node(key) else { return };
-        let message = format!("{} is {:.1} revolutions", self.words(key), angle / TAU);
+        let message = format!("{} is {:.1} revolutions", self.words(key), angle.abs() / TAU);
         let help = "angles are in radians: write \"pi/2\" for 90 degrees";
         self.context.report(Problem::warning(node.span, message).help(help));
     }

@@ -22,6 +22,8 @@ const MAX_SECANTS: usize = 5;
 const INDEPENDENT: f64 = 3e-4;
 /// A secant is used for corrections up to so many times as large: beyond, its round-off would dominate.
 const REACH: f64 = 10.0;
+/// Corrections below this are not examined: they may be round-off, and an error of this size is small [scaled].
+const MIN_EXAMINED: f64 = 1e-10;
 /// Least fraction of a correction that secants leave.
 const MIN_REMAINING: f64 = 0.1;
 
@@ -129,7 +131,7 @@ impl Anderson {
         let whole = product(&self.last_weighted, &self.last_weighted);
         let bound: f64 =
             shares.iter().zip(&self.departure_sizes).map(|(share, size)| share.abs() * size).sum();
-        if bound <= (1.0 - MIN_REMAINING) * whole.sqrt() {
+        if whole < MIN_EXAMINED * MIN_EXAMINED || bound <= (1.0 - MIN_REMAINING) * whole.sqrt() {
             return false;
         }
         let (count, stages) = (self.sizes.len(), self.last_weighted.len() / self.sizes.len());
