@@ -4,9 +4,11 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Prediction errors above this multiple of the level belong to an instant.
+/// Prediction errors above this multiple of the level belong to an instant. With 4, a change between sticking and sliding is missed
+/// while the level of the one before it decays.
 const SPIKE: f64 = 2.0;
-/// Fraction of the level that remains after a step.
+/// Fraction of the level that remains after a step: half of it after 35 steps, so that the errors of a vibration do not fall below it
+/// between their zeros.
 const DECAY: f64 = 0.98;
 /// Maximum steps of an instant: longer ones are a new motion, whose errors are estimated from pairs of steps.
 const MAX_STEPS: u32 = 12;

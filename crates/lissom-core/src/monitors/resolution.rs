@@ -21,7 +21,8 @@ use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::judge::{Warning, report};
 use crate::schemes::ErrorEstimate;
 
-/// Errors of two consecutive steps that differ by more than this factor are due to an instant, not to the motion.
+/// Errors that differ by more than this factor from those of the next step, or of the last pair, are due to an instant, not to the
+/// motion.
 const SPIKE: f64 = 4.0;
 /// Mean of |cos|.
 const MEAN_COSINE: f64 = std::f64::consts::FRAC_2_PI;
@@ -124,6 +125,16 @@ impl Resolution {
         true
     }
 
+    /// Adds the filtered errors of a step of an instant. Those that pairs of steps have as well are counted there.
+    fn note_instant<'e>(&mut self, errors: impl Iterator<Item = [f64; 2]> + Clone + 'e) {
+        let largest = errors.clone().fold(0.0_f64, |most, error| most.max(error[0].abs()));
+        let of_pairs = self.missed.iter().fold(0.0_f64, |most, missed| most.max(missed.last));
+        if self.count > 0.0 && largest > SPIKE * of_pairs {
+            let missed = self.missed.iter_mut().zip(errors);
+            missed.for_each(|(missed, error)| missed.instants += error[0].abs());
+        }
+    }
+
     /// The coordinate row with the largest error, and that error.
     fn worst(&self, estimate: &ErrorEstimate, share: f64) -> (usize, f64) {
         let all = self
@@ -156,10 +167,7 @@ impl Monitor for Resolution {
         let errors = work.filtered.iter().zip(&work.error).zip(&work.sizes);
         let errors = errors.map(|((filtered, error), size)| [filtered * size, error * size]);
         if is_instant {
-            self.missed
-                .iter_mut()
-                .zip(errors.clone())
-                .for_each(|(missed, error)| missed.instants += error[0].abs());
+            self.note_instant(errors.clone());
         }
         let is_pair = is_due && self.note(errors);
         // A reported warning is updated in every step, so that its values are those of the end.
