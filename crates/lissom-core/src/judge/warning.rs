@@ -238,8 +238,8 @@ diagnostics! {
             cause: ("the scheme has dissipated {:.2e} of the energy of a long motion without damping: the phase of its vibrations is \
                     shifted by about {:.2} rad at the end, and by 0.01 rad at t = {time} s", *lost, *shift),
             remedy: "set a smaller `relative_tolerance`",
-            meaning: "A long motion without damping or drives loses energy to the scheme steadily. As its frequency depends on its energy, the \
-                phase drifts with the square of the time. The amplitude is not affected.",
+            meaning: "A long motion without damping or drives loses energy to the scheme steadily. Where its frequency depends on its energy, \
+                the phase drifts with the square of the time.",
             advice: "Use a smaller `relative_tolerance`: a tenth of it reduces the drift to less than a tenth.",
         }
         /// Redundant constraints are regularised.

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! Legend: s path of the motion so far, a its largest displacement, so that φ = s/a, E energy exchanged, ω frequency of a motion of
-//! this energy. The windows reach from a quarter to a half of the path, and from there to the present: stiff vibrations that
+//! this energy: δω/ω = ½ δE/E is that of large rotations. A motion in which stiffnesses change little has a smaller shift, in
+//! proportion; a linear one has none. The windows reach from a quarter to a half of the path, and from there to the present: stiff vibrations that
 //! the scheme damps at the start of a motion shift nothing afterwards.
 
 use serde::{Deserialize, Serialize};
@@ -15,13 +16,12 @@ use crate::analysis::Problem;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::judge::{Warning, report};
+use crate::kinematics::Kinematics;
 use crate::linear::LinearModel;
 use crate::system::State;
 
 /// Phase shifts above this are reported [rad].
 const NOTEWORTHY: f64 = 0.01;
-/// Path at the first mark, in units of the model's length.
-const FIRST_MARK: f64 = 100.0;
 /// Marks in the time in which the path doubles.
 const MARKS_PER_DOUBLING: usize = 4;
 
@@ -30,17 +30,19 @@ const MARKS_PER_DOUBLING: usize = 4;
 struct EnergyDrift {
     path: f64,
     farthest: f64,
-    /// Path and energy lost [J] at marks, at equal ratios of paths.
+    /// Path, in units of the model's length, and energy lost [J] at marks, at equal ratios of paths from 1 on.
     marks: Vec<[f64; 2]>,
-    /// Whether the model has no damping, once that matters.
-    is_undamped: Option<bool>,
+    /// How much frequencies depend on the energy, from 0 to 1, as far as it is known.
+    nonlinearity: f64,
+    /// Whether anything is damped.
+    is_damped: bool,
 }
 
 impl EnergyDrift {
     /// Records the energy `lost` so far, of the energy `exchanged` [J]. At a mark: the estimated shift of the phase [rad].
     fn shift(&mut self, lost: f64, exchanged: f64) -> Option<f64> {
         let ratio = (MARKS_PER_DOUBLING as f64).recip().exp2();
-        if self.path < self.marks.last().map_or(FIRST_MARK, |mark| ratio * mark[0]) {
+        if self.path < self.marks.last().map_or(1.0, |mark| ratio * mark[0]) {
             return None;
         }
         self.marks.push([self.path, lost]);
@@ -58,12 +60,28 @@ impl EnergyDrift {
     }
 }
 
-/// Whether nothing is damped at the positions of `state`.
-fn is_undamped(Problem { system, settings }: Problem<'_>, state: &State) -> bool {
-    let mut state = state.clone();
-    state.kinematics.stop();
-    let model = LinearModel::of_positions(system, &state, settings.solver);
-    model.is_ok_and(|model| model.parts().damping.iter().all(|&value| value == 0.0))
+/// How much frequencies depend on the energy, from 0 to 1, as far as this is seen between the configurations `origin` and `state`: the
+/// change of stiffnesses, relative to the largest one, or the square of the largest rotation. None if anything is damped.
+fn nonlinearity(
+    Problem { system, settings }: Problem<'_>,
+    origin: &Kinematics,
+    state: &State,
+) -> Option<f64> {
+    let stiffness = |at: &Kinematics| {
+        let mut resting = state.clone();
+        resting.kinematics.clone_from(at);
+        resting.kinematics.stop();
+        let model = LinearModel::of_positions(system, &resting, settings.solver).ok()?;
+        let is_undamped = model.parts().damping.iter().all(|&value| value == 0.0);
+        is_undamped.then(|| model.parts().stiffness.clone())
+    };
+    let (before, after) = (stiffness(origin)?, stiffness(&state.kinematics)?);
+    let largest = before.iter().chain(&after).fold(f64::MIN_POSITIVE, |most, value| most.max(value.abs()));
+    let changes = before.iter().zip(&after).map(|(before, after)| (before - after).abs() / largest);
+    let nodes = origin.nodes.iter().zip(&state.kinematics.nodes);
+    let turns = nodes
+        .map(|(from, to)| (from.frame.rotation.inverse() * to.frame.rotation).logarithm().norm_squared());
+    Some(changes.chain(turns).fold(0.0, f64::max).min(1.0))
 }
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
@@ -83,8 +101,16 @@ impl Monitor for EnergyDrift {
         }
         let [_, after] = step.energy_balance;
         let Some(shift) = self.shift(after.lost, after.turned_over) else { return };
-        if shift < NOTEWORTHY || !*self.is_undamped.get_or_insert_with(|| is_undamped(step.problem, step.end))
-        {
+        if shift < NOTEWORTHY || self.is_damped {
+            return;
+        }
+        let Some(seen) = nonlinearity(step.problem, step.origin, step.end) else {
+            self.is_damped = true;
+            return;
+        };
+        self.nonlinearity = self.nonlinearity.max(seen);
+        let shift = self.nonlinearity * shift;
+        if shift < NOTEWORTHY {
             return;
         }
         report(
