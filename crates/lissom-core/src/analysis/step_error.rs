@@ -245,6 +245,21 @@ diagnostics! {
                 the twist or the bend.",
             advice: "Use more elements.",
         }
+        /// Sections of a beam overlap.
+        SectionsOverlap {
+            /// End of the step [s].
+            time: f64,
+            /// The beam.
+            beam: String,
+        } => "sections-overlap" {
+            time: *time,
+            subject: Subject::new("beam", beam),
+            cause: ("step to t = {time} s: beam `{beam}` is compressed by more than its length: its sections overlap"),
+            remedy: "check lengths, units, stiffnesses, loads and drives: a mechanism may be driven to a position that it cannot reach",
+            meaning: "A beam is compressed by more than its length, so that its sections overlap. No beam can be.",
+            advice: "Check lengths, units, stiffnesses, loads and drives. A mechanism that is driven beyond a dead centre strains its parts \
+                instead of moving.",
+        }
         /// A slider has left its beam.
         BeyondBeam {
             /// Time [s].
@@ -361,6 +376,7 @@ impl StepError {
                 | Self::FunctionNotFinite { .. }
                 | Self::TurnsTooFar { .. }
                 | Self::ElementTurns { .. }
+                | Self::SectionsOverlap { .. }
                 | Self::JointLosesHold { .. }
                 | Self::NegativeKineticEnergy { .. }
                 | Self::EnergyFromNowhere { in_this_step: true, .. }

@@ -86,6 +86,7 @@ impl Judge<'_> {
         let weighs = !is_smooth || energy_balance.is_due();
         if weighs {
             relative_turns(self.system, &end.kinematics)?;
+            overlaps(self.system, &end.kinematics)?;
         }
         let after =
             energy_balance.after(self.system, (&start.into(), &end.into()), work, (weighs, self.is_motion));
@@ -209,6 +210,12 @@ fn positive_mass(system: &System, at: &Kinematics) -> Result<(), StepError> {
     let Some(node) = system.without_positive_mass(at) else { return Ok(()) };
     let interface = system.layout().name_of_node(node).to_owned();
     Err(StepError::NegativeKineticEnergy { time: at.time, interface })
+}
+
+/// Fails if sections of a beam overlap.
+fn overlaps(system: &System, at: &Kinematics) -> Result<(), StepError> {
+    let beam = system.beams.overlapping(at);
+    beam.map_or(Ok(()), |beam| Err(StepError::SectionsOverlap { time: at.time, beam: beam.to_owned() }))
 }
 
 /// Fails if two nodes of an element are rotated relative to each other by nearly half a turn or more.

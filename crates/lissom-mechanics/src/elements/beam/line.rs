@@ -25,6 +25,8 @@ pub trait BeamProbe: Send + Sync {
     fn section_force_derivatives_at(&self, at: &Kinematics, xi: f64) -> LocalDerivatives<6>;
     /// The largest strain of the line, axial and shear [-].
     fn largest_strain(&self, at: &Kinematics) -> f64;
+    /// Whether a node is behind the one before it.
+    fn overlaps(&self, at: &Kinematics) -> bool;
     /// Strains and curvatures at ξ [-, 1/m].
     fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6;
 }
@@ -47,6 +49,9 @@ impl<const N: usize> BeamProbe for Beam<N> {
     }
     fn largest_strain(&self, at: &Kinematics) -> f64 {
         Self::largest_strain(self, at)
+    }
+    fn overlaps(&self, at: &Kinematics) -> bool {
+        Self::overlaps(self, at)
     }
     fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         Self::strain_at(self, at, xi)

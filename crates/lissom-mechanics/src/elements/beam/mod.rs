@@ -197,6 +197,14 @@ impl<const N: usize> Beam<N> {
         self.stations.iter().map(of).fold(0.0, f64::max)
     }
 
+    /// Whether a node is behind the one before it: the element is compressed by more than its length.
+    pub(crate) fn overlaps(&self, at: &Kinematics) -> bool {
+        (1..N).any(|i| {
+            let [before, after] = [i - 1, i].map(|k| self.section_frame(at, k));
+            before.rotation.apply_inverse(&(after.position - before.position)).x <= 0.0
+        })
+    }
+
     /// Internal forces on the two end nodes, section axes [N, N m].
     pub(crate) fn end_forces(&self, at: &Kinematics) -> [Vector6; 2] {
         let frames: [_; N] = std::array::from_fn(|i| Pose::from(&self.section_frame(at, i)));

@@ -27,6 +27,15 @@ pub struct ExaminedBeams {
     pub section_errors: Vec<SectionError>,
 }
 
+impl ExaminedBeams {
+    /// A beam that is compressed by more than its length, so that its sections overlap.
+    pub fn overlapping(&self, at: &Kinematics) -> Option<&str> {
+        let mut beams = self.elements.iter();
+        let found = beams.find(|(_, elements)| elements.iter().any(|element| element.overlaps(at)));
+        found.map(|(name, _)| name.as_str())
+    }
+}
+
 /// Section forces at one position of a beam, with the elements that show their error.
 pub struct SectionError {
     /// Name of the beam.
