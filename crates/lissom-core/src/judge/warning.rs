@@ -206,6 +206,27 @@ diagnostics! {
             advice: "Use more elements (half the length reduces the error to a quarter or less), a higher `order`, or record the reaction of \
                 the joint at the end of the beam.",
         }
+        /// Steps chosen for positions do not resolve the forces of a beam.
+        UnresolvedForces {
+            /// When it was first significant [s].
+            time: f64,
+            /// The beam.
+            beam: String,
+            /// Estimated error over the largest force or moment there.
+            error: f64,
+        } => "unresolved-forces" {
+            time: *time,
+            subject: Subject::new("beam", beam),
+            cause: ("the steps resolve the motion, but not the vibrations in the recorded forces of beam `{beam}`: from t = {time} s \
+                    on their estimated error exceeds 1 % of the largest value, and it reaches about {:.0} %", 100.0 * *error),
+            remedy: "set a smaller `relative_tolerance`, or `control = \"forces\"`; a smooth start or `damping` of the section avoids \
+                such vibrations",
+            meaning: "Adaptive steps are chosen by the error of positions. Vibrations of a stiff direction are small as motions and large as forces: \
+                the estimated error of a recorded force or moment of a beam, or of the reaction of a joint at it, exceeds 1 % of its \
+                largest value at some instants. Means over several periods are accurate.",
+            advice: "Use a smaller `relative_tolerance`, or `control = \"forces\"`, which resolves every vibration. If the vibrations are not meant, \
+                start loads and drives smoothly, or add `damping` to the section.",
+        }
         /// Steps of planned size do not resolve the motion.
         Unresolved {
             /// When it was first significant [s].

@@ -21,6 +21,7 @@ mod sampled_steps;
 mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;
+mod unresolved_forces;
 
 use std::any::Any;
 
@@ -55,6 +56,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "impacts", begin: impacts::begin },
     Kind { name: "beam-strains", begin: beam_strains::begin },
     Kind { name: "section-forces", begin: section_forces::begin },
+    Kind { name: "unresolved-forces", begin: unresolved_forces::begin },
     Kind { name: "stability", begin: stability::begin },
 ];
 

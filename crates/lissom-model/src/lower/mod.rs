@@ -43,6 +43,7 @@ use crate::document::{
 use crate::functions::Ramp;
 use crate::output_channels;
 use crate::outputs::Resolver;
+use crate::outputs::reaction::REACTION;
 use crate::outputs::section::SECTION_MOMENT;
 use crate::report::{Located, Problem, Report};
 use crate::sweep::TimeWindow;
@@ -254,6 +255,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     system.beams = ExaminedBeams {
         elements: names.lines.iter().map(|(name, line)| (name.clone(), line.elements.clone())).collect(),
         section_errors: section_errors(document, &names, &system),
+        sections_at_joints: sections_at_joints(document, &names, &system),
     };
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
@@ -298,6 +300,27 @@ fn section_errors(document: &Document, names: &Names, system: &System) -> Vec<Se
         Some(SectionError::new(&beam, line, place, |node| attached[node.index()]))
     };
     sections.into_iter().filter_map(of).collect()
+}
+
+/// At the ends of beams whose joints' reactions are recorded, force and moment.
+fn sections_at_joints(document: &Document, names: &Names, system: &System) -> Vec<SectionError> {
+    let recorded = document.outputs.iter().filter(|output| output.kind.name() == REACTION.word);
+    let joints = recorded.filter_map(|output| match &output.source {
+        OutputSource::Joint(name) => system.joints().iter().find(|joint| joint.name == name.value),
+        _ => None,
+    });
+    let nodes: Vec<NodeId> =
+        joints.flat_map(|joint| joint.frames.each_ref().map(|frame| frame.node)).collect();
+    let attached = if nodes.is_empty() { Vec::new() } else { system.attached() };
+    let mut sections = Vec::new();
+    for (beam, line) in &names.lines {
+        let ends = line.nodes.iter().zip(&line.places).filter(|(node, _)| nodes.contains(node));
+        for (_, &place) in ends {
+            let of = |first| SectionError::new(beam, line, (place, first), |node| attached[node.index()]);
+            sections.extend([0, 3].map(of));
+        }
+    }
+    sections
 }
 
 impl Names {

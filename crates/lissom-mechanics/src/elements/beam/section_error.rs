@@ -25,6 +25,8 @@ pub struct ExaminedBeams {
     pub elements: Vec<(String, Vec<Arc<dyn BeamProbe>>)>,
     /// Of the section forces that are recorded.
     pub section_errors: Vec<SectionError>,
+    /// Beside joints whose reactions are recorded.
+    pub sections_at_joints: Vec<SectionError>,
 }
 
 impl ExaminedBeams {
@@ -78,6 +80,17 @@ impl SectionError {
             xi,
             first,
         }
+    }
+
+    /// Whether it is of moments.
+    pub fn is_moment(&self) -> bool {
+        self.first >= 3
+    }
+
+    /// Axial and shear force [N], or torsion and bending moment [N m], by component.
+    pub fn forces(&self, at: &Kinematics) -> [f64; 3] {
+        let forces = self.elements[self.element].section_forces_at(at, self.xi);
+        std::array::from_fn(|k| forces[self.first + k])
     }
 
     /// Size and error of the axial and the shear force [N], or of the torsion and the bending moment [N m]; none where forces jump

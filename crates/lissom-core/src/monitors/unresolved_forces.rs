@@ -1,0 +1,141 @@
+//! Whether steps that are chosen for positions resolve the forces of beams that are recorded: vibrations of 1e-9 of the length can be
+//! most of an axial force.
+//!
+//! ```text
+//! E = c Σ (|F(q + ê) - F(q)| / max |F|)^((p + 1)/k)
+//! ```
+//!
+//! Legend: F axial force, shear force, torsion or bending moment, q, ê positions at the end of a step and their filtered error
+//! (`error_estimate`), k its order, p order of the scheme, so that each term is the error of a step of the scheme; c factor. Of twelve
+//! random mechanisms with beams the six with errors above 0.9 % are reported, and the others, with at most 0.6 %, are not.
+
+use lissom_motion::{Motion, Vector6};
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use super::sampled_steps::SampledSteps;
+use crate::analysis::Controlled;
+use crate::bytes::{from_bytes, to_bytes};
+use crate::elements::beam::section_error::SectionError;
+use crate::judge::{Warning, report};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId};
+use crate::system::System;
+
+/// c.
+const FACTOR: f64 = 1.5;
+/// Errors above this fraction of the largest force or moment are reported.
+const NOTEWORTHY: f64 = 0.01;
+/// Forces, or moments, below this fraction of the largest in any section count as so large.
+const LEAST: f64 = 0.05;
+
+/// Largest values and sums so far.
+struct UnresolvedForces {
+    steps: SampledSteps,
+    /// Steps since the last one that was examined.
+    unexamined: f64,
+    /// By section, of the axial and the shear force, or of the torsion and the bending moment.
+    largest: Vec<[f64; 2]>,
+    /// Σ of the powers of their errors.
+    sums: Vec<[f64; 2]>,
+    /// Storage for q + ê.
+    displaced: Kinematics,
+}
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let settings = beginning.problem.settings;
+    let chooses = settings.control.is_some_and(|control| control.of != Controlled::Forces);
+    let count = sections(beginning.problem.system).count();
+    let is_examined = settings.scheme.dynamic && chooses && count > 0;
+    is_examined.then(|| -> Box<dyn Monitor> {
+        Box::new(UnresolvedForces {
+            steps: SampledSteps::default(),
+            unexamined: 0.0,
+            largest: vec![[0.0; 2]; count],
+            sums: vec![[0.0; 2]; count],
+            displaced: beginning.state.kinematics.clone(),
+        })
+    })
+}
+
+/// Where forces of beams are recorded.
+fn sections(system: &System) -> impl Iterator<Item = &SectionError> {
+    system.beams.section_errors.iter().chain(&system.beams.sections_at_joints)
+}
+
+impl Monitor for UnresolvedForces {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        self.unexamined += 1.0;
+        let scheme = &step.problem.settings.scheme;
+        let Some(estimate) = scheme.errors.last() else { return };
+        if !self.steps.is_due(scheme.dynamic) {
+            return;
+        }
+        let (system, at) = (step.problem.system, &step.end.kinematics);
+        step.integrator.estimate_error(step.problem, estimate, at, step.has_switched);
+        self.displace(system.layout(), at, &step.integrator.work.filtered);
+        let steps = std::mem::take(&mut self.unexamined);
+        let exponent = f64::from(scheme.order + 1) / f64::from(estimate.order);
+        // Of the forces and of the moments.
+        let mut whole = [0.0_f64; 2];
+        let known = self.largest.iter_mut().zip(&mut self.sums);
+        for (section, (largest, sums)) in sections(system).zip(known) {
+            let [here, there] = [at, &self.displaced].map(|at| section.forces(at));
+            let sizes = [here[0].abs(), here[1].hypot(here[2])];
+            let errors = [there[0] - here[0], (there[1] - here[1]).hypot(there[2] - here[2])];
+            for k in 0..2 {
+                largest[k] = largest[k].max(sizes[k]);
+                sums[k] += steps * errors[k].abs().powf(exponent);
+            }
+            let whole = &mut whole[usize::from(section.is_moment())];
+            *whole = whole.max(largest[0].hypot(largest[1]));
+        }
+        let error = |((section, largest), sums): ((&SectionError, &[f64; 2]), &[f64; 2])| {
+            let least = LEAST * whole[usize::from(section.is_moment())];
+            let of = |k: usize| sums[k] / largest[k].max(least).max(f64::MIN_POSITIVE).powf(exponent);
+            of(0).max(of(1))
+        };
+        let all = sections(system).zip(&self.largest).zip(&self.sums);
+        let worst = all.map(|own| (FACTOR * error(own), &own.0.0.beam)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((error, beam)) = worst else { return };
+        report(
+            warnings,
+            |warning| matches!(warning, Warning::UnresolvedForces { .. }),
+            // An error at the start may be small compared with what follows.
+            |known| {
+                let time = match known {
+                    Some(Warning::UnresolvedForces { time, .. }) => *time,
+                    _ => at.time,
+                };
+                let warning = Warning::UnresolvedForces { time, beam: beam.clone(), error: error.min(1.0) };
+                (error > NOTEWORTHY).then_some(warning)
+            },
+        );
+    }
+
+    fn save(&self) -> Vec<u8> {
+        to_bytes(&(self.steps, self.unexamined, &self.largest, &self.sums))
+    }
+
+    fn restore(&mut self, saved: &[u8]) -> bool {
+        let (largest, sums) = (std::mem::take(&mut self.largest), std::mem::take(&mut self.sums));
+        let mut learned = (self.steps, self.unexamined, largest, sums);
+        let is_read = from_bytes(saved, &mut learned);
+        (self.steps, self.unexamined, self.largest, self.sums) = learned;
+        is_read
+    }
+}
+
+impl UnresolvedForces {
+    fn displace(&mut self, layout: &Layout, at: &Kinematics, error: &[f64]) {
+        let to = &mut self.displaced;
+        to.nodes.copy_from_slice(&at.nodes);
+        to.coordinates.copy_from_slice(&at.coordinates);
+        for (node, motion) in NodeId::enumerate(&mut to.nodes) {
+            let own = layout.rows_of_node(node);
+            let screw = Vector6::from_fn(|k, _| if own[k] == LOCKED { 0.0 } else { error[own[k] as usize] });
+            motion.frame = motion.frame * Motion::exponential(&screw);
+        }
+        for (coordinate, motion) in CoordinateId::enumerate(&mut to.coordinates) {
+            motion.value += error[layout.row_of_coordinate(coordinate)];
+        }
+    }
+}
