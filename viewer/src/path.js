@@ -15,10 +15,22 @@ export const roundTicks = ([low, high], most) => {
   return Array.from({ length: Math.max(Math.floor(high / step + 1e-9) - first + 1, 0) }, (_, k) => (first + k) * step);
 };
 
+/** A symbol at a position. */
+const drawMark = (pen, kind, x, y) => {
+  pen.beginPath();
+  if (kind === "diamond") for (const [dx, dy] of [[0, -6], [6, 0], [0, 6], [-6, 0]]) pen.lineTo(x + dx, y + dy);
+  else if (kind === "square") pen.rect(x - 4, y - 4, 8, 8);
+  else pen.arc(x, y, kind === "dot" ? 2.5 : 4, 0, 2 * Math.PI);
+  pen.closePath();
+  if (kind === "ring" || kind === "square") pen.stroke();
+  else pen.fill();
+};
+
 export class PathPlot {
   /**
-   * `curves` are { x, y, stroke, dash, fill }; dashed ones and envelopes have no mark. `axes` contains the names of both
-   * axes with their units, and whether lengths along both are equal, as for a trajectory.
+   * `curves` are { x, y, stroke, dash, fill, width, label, marks }; dashed ones and envelopes have no mark of the time, a label is
+   * at the end of its curve, and marks are instead of a line. `axes` contains the names of both axes with their units, and
+   * whether lengths along both are equal, as for a trajectory.
    */
   constructor(card, curves, colours, axes) {
     this.curves = curves;
@@ -38,6 +50,8 @@ export class PathPlot {
     };
     [this.x, this.y] = this.whole = [of("x"), of("y")];
     this.row = 0;
+    /** Room for labels of curves. */
+    this.right = curves.some(({ label }) => label) ? 40 : ROOM.right;
   }
 
   setSize({ width, height }) {
@@ -54,7 +68,7 @@ export class PathPlot {
 
   /** The shorter range grows until a length is as long along both axes. */
   equalise() {
-    const sides = [this.width - ROOM.left - ROOM.right, this.height - ROOM.top - ROOM.bottom];
+    const sides = [this.width - ROOM.left - this.right, this.height - ROOM.top - ROOM.bottom];
     const scale = Math.max(...this.whole.map(([low, high], k) => (high - low) / sides[k]));
     [this.x, this.y] = this.whole.map(([low, high], k) => {
       const half = (scale * sides[k]) / 2;
@@ -65,7 +79,7 @@ export class PathPlot {
   place(x, y) {
     const { width, height } = this;
     const share = (value, [low, high]) => (value - low) / (high - low);
-    const across = width - ROOM.left - ROOM.right;
+    const across = width - ROOM.left - this.right;
     const down = height - ROOM.top - ROOM.bottom;
     return [ROOM.left + across * share(x, this.x), ROOM.top + down * (1 - share(y, this.y))];
   }
@@ -84,11 +98,15 @@ export class PathPlot {
     this.drawAxes(pen);
     pen.save();
     pen.beginPath();
-    pen.rect(ROOM.left, ROOM.top, width - ROOM.left - ROOM.right, height - ROOM.top - ROOM.bottom);
+    pen.rect(ROOM.left, ROOM.top, width - ROOM.left - this.right, height - ROOM.top - ROOM.bottom);
     pen.clip();
-    for (const { x, y, stroke, dash, fill } of this.curves) {
+    for (const { x, y, stroke, dash, fill, width: breadth, marks } of this.curves) {
       pen.strokeStyle = pen.fillStyle = stroke;
-      pen.lineWidth = 1.5;
+      pen.lineWidth = breadth ?? 1.5;
+      if (marks) {
+        for (let row = 0; row < x.length; row++) drawMark(pen, marks, ...this.place(x[row], y[row]));
+        continue;
+      }
       pen.setLineDash(dash ?? []);
       pen.beginPath();
       for (let row = 0; row < x.length; row++) pen.lineTo(...this.place(x[row], y[row]));
@@ -106,12 +124,54 @@ export class PathPlot {
       pen.fill();
     }
     pen.restore();
+    this.drawLabels(pen);
+  }
+
+  /** Names at the ends of curves, moved apart where curves end side by side. */
+  drawLabels(pen) {
+    const named = this.curves.filter(({ label, x }) => label && x.length > 0);
+    const ends = named.map((curve) => {
+      const last = curve.x.length - 1;
+      const [x, y] = this.place(curve.x[last], curve.y[last]);
+      return { ...curve, x, y };
+    });
+    const edge = this.width - this.right;
+    pen.textAlign = "left";
+    // Curves that end within the plot have their names there.
+    const [within, beside] = [true, false].map((isWithin) => ends.filter(({ x }) => x < edge - 0.1 * edge === isWithin));
+    for (const { label, stroke, x, y } of within) {
+      pen.fillStyle = stroke;
+      pen.fillText(label, x + 5, Math.max(y + 4, ROOM.top + 10));
+    }
+    beside.sort((a, b) => b.y - a.y);
+    let free = this.height - ROOM.bottom;
+    for (const { label, stroke, y } of beside) {
+      const at = Math.min(y + 4, free);
+      free = at - 12;
+      if (at < ROOM.top) break;
+      pen.fillStyle = stroke;
+      pen.fillText(label, edge + 5, at);
+    }
+  }
+
+  /** The value of a curve nearest to a position on the canvas: curve, row and distance [pixels]. */
+  nearest(left, top) {
+    let found = null;
+    this.curves.forEach(({ x, y, marks }, index) => {
+      if (marks) return;
+      for (let row = 0; row < x.length; row++) {
+        const [px, py] = this.place(x[row], y[row]);
+        const distance = Math.hypot(px - left, py - top);
+        if (!found || distance < found.distance) found = { curve: this.curves[index], row, distance };
+      }
+    });
+    return found;
   }
 
   /** Lines and labels at round values, and the names of both axes. */
   drawAxes(pen) {
     const { colours, width, height, axes } = this;
-    const [right, bottom] = [width - ROOM.right, height - ROOM.bottom];
+    const [right, bottom] = [width - this.right, height - ROOM.bottom];
     pen.strokeStyle = colours.line;
     pen.fillStyle = colours.faint;
     pen.font = "11px system-ui";

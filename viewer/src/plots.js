@@ -10,7 +10,7 @@ import { WaterfallPlot, hasWaterfall, waterfall } from "./waterfall.js";
 import { spelled, tickLabels } from "./words.js";
 
 /** Colours of axes. */
-export const colours = () => ({ line: css("--line"), faint: css("--faint") });
+export const colours = () => ({ line: css("--line"), faint: css("--faint"), text: css("--text") });
 
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 

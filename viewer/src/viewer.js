@@ -2,6 +2,7 @@
 
 import * as THREE from "three";
 
+import { CampbellDiagram } from "./campbell.js";
 import { decodeHistory, decodeMotion, readTable } from "./decode.js";
 import { fields } from "./fields.js";
 import { Kinematics } from "./kinematics.js";
@@ -94,7 +95,8 @@ export class Viewer {
     this.theme = themeOf(name);
     $("theme").textContent = ICONS[name === "dark" ? "light" : "dark"];
     if (this.kinematics) this.rebuild();
-    this.plots.history && this.plots.draw();
+    if (this.campbell) this.campbell.draw();
+    else this.plots.history && this.plots.draw();
   }
 
   /** Shows other results; with `keeps` the view stays as it is. */
@@ -123,6 +125,9 @@ export class Viewer {
     this.isStatic = isStatic;
     this.offerFrames();
     $("stage").parentElement.classList.toggle("empty", !this.kinematics);
+    this.campbell?.destroy();
+    this.campbell = null;
+    document.body.classList.toggle("diagram", Boolean(result.campbell));
     this.plots.load(history, isStatic ? (scene.path ? "length" : "load") : "time");
     const selected = keeps ? this.model?.selected : null;
     this.rebuild();
@@ -135,6 +140,7 @@ export class Viewer {
     if (this.modes.current) this.player.speed = 0.5;
     this.offerColours();
     this.select(selected);
+    if (result.campbell) this.campbell = new CampbellDiagram(result.campbell, $("plots"), colours);
     this.notices(result.notices ?? []);
     this.markEvents(result.events ?? []);
     $("scrub").disabled = $("play").disabled = !this.player.canPlay;

@@ -202,7 +202,7 @@ const enlarges = async (page) => {
 
 const tests = {
   ...colours({ view, open }),
-  ...plots({ view, open }),
+  ...plots({ program, root, folder, view, open }),
   ...parts({ root, folder, view, open }),
   ...live({ program, folder }),
   ...examples({ root, folder, view, open }),

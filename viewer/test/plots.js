@@ -1,9 +1,61 @@
 // Plots: chosen, enlarged and arranged, over another column, along beams, and of other results.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-export const plots = ({ view, open }) => ({
+export const plots = ({ program, root, folder, view, open }) => ({
+  "a Campbell diagram": async (browser) => {
+    const rotor = readFileSync(join(root, "crates/lissom/tests/support/rotor.toml"), "utf8");
+    const model = join(folder, "overhung.toml");
+    writeFileSync(model, `lissom = 1\n[parameters]\nspeed = 10.0\n[initial]\nangular_velocity = ["speed", 0, 0]\n${rotor}stiffness = 2000\n[joints.drive]\nkind = "prescribed_rotation"\njoint = "bearing"\nrotation = "speed*t"\n[analysis]\nkind = "dynamics"\nend = 1\nstep = 1e-3\n`);
+    const out = join(folder, "campbell");
+    const make = (...more) => {
+      execFileSync(program, ["campbell", model, "--vary", "parameters.speed=25:200:8", "--count", "4", "--rays", "1", "--out", out, "--quiet", ...more]);
+      execFileSync(program, ["view", out, "--quiet"]);
+      return open(browser, join(out, "view.html"));
+    };
+    const { page, complaints } = await make();
+    assert.match(await page.locator("#facts").textContent(), /^2 lines over 8 values of parameters.speed$/);
+    assert.equal(await page.locator("#stage").isVisible(), false);
+    // Critical speeds in closed form: (I_t - I_p) Ω² = k forward, (I_t + I_p) Ω² = k backward.
+    const rows = (await page.locator(".critical tbody tr").all()).map((row) => row.locator("td").allTextContents());
+    const found = Object.fromEntries((await Promise.all(rows)).map(([order, rpm, rate, , frequency, , whirl]) => [`${order} ${whirl}`, [rpm, rate, frequency].map(Number)]));
+    assert.deepEqual(Object.keys(found).sort(), ["1P ↺ backward", "1P ↻ forward"]);
+    for (const [key, inertia] of [["1P ↻ forward", 0.6 - 0.3], ["1P ↺ backward", 0.6 + 0.3]]) {
+      const rate = Math.sqrt(2000 / inertia);
+      [(60 * rate) / (2 * Math.PI), rate, rate / (2 * Math.PI)].forEach((wanted, k) => assert.ok(Math.abs(found[key][k] / wanted - 1) < 2e-5, `${key}: ${found[key]}`));
+    }
+    // Lines are continued by shape: the forward one rises and the backward one, which is dashed, falls.
+    const curves = await page.evaluate(() => lissom.campbell.plots[0].plot.curves.map(({ label, dash, y, x, marks }) => ({ label, dash: Boolean(dash), x, y, marks })));
+    const of = (sign) => curves.filter(({ label }) => label?.endsWith(sign));
+    assert.deepEqual([of("↻").length, of("↺").length, of("P").length, curves.filter(({ marks }) => marks).length], [1, 1, 1, 1]);
+    assert.ok(!of("↻")[0].dash && of("↺")[0].dash);
+    of("↻")[0].y.forEach((y, k, all) => assert.ok(k === 0 || y > all[k - 1]));
+    of("↺")[0].y.forEach((y, k, all) => assert.ok(k === 0 || y < all[k - 1]));
+    assert.ok(Math.abs(of("↻")[0].x.at(-1) - (200 * 60) / (2 * Math.PI)) < 1e-6, "over rpm");
+    assert.equal(await page.evaluate(() => lissom.campbell.plots.length), 1, "no damping");
+    for (const [choice, last] of [["rad/s", 200], ["value", 200], ["Hz", 200 / (2 * Math.PI)]]) {
+      await page.locator(".wide .over").selectOption(choice);
+      assert.ok(Math.abs((await page.evaluate(() => lissom.campbell.plots[0].plot.curves.at(-2).x.at(-1))) - last) < 1e-6, choice);
+    }
+    const at = await page.evaluate(() => {
+      const { plot } = lissom.campbell.plots[0];
+      const { left, top } = plot.canvas.getBoundingClientRect();
+      const { x, y } = plot.curves.find(({ label }) => label?.endsWith("↻"));
+      const place = plot.place(x[3], y[3]);
+      return [left + place[0], top + place[1]];
+    });
+    await page.mouse.move(...at);
+    assert.match(await page.locator(".wide h3 span").textContent(), /whirl forward: [\d.]+ Hz, damping ratio 0 at 954.93 rpm/);
+    assert.deepEqual(complaints(), []);
+    const damped = await make("--set", "springs.one.damping=2", "--set", "springs.two.damping=2");
+    assert.equal(await damped.page.evaluate(() => lissom.campbell.plots[1].plot.axes.y), "damping ratio [-]");
+    await damped.page.setViewportSize({ width: 390, height: 800 });
+    await damped.page.waitForFunction(() => document.documentElement.scrollWidth <= 390, null, { timeout: 10000 });
+    assert.deepEqual(damped.complaints(), []);
+  },
   "plots are chosen, enlarged, moved and split": async (browser) => {
     const { page, complaints } = await open(browser, join(view("examples/pendulum.toml"), "view.html"));
     const names = () => page.evaluate(() => lissom.plots.plots.map(({ output }) => output));

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use lissom_core::linear::{Mode, ModeKind, ModeOptions, Whirl};
 use lissom_model::lower::registry::registry;
-use lissom_model::output::{CampbellPlot, Summary};
+use lissom_model::output::{CampbellLine, CampbellPlot, Summary};
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
@@ -275,7 +275,7 @@ impl Search<'_> {
 
     fn crossing(&mut self, (low, high): (&Point, &Point), line: usize, ray: u32) -> Option<Crossing> {
         let gap = |point: &Point| {
-            let of = point.modes.iter().find(|of| of.line == line)?;
+            let of = of_line(point, line)?;
             let (frequency, at_rest) = of.compared();
             Some((frequency - f64::from(ray) * point.spin, frequency, at_rest))
         };
@@ -305,7 +305,7 @@ impl Search<'_> {
         }
         let share =
             if high.value == low.value { 0.0 } else { (value - low.value) / (high.value - low.value) };
-        let whirl = high.modes.iter().find(|of| of.line == line).map_or("none", |of| of.whirl.name());
+        let whirl = of_line(&high, line).map_or("none", |of| of.whirl.name());
         Some(Crossing {
             line,
             ray,
@@ -315,6 +315,17 @@ impl Search<'_> {
             at_rest: beyond.2,
         })
     }
+}
+
+/// The mode of a line.
+fn of_line(point: &Point, line: usize) -> Option<&PointMode> {
+    point.modes.iter().find(|of| of.line == line)
+}
+
+/// The word for the whirl of a line from those of its modes at nonzero speeds: `changes` if they differ.
+pub(crate) fn common_whirl<'w>(mut words: impl Iterator<Item = &'w str>) -> &'w str {
+    let first = words.next().unwrap_or("none");
+    if words.all(|word| word == first) { first } else { "changes" }
 }
 
 /// Whether shapes have different numbers of unknowns.
@@ -378,24 +389,39 @@ impl CampbellReport {
     /// The diagram.
     pub fn figure(&self, title: &str) -> CampbellPlot {
         let line = |line: usize| {
-            let of = |point: &Point| {
-                let own = point.modes.iter().find(|of| of.line == line)?;
-                Some((point.value, own.compared().0))
-            };
-            self.points.iter().filter_map(of).collect()
+            let of = |point| Some((point, of_line(point, line)?));
+            let own: Vec<(&Point, &PointMode)> = self.points.iter().filter_map(of).collect();
+            let words = own.iter().filter(|(point, _)| point.spin > 0.0).map(|(_, own)| own.whirl.name());
+            CampbellLine {
+                points: own.iter().map(|(point, own)| (point.value, own.compared().0)).collect(),
+                damping: own.iter().map(|(point, own)| (point.value, own.mode.damping)).collect(),
+                whirl: common_whirl(words),
+            }
         };
         let ray = |&ray: &u32| {
             let points = self.points.iter().map(|point| (point.value, f64::from(ray) * point.spin)).collect();
             (format!("{ray}P"), points)
         };
-        let turns = self.points.iter().any(|point| point.spin > 0.0);
+        let speeds = self.points.iter().map(|point| point.spin);
+        let (least, most) = (speeds.clone().fold(f64::INFINITY, f64::min), speeds.fold(0.0, f64::max));
+        let unit = self.unit().map_or_else(String::new, |unit| format!(" [{unit}]"));
+        let speeds = if most > 0.0 {
+            format!(", rotation {:.0} to {:.0} rpm", 60.0 * least, 60.0 * most)
+        } else {
+            String::new()
+        };
         CampbellPlot {
             title: title.to_owned(),
-            x_label: lissom_model::unit_of(&registry(), &self.path)
-                .map_or_else(|| self.path.clone(), |unit| format!("{} [{unit}]", self.path)),
+            x_label: format!("{}{unit}{speeds}", self.path),
             lines: (0..self.lines).map(line).collect(),
-            rays: self.rays.iter().filter(|_| turns).map(ray).collect(),
+            rays: self.rays.iter().filter(|_| most > 0.0).map(ray).collect(),
+            crossings: self.crossings.iter().map(|of| (of.value, f64::from(of.ray) * of.spin)).collect(),
         }
+    }
+
+    /// Unit of the number that is varied, if it is known.
+    fn unit(&self) -> Option<&'static str> {
+        lissom_model::unit_of(&registry(), &self.path)
     }
 
     /// The contents of `summary.json`.
@@ -404,6 +430,8 @@ impl CampbellReport {
         let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
         insert("stopped", json!("end"));
         insert("vary", json!(self.path));
+        insert("unit", json!(self.unit()));
+        insert("multiples", json!(self.rays));
         insert("values", json!(self.points.len()));
         insert("lines", json!(self.lines));
         let crossing = |of: &Crossing| {

@@ -35,6 +35,8 @@ pub(crate) const EVENTS: &str = "events.csv";
 /// Names of the tables of natural modes.
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
+/// Name of the table of a Campbell diagram.
+pub(crate) const CAMPBELL: &str = "campbell.csv";
 /// Files of analyses of linear models.
 const OF_LINEAR_MODELS: [&str; 25] = [
     "shapes.svg",
@@ -43,7 +45,7 @@ const OF_LINEAR_MODELS: [&str; 25] = [
     "response.csv",
     "response.svg",
     "response.png",
-    "campbell.csv",
+    CAMPBELL,
     "campbell.svg",
     "campbell.png",
     "unknowns.csv",
@@ -142,7 +144,7 @@ fn lock(path: &Path) -> Result<File, FileError> {
 
 /// Protects the results in a folder that a command reads against being overwritten by it.
 pub fn protect_results(folder: &Path) {
-    for name in [HISTORY, SUMMARY, MOTION, SCENE, EVENTS, MODES, SHAPES] {
+    for name in [HISTORY, SUMMARY, MOTION, SCENE, EVENTS, MODES, SHAPES, CAMPBELL] {
         files::protect(&folder.join(name));
     }
 }
@@ -160,7 +162,8 @@ const MAX_NAMED: usize = 8;
 
 /// The error that names the folders of results in a folder; none if there is no such folder.
 fn results_below(path: &Path) -> Option<FolderError> {
-    let has_results = |folder: &PathBuf| [HISTORY, MODES].iter().any(|name| folder.join(name).is_file());
+    let has_results =
+        |folder: &PathBuf| [HISTORY, MODES, CAMPBELL].iter().any(|name| folder.join(name).is_file());
     let mut folders: Vec<PathBuf> = files::entries(path).filter(has_results).collect();
     folders.sort();
     let first = folders.first()?.display().to_string();

@@ -1,4 +1,4 @@
-//! Content of the page of a results folder: a run with its motion, or natural modes.
+//! Content of the page of a results folder: a run with its motion, natural modes, or a Campbell diagram.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -8,7 +8,7 @@ use lissom_model::output::Record;
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
-use crate::folder::{EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
+use crate::folder::{CAMPBELL, EVENTS, FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
 use crate::motion::{Motion, MotionError};
 use crate::view::{Notice, Results};
 
@@ -31,13 +31,13 @@ impl ResultFolder {
     /// # Errors
     /// If the folder contains no table or no motion, or if table, motion or scene are invalid.
     pub fn recorded(path: &Path) -> Result<RecordedRun, FolderError> {
-        if path.join(MODES).is_file() {
-            let remedy = "show their shapes by `lissom view` or `lissom snapshot`";
-            return Err(FolderError::NoMotion {
-                path: path.display().to_string(),
-                holds: "natural modes",
-                remedy,
-            });
+        for (file, holds, remedy) in [
+            (MODES, "natural modes", "show their shapes by `lissom view` or `lissom snapshot`"),
+            (CAMPBELL, "a Campbell diagram", "show it by `lissom view`"),
+        ] {
+            if path.join(file).is_file() {
+                return Err(FolderError::NoMotion { path: path.display().to_string(), holds, remedy });
+            }
         }
         let (_, record, title) = Self::open(path)?;
         let Some((_, bytes)) = drawn(path)? else {
@@ -55,7 +55,7 @@ impl ResultFolder {
         Ok(RecordedRun { title, scene, motion, record })
     }
 
-    /// Content of the page of a folder with a run or natural modes.
+    /// Content of the page of a folder with a run, natural modes, or a Campbell diagram.
     ///
     /// # Errors
     /// If there is no table, or if table, motion or scene are invalid.
@@ -66,6 +66,13 @@ impl ResultFolder {
         let results = Results::new(&name).with_summary(&summary);
         if path.join(MODES).is_file() {
             return with_modes(path, results);
+        }
+        let diagram = path.join(CAMPBELL);
+        if diagram.is_file() {
+            let table = files::read_text(&diagram)?;
+            return results
+                .with_campbell(&table, &summary)
+                .ok_or_else(|| foreign(&diagram, MotionError::Damaged));
         }
         let (_, record, _) = Self::open(path)?;
         let mut results = results.with_record(&record);

@@ -1,11 +1,24 @@
 //! Campbell diagrams: frequencies over a parameter, with the multiples of the rotation.
 
-use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel};
+use lissom_drawing::{Axis, Chart, Curve, Drawing, Mark, Panel};
 
 use super::FigureError;
 
 /// Name of the figure, fit for a file.
 const NAME: &str = "campbell";
+/// Damping ratios below this are round-off.
+const UNDAMPED: f64 = 1e-9;
+
+/// Modes of similar shape.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CampbellLine {
+    /// Values and frequencies [Hz].
+    pub points: Vec<(f64, f64)>,
+    /// Values and damping ratios.
+    pub damping: Vec<(f64, f64)>,
+    /// Word for its whirl, such as `forward`.
+    pub whirl: &'static str,
+}
 
 /// Lines of frequencies and rays.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,10 +27,12 @@ pub struct CampbellPlot {
     pub title: String,
     /// Varied path, with its unit if it is known.
     pub x_label: String,
-    /// Values and frequencies [Hz] of each line.
-    pub lines: Vec<Vec<(f64, f64)>>,
+    /// The lines, by number. Those of backward whirl are dashed.
+    pub lines: Vec<CampbellLine>,
     /// Name, values and frequencies [Hz] of each multiple of the rotation.
     pub rays: Vec<(String, Vec<(f64, f64)>)>,
+    /// Values and frequencies [Hz] at which lines meet rays.
+    pub crossings: Vec<(f64, f64)>,
 }
 
 impl CampbellPlot {
@@ -38,28 +53,63 @@ impl CampbellPlot {
     }
 
     fn draw(&self) -> Result<Drawing, FigureError> {
-        let most = self.lines.iter().flatten().map(|point| point.1).fold(0.0, f64::max);
+        let most = self.lines.iter().flat_map(|line| &line.points).map(|point| point.1).fold(0.0, f64::max);
         if most <= 0.0 {
             return Err(FigureError::new(NAME, "no mode has a frequency above zero"));
         }
-        let line = |(index, points): (usize, &Vec<(f64, f64)>)| Curve {
-            name: format!("{}", index + 1),
-            points: points.clone(),
-            ..Curve::numbered(index)
+        let line = |(index, line): (usize, &CampbellLine)| {
+            let whirl = if line.whirl == "none" { "" } else { line.whirl };
+            Curve {
+                name: format!("{} {whirl}", index + 1).trim_end().to_owned(),
+                points: line.points.clone(),
+                is_dashed: line.whirl == "backward",
+                ..Curve::numbered(index)
+            }
         };
         let ray = |(name, points): &(String, Vec<(f64, f64)>)| Curve {
             name: name.clone(),
-            points: points.iter().copied().filter(|point| point.1 <= 1.1 * most).collect(),
-            width: 1.0,
-            is_dashed: true,
+            points: below(points, 1.1 * most),
+            width: 0.8,
             ..Curve::new([0x88; 3])
         };
-        let lines = self.lines.iter().enumerate().map(line);
-        let curves = self.rays.iter().map(ray).chain(lines).collect();
-        let panel = Panel { x: Axis::new(&self.x_label), y: Axis::new("frequency [Hz]"), curves };
-        let chart = Chart { panel_height: 490.0, ..Chart::new(NAME, vec![panel]) };
+        let crossings = Curve {
+            name: if self.crossings.is_empty() { String::new() } else { "crossing".to_owned() },
+            points: self.crossings.clone(),
+            width: 0.0,
+            mark: Some(Mark::Diamond),
+            ..Curve::new([0x22; 3])
+        };
+        let lines: Vec<Curve> = self.lines.iter().enumerate().map(line).collect();
+        let damped = lines.iter().zip(&self.lines).map(|(curve, line)| Curve {
+            name: String::new(),
+            points: line.damping.clone(),
+            ..curve.clone()
+        });
+        let below = Panel {
+            x: Axis::new(&self.x_label),
+            y: Axis::new("damping ratio [-]"),
+            curves: damped.collect(),
+        };
+        let is_damped =
+            self.lines.iter().flat_map(|line| &line.damping).any(|point| point.1.abs() > UNDAMPED);
+        let curves = self.rays.iter().map(ray).chain(lines).chain([crossings]).collect();
+        let mut panels = vec![Panel { x: Axis::new(&self.x_label), y: Axis::new("frequency [Hz]"), curves }];
+        panels.extend(is_damped.then_some(below));
+        let panel_height = if is_damped { 380.0 } else { 490.0 };
+        let chart = Chart { panel_height, ..Chart::new(NAME, panels) };
         Ok(Chart { title: self.title.clone(), ..chart }.draw())
     }
+}
+
+/// A line up to a limit.
+fn below(points: &[(f64, f64)], limit: f64) -> Vec<(f64, f64)> {
+    let end = points.iter().position(|point| point.1 > limit).unwrap_or(points.len());
+    let mut found = points[..end].to_vec();
+    if let (Some(last), Some(next)) = (points[..end].last(), points.get(end)) {
+        let share = (limit - last.1) / (next.1 - last.1);
+        found.push((last.0 + share * (next.0 - last.0), limit));
+    }
+    found
 }
 
 #[cfg(test)]
@@ -67,22 +117,37 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lines_and_rays_are_drawn() {
+    fn lines_rays_crossings_and_damping_are_drawn() {
+        let line = |last: f64, whirl| CampbellLine {
+            points: vec![(0.0, 10.0), (20.0, last)],
+            whirl,
+            ..CampbellLine::default()
+        };
         let plot = CampbellPlot {
             title: "Rotor".to_owned(),
             x_label: "parameters.speed".to_owned(),
-            lines: vec![vec![(0.0, 10.0), (20.0, 12.0)], vec![(0.0, 10.0), (20.0, 8.0)]],
+            lines: vec![line(12.0, "forward"), line(8.0, "backward")],
             rays: vec![("1P".to_owned(), vec![(0.0, 0.0), (20.0, 20.0)])],
+            crossings: vec![(11.0, 11.0)],
         };
         let svg = plot.svg().unwrap();
-        for words in ["Rotor", "parameters.speed", "1P", "frequency [Hz]"] {
+        for words in
+            ["Rotor", "parameters.speed", "1P", "frequency [Hz]", "1 forward", "2 backward", "crossing"]
+        {
             assert!(svg.contains(words), "{words}");
         }
+        assert_eq!(svg.matches("stroke-dasharray").count(), 2, "backward whirl, and its sample");
+        assert!(!svg.contains("damping"));
+        let mut damped = plot.clone();
+        damped.lines[0].damping = vec![(0.0, 0.01), (20.0, 0.02)];
+        assert!(damped.svg().unwrap().contains("damping ratio [-]"));
         let many = CampbellPlot { lines: vec![plot.lines[0].clone(); 20], ..plot.clone() }.svg().unwrap();
         assert!(many.matches("<circle").count() >= 2 * 7, "lines after the seventh have marks");
         assert!(plot.png().unwrap().starts_with(b"\x89PNG"));
-        let flat = CampbellPlot { lines: vec![vec![(0.0, 0.0), (20.0, 0.0)]], ..plot };
+        assert_eq!(below(&plot.rays[0].1, 15.0), [(0.0, 0.0), (15.0, 15.0)]);
+        let flat = CampbellLine { points: vec![(0.0, 0.0), (20.0, 0.0)], ..CampbellLine::default() };
+        let flat = CampbellPlot { lines: vec![flat], ..plot };
         assert!(flat.svg().is_err());
-        assert!(CampbellPlot { lines: vec![Vec::new()], ..flat }.svg().is_err());
+        assert!(CampbellPlot { lines: vec![CampbellLine::default()], ..flat }.svg().is_err());
     }
 }

@@ -16,7 +16,7 @@ mod sweep_plot;
 use std::io;
 
 pub use bode::BodePlot;
-pub use campbell::CampbellPlot;
+pub use campbell::{CampbellLine, CampbellPlot};
 pub use csv::{CsvWriter, number_text, quoted};
 pub use curve_record::CurveRecord;
 pub use curves::{CurveError, Over, Plots, Source, plots};

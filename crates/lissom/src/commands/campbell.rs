@@ -17,6 +17,7 @@ use lissom_core::number::{Written, duration};
 /// At each value the model is linearised about the steady rotation specified by the velocities in the file, or about static
 /// equilibrium if nothing rotates. Modes are tracked by their shapes. The results go to a folder: `campbell.csv`,
 /// `campbell.svg` and `campbell.png` (diagram with the multiples of the rotor speed) and `summary.json` (critical speeds).
+/// `lissom view` shows the folder as a page.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -110,12 +111,13 @@ fn render(heading: &str, found: &CampbellReport, folder: &Path) -> String {
     for crossing in &found.crossings {
         let _ = writeln!(
             text,
-            "  line {} crosses {}P at {} = {}, rotation {} Hz, whirl {}",
+            "  line {} crosses {}P at {} = {}, {} rpm, {} Hz, whirl {}",
             crossing.line + 1,
             crossing.ray,
             found.path,
             Written(crossing.value),
-            Written(crossing.spin),
+            Written(60.0 * crossing.spin),
+            Written(f64::from(crossing.ray) * crossing.spin),
             crossing.whirl
         );
     }

@@ -2,6 +2,7 @@
 //!
 //! The page itself is bundled from `viewer/`; here the results are inserted.
 
+mod campbell;
 pub(crate) mod modes;
 mod packed;
 
@@ -81,6 +82,7 @@ pub struct Results {
     scene: Value,
     motion: Option<packed::Motion>,
     modes: Vec<modes::Mode>,
+    campbell: Option<campbell::Diagram>,
     columns: Vec<Value>,
     history: Option<String>,
     events: Vec<Value>,
@@ -169,6 +171,16 @@ impl Results {
     pub fn with_modes(mut self, modes: &str, shapes: &str) -> Option<Self> {
         self.modes = modes::read(modes, shapes, self.motion.as_ref()?.node_count())?;
         self.facts = format!("{} modes", self.modes.len());
+        Some(self)
+    }
+
+    /// With a Campbell diagram, from the table `campbell.csv` and the contents of `summary.json`; none if the table is
+    /// invalid.
+    #[must_use]
+    pub fn with_campbell(mut self, table: &str, summary: &Value) -> Option<Self> {
+        let diagram = campbell::read(table, summary)?;
+        self.facts = diagram.facts();
+        self.campbell = Some(diagram);
         Some(self)
     }
 

@@ -1,0 +1,105 @@
+//! A Campbell diagram for a page: the table of `lissom campbell`, read back.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::campbell::common_whirl;
+
+/// Frequencies over a parameter.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub(super) struct Diagram {
+    /// Path of the number that is varied.
+    vary: Value,
+    unit: Value,
+    /// Multiples of the rotation.
+    multiples: Value,
+    lines: Vec<Line>,
+    /// Critical speeds, as in `summary.json`.
+    crossings: Value,
+}
+
+/// Modes of similar shape.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+struct Line {
+    number: usize,
+    /// Word for its whirl.
+    whirl: String,
+    values: Vec<f64>,
+    /// Rates of rotation [Hz].
+    rotations: Vec<f64>,
+    /// Frequencies [Hz], in axes at rest where they exist.
+    frequencies: Vec<f64>,
+    /// Damping ratios.
+    damping: Vec<f64>,
+    #[serde(skip)]
+    words: Vec<String>,
+}
+
+impl Diagram {
+    /// A short text about it.
+    pub(super) fn facts(&self) -> String {
+        let count = self.lines.iter().map(|line| line.values.len()).max().unwrap_or_default();
+        let path = self.vary.as_str().unwrap_or("a parameter");
+        format!("{} lines over {count} values of {path}", self.lines.len())
+    }
+}
+
+/// Reads `campbell.csv`; none if it is invalid.
+pub(super) fn read(table: &str, summary: &Value) -> Option<Diagram> {
+    let mut rows = table.lines();
+    let heading: Vec<&str> = rows.next()?.split(',').collect();
+    let column = |name: &str| heading.iter().position(|known| *known == name);
+    let [value, rotation, line, frequency, damping, whirl, at_rest] =
+        ["value", "rotation", "line", "frequency", "damping", "whirl", "frequency_at_rest"].map(column);
+    let mut lines: Vec<Line> = Vec::new();
+    for row in rows {
+        let fields: Vec<&str> = row.split(',').collect();
+        let number = |column: Option<usize>| fields.get(column?)?.parse::<f64>().ok();
+        let index = fields.get(line?)?.parse::<usize>().ok()?.checked_sub(1)?;
+        if index > table.len() {
+            return None;
+        }
+        while lines.len() <= index {
+            lines.push(Line { number: lines.len() + 1, ..Line::default() });
+        }
+        let line = &mut lines[index];
+        line.values.push(number(value)?);
+        line.rotations.push(number(rotation)?);
+        let own = number(frequency)?;
+        line.frequencies.push(number(at_rest).unwrap_or(own));
+        line.damping.push(number(damping)?);
+        line.words.push((*fields.get(whirl?)?).to_owned());
+    }
+    for line in &mut lines {
+        let turning = line.words.iter().zip(&line.rotations).filter(|(_, rotation)| **rotation > 0.0);
+        line.whirl = common_whirl(turning.map(|(word, _)| word.as_str())).to_owned();
+    }
+    let of = |name: &str| summary[name].clone();
+    let (vary, unit, multiples) = (of("vary"), of("unit"), of("multiples"));
+    Some(Diagram { vary, unit, multiples, lines, crossings: of("critical_speeds") })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_diagram_comes_back_from_its_table() {
+        let table = "value,rotation,line,frequency,damping,kind,whirl,frequency_at_rest,likeness\n\
+                     0.0,0.0,1,5.0,0.0,oscillation,none,5.0,\n\
+                     0.0,0.0,2,5.0,0.0,oscillation,none,5.0,\n\
+                     10.0,1.5,2,3.0,0.02,oscillation,forward,4.5,0.5\n\
+                     10.0,1.5,1,7.0,0.01,oscillation,mixed,,0.5\n";
+        let found = read(table, &serde_json::json!({ "vary": "parameters.speed" })).unwrap();
+        assert_eq!(found.facts(), "2 lines over 2 values of parameters.speed");
+        let [first, second] = &found.lines[..] else { panic!("{found:?}") };
+        assert_eq!((first.whirl.as_str(), second.whirl.as_str()), ("mixed", "forward"));
+        assert_eq!((&first.frequencies[..], &second.frequencies[..]), (&[5.0, 7.0][..], &[5.0, 4.5][..]));
+        assert_eq!((&second.damping[..], &second.rotations[..]), (&[0.0, 0.02][..], &[0.0, 1.5][..]));
+        for damaged in
+            ["", "value,rotation\n1,2\n", &table.replace("3.0", "x"), &table.replace(",2,5.0", ",0,5.0")]
+        {
+            assert_eq!(read(damaged, &Value::Null), None, "{damaged}");
+        }
+    }
+}
