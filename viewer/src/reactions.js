@@ -1,52 +1,108 @@
-// Reactions of joints as arrows: forces on the tip whose components are recorded in global axes.
+// Forces as arrows: reactions of joints and of contacts on the tip, in global axes, and forces of springs, as recorded in the table.
 
 import * as THREE from "three";
 
-/** Length of the arrow of the largest reaction of the run, relative to the model. */
+/** Length of the arrow of the largest force of the run, relative to the model. */
 const LENGTH = 0.22;
+/** Axis of the joint's base that is normal to the surface of contact, by kind. */
+const NORMALS = { rolling: 0, wheel_on_rail: 1 };
+
+/** A direction in the axes of a node, in global axes. */
+const carried = (kinematics, { node, position }, direction) => {
+  const [from, to] = [kinematics.point({ node, position }), kinematics.point({ node, position: position.map((x, k) => x + direction[k]) })];
+  return new THREE.Vector3(...to.map((x, k) => x - from[k]));
+};
+
+/**
+ * Where the line of action of a force meets a plane through `base`: the contact. The moment [N m] is about `point`, at which a
+ * force along the plane is drawn.
+ */
+const contactPoint = (point, force, moment, base, normal) => {
+  const onLine = force.clone().cross(moment).divideScalar(force.lengthSq()).add(point);
+  const slope = force.dot(normal);
+  if (Math.abs(slope) < 1e-3 * force.length()) return point;
+  return onLine.addScaledVector(force, base.clone().sub(onLine).dot(normal) / slope);
+};
 
 export class Reactions {
-  /** Arrows for those outputs of `scene` that are reactions with columns in the table. */
+  /** Arrows for those outputs of `scene` that are forces with columns in the table. */
   constructor(scene, history, kinematics, size, colour) {
     [this.history, this.kinematics] = [history, kinematics];
     this.group = new THREE.Group();
-    this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.4 });
+    // Within wheels and beams arrows would be hidden.
+    this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.4, depthTest: false });
     const r = 0.004 * size;
     this.head = 8 * r;
-    const columnsOf = (name) => ["f1", "f2", "f3"].map((component) => history.columns.find((column) => column.name === `${name}.${component}`));
-    this.arrows = scene.outputs
-      .filter((output) => output.kind === "reaction" && output.is_global)
-      .map(({ name, of }) => ({ of, columns: columnsOf(name), anchor: scene.joints.find((joint) => joint.name === of)?.anchors?.[1] }))
-      .filter(({ columns, anchor }) => anchor && columns.every(Boolean));
+    const columnsOf = (name, components) => components.map((component) => history.columns.find((column) => column.name === `${name}.${component}`));
+    const kinds = { reaction: (output) => this.ofJoint(output, scene, columnsOf), spring: (output) => this.ofSpring(output, scene, columnsOf) };
+    this.arrows = scene.outputs.map((output) => kinds[output.kind]?.(output)).filter((arrow) => arrow?.columns.every(Boolean));
     for (const arrow of this.arrows) {
       arrow.group = new THREE.Group();
       arrow.shaft = new THREE.Mesh(new THREE.CylinderGeometry(r, r, 1, 10), this.material);
       arrow.tip = new THREE.Mesh(new THREE.ConeGeometry(2.9 * r, this.head, 16), this.material);
       arrow.group.add(arrow.shaft, arrow.tip);
-      for (const mesh of arrow.group.children) mesh.userData.part = arrow.of;
+      for (const mesh of arrow.group.children) {
+        mesh.userData.part = arrow.of;
+        mesh.renderOrder = 1;
+      }
       this.group.add(arrow.group);
     }
     /** The largest force of the run [N], whose arrow has this length [m]. */
     this.most = 0;
     this.length = LENGTH * size;
-    for (const { columns } of this.arrows) {
-      const [x, y, z] = columns.map(({ values }) => values);
-      x.forEach((_, row) => (this.most = Math.max(this.most, Math.hypot(x[row], y[row], z[row]))));
+    for (const { columns, count } of this.arrows) {
+      const values = columns.slice(0, count).map((column) => column.values);
+      values[0].forEach((_, row) => (this.most = Math.max(this.most, Math.hypot(...values.map((each) => each[row])))));
     }
     this.group.visible = false;
+  }
+
+  /** The reaction of a joint, at its tip or where wheel and surface touch. */
+  ofJoint({ name, of, is_global: isGlobal }, scene, columnsOf) {
+    const joint = scene.joints.find((each) => each.name === of);
+    if (!isGlobal || !joint?.anchors) return null;
+    const [base, tip] = joint.anchors;
+    const forces = columnsOf(name, ["f1", "f2", "f3"]);
+    const force = (row) => new THREE.Vector3(...forces.map(({ values }) => values[row]));
+    const at = () => new THREE.Vector3(...this.kinematics.point(tip));
+    const normal = joint.axes[NORMALS[joint.kind]];
+    if (!normal) return { of, columns: forces, count: 3, force, at };
+    const moments = columnsOf(name, ["m1", "m2", "m3"]);
+    const moment = (row) => new THREE.Vector3(...moments.map(({ values }) => values[row]));
+    // Moments are about the origin of the node that carries the wheel.
+    const centre = () => new THREE.Vector3(...this.kinematics.point({ node: tip.node, position: [0, 0, 0] }));
+    const contact = (row) => contactPoint(centre(), force(row), moment(row), new THREE.Vector3(...this.kinematics.point(base)), carried(this.kinematics, base, normal));
+    return { of, columns: [...forces, ...moments], count: 3, force, at: contact };
+  }
+
+  /** The force of a spring on its tip: along the line between its ends, or along the axis of the joint on which it acts. */
+  ofSpring({ name, of }, scene, columnsOf) {
+    const spring = scene.springs.find((each) => each.name === of);
+    const joint = scene.joints.find((each) => each.name === spring?.joint);
+    const columns = columnsOf(name, ["force"]);
+    const tension = (row) => columns[0].values[row];
+    const point = (anchor) => new THREE.Vector3(...this.kinematics.point(anchor));
+    if (spring?.anchors && spring.kind === "point") {
+      const [base, tip] = spring.anchors;
+      return { of, columns, count: 1, at: () => point(tip), force: (row) => point(base).sub(point(tip)).normalize().multiplyScalar(tension(row)) };
+    }
+    if (!joint?.anchors || joint.kind !== "prismatic") return null;
+    const [base, tip] = joint.anchors;
+    return { of, columns, count: 1, at: () => point(tip), force: (row) => carried(this.kinematics, base, joint.axes[0]).multiplyScalar(-tension(row)) };
   }
 
   /** Shows the forces of a row of the table. */
   update(row) {
     if (!this.group.visible) return;
-    for (const { columns, anchor, group, shaft, tip } of this.arrows) {
-      const force = new THREE.Vector3(...columns.map(({ values }) => values[row]));
+    for (const arrow of this.arrows) {
+      const { group, shaft, tip } = arrow;
+      const force = arrow.force(row);
       const size = force.length();
       group.visible = size > 1e-6 * this.most;
       if (!group.visible) continue;
       const length = (this.length * size) / this.most;
       const head = Math.min(this.head, 0.6 * length);
-      group.position.set(...this.kinematics.point(anchor));
+      group.position.copy(arrow.at(row));
       group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), force.divideScalar(size));
       [shaft.scale.y, shaft.position.y] = [length - head, (length - head) / 2];
       [tip.scale.y, tip.position.y] = [head / this.head, length - head / 2];

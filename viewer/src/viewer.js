@@ -400,7 +400,7 @@ export class Viewer {
     $("reactions").closest("label").hidden = arrows.length === 0;
     this.reactions.group.visible = isShown;
     $("force-scale").hidden = !(isShown && arrows.length);
-    $("force-scale").textContent = `reactions: ${spelled(most / length, 3)} N per m of arrow, at most ${spelled(most, 3)} N`;
+    $("force-scale").textContent = `forces: ${spelled(most / length, 3)} N per m of arrow, at most ${spelled(most, 3)} N`;
     this.isMoved = true;
   }
 

@@ -43,6 +43,59 @@ export const parts = ({ root, folder, view, open }) => ({
     assert.deepEqual([...bytes.subarray(1, 4)].map((code) => String.fromCharCode(code)).join(""), "PNG");
     assert.deepEqual(complaints(), []);
   },
+  "forces of contacts and springs are arrows": async (browser) => {
+    const shown = async (file, ...set) => {
+      const { page, complaints } = await open(browser, join(view(file, ...set), "view.html"));
+      await page.locator("#reactions").check();
+      return { page, complaints };
+    };
+    const disc = await shown("examples/rolling-disc.toml", "analysis.end=1");
+    // The force on a disc acts where it touches the floor: at its radius from the centre, in the plane z = 0.
+    for (const share of [0, 0.37, 1]) {
+      const [height, radius, up] = await disc.page.evaluate((share) => {
+        lissom.player.seek(share * lissom.player.end);
+        lissom.move();
+        const [{ group }] = lissom.reactions.arrows;
+        // Forces are those of rows: the motion at the time of the row.
+        lissom.kinematics.set(lissom.history.times[lissom.plots.row()]);
+        lissom.reactions.update(lissom.plots.row());
+        const centre = lissom.kinematics.point({ node: lissom.result.scene.bodies[0].node, position: [0, 0, 0] });
+        const { x, y, z } = group.position;
+        return [z, Math.hypot(x - centre[0], y - centre[1], z - centre[2]), group.visible];
+      }, share);
+      assert.ok(up && Math.abs(height) < 1e-9 && Math.abs(radius - 0.2) < 2e-4, `${height}, ${radius}`);
+    }
+    assert.deepEqual(disc.complaints(), []);
+    // That on a wheel acts where the recorded contact is, along the axle.
+    const wheels = await shown("examples/wheelset.toml", "analysis.end=0.4");
+    const apart = await wheels.page.evaluate(() => {
+      const row = lissom.history.times.length - 1;
+      lissom.kinematics.set(lissom.history.times[row]);
+      lissom.reactions.update(row);
+      const centre = lissom.kinematics.point({ node: lissom.result.scene.bodies[0].node, position: [0, 0, 0] });
+      return lissom.reactions.arrows.map(({ of, group: { position } }) => {
+        const on = lissom.history.columns.find(({ name }) => name === `${of}.wheel`).values[row];
+        return Math.abs(position.x - centre[0]) - (0.1506 + on);
+      });
+    });
+    assert.equal(apart.length, 2);
+    for (const distance of apart) assert.ok(Math.abs(distance) < 2e-4, `${apart}`);
+    // A cable pulls its load towards the base, and not at all while it is slack.
+    const crane = await shown("examples/crane-slack-cable.toml");
+    const found = await crane.page.evaluate(() => {
+      const { columns } = lissom.history;
+      const { values } = columns.find(({ name }) => name === "cable.force");
+      const arrow = lissom.reactions.arrows.find(({ of }) => of === "cable");
+      return [values.indexOf(Math.max(...values)), values.indexOf(0)].map((row) => {
+        lissom.kinematics.set(lissom.history.times[row]);
+        lissom.reactions.update(row);
+        return { isShown: arrow.group.visible, size: arrow.force(row).length(), up: arrow.force(row).z / values[row], most: values[row] };
+      });
+    });
+    assert.deepEqual(found.map(({ isShown }) => isShown), [true, false]);
+    assert.ok(Math.abs(found[0].size / found[0].most - 1) < 1e-6 && found[0].up > 0.9, JSON.stringify(found));
+    assert.deepEqual(crane.complaints(), []);
+  },
   "the motion as a film": async (browser) => {
     const { page } = await open(browser, join(view("examples/pendulum.toml", "analysis.end=1"), "view.html"));
     const download = page.waitForEvent("download", { timeout: 60000 });

@@ -202,9 +202,9 @@ pub(super) fn attached(
             // The arm leads from the hinge to the tip's own position.
             (base, tip, *at, places.frame(places.node(&tip.value)?).position)
         }
-        Attachment::TwoNodes { base, tip, .. } if component.kind.value == "rolling" => {
-            let centre = places.frame(places.node(&tip.value)?).position;
-            (base, tip, centre, centre)
+        Attachment::TwoNodes { base, tip, at, .. } if component.kind.value == "rolling" => {
+            // A point of the plane, and the centre of the wheel.
+            (base, tip, *at, places.frame(places.node(&tip.value)?).position)
         }
         Attachment::TwoNodes { base, tip, at, .. } => (base, tip, *at, *at),
         Attachment::TwoPlaces { base, tip, at_base, at_tip } => (base, tip, *at_base, *at_tip),
