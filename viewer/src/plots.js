@@ -3,6 +3,7 @@
 import uPlot from "uplot";
 
 import { element } from "./panel.js";
+import { isPlace, orbit } from "./orbit.js";
 import { PathPlot } from "./path.js";
 import { spectrum } from "./spectrum.js";
 import { curves } from "./theme.js";
@@ -165,6 +166,9 @@ export class Plots {
       const range = [this.history.times[0], this.history.times.at(-1)];
       const axes = { x: `t [s], largest amplitude of ${column.name} ${drawn && spelled(drawn.most, 3)} ${column.unit}`, y: "f [Hz]" };
       if (drawn) return { plot: new WaterfallPlot(card, drawn, range, colours(), axes), card, output, isFree: true };
+    } else if (over === "orbit") {
+      const drawn = orbit(columns, this.history.columns, this.history.times, card, colours());
+      if (drawn) return { plot: drawn, card, output, isFree: true };
     } else if (over !== "time") {
       const drawn = this.path(columns, over, card);
       if (drawn) return { plot: drawn, card, output, isFree: true };
@@ -212,7 +216,8 @@ export class Plots {
     select.className = "over";
     select.setAttribute("aria-label", "drawn over");
     const names = this.history.columns.map((column) => column.name);
-    const options = [["time", `over ${this.clock}`], ...(this.clock === "time" ? [["frequency", "spectrum"], ...(hasWaterfall(this.history.times.length) ? [["waterfall", "waterfall"]] : [])] : [])];
+    const isOrbit = isPlace(this.history.columns.filter((column) => keyOf([column]) === key));
+    const options = [["time", `over ${this.clock}`], ...(isOrbit ? [["orbit", "orbit"]] : []), ...(this.clock === "time" ? [["frequency", "spectrum"], ...(hasWaterfall(this.history.times.length) ? [["waterfall", "waterfall"]] : [])] : [])];
     select.append(...[...options, ...names.map((name) => [`column ${name}`, `over ${name}`])].map(([value, text]) => new Option(text, value)));
     select.value = this.over.get(key) ?? "time";
     select.addEventListener("change", () => {

@@ -56,6 +56,25 @@ export const plots = ({ program, root, folder, view, open }) => ({
     await damped.page.waitForFunction(() => document.documentElement.scrollWidth <= 390, null, { timeout: 10000 });
     assert.deepEqual(damped.complaints(), []);
   },
+  "an orbit with its turns": async (browser) => {
+    const model = join(folder, "orbit.toml");
+    writeFileSync(model, `lissom = 1\n[bodies.rotor]\nmass = 1\ninertia = [1, 1, 1]\n[joints.bearing]\nkind = "revolute"\nbase = "ground"\ntip = "rotor"\naxis = [1, 0, 0]\n[joints.drive]\nkind = "prescribed_rotation"\njoint = "bearing"\nrotation = "10*t"\n[outputs.rim]\nkind = "position"\nof = "rotor"\npoint = [0, 0.1, 0]\n[outputs.shaft]\nkind = "relative"\nof = "bearing"\n[analysis]\nkind = "dynamics"\nend = 2\nstep = 1e-2\n`);
+    const { page, complaints } = await open(browser, join(view(model), "view.html"));
+    await page.locator(".plot", { hasText: "rim position" }).locator(".over").selectOption("orbit");
+    const { axes, marks, scale } = await page.evaluate(() => {
+      const { plot } = lissom.plots.plots.find(({ plot }) => plot.place);
+      const [a, b, c] = [plot.place(0, 0), plot.place(0.1, 0), plot.place(0, 0.1)];
+      return { axes: plot.axes, marks: plot.curves.filter(({ marks }) => marks), scale: (b[0] - a[0]) / (a[1] - c[1]) };
+    });
+    assert.match(axes.x, /^rim\.y \[m\] .* turns of shaft$/);
+    assert.equal(axes.y, "rim.z [m]");
+    assert.ok(Math.abs(scale - 1) < 1e-6);
+    const of = (kind) => marks.find((curve) => curve.marks === kind);
+    assert.deepEqual([of("ring").x.length, of("square").x.length, of("dot").x.length], [1, 1, 3]);
+    // 20 rad are three whole turns; each ends where the orbit begins.
+    of("dot").x.forEach((x, k) => assert.ok(Math.hypot(x - 0.1, of("dot").y[k]) < 1e-3));
+    assert.deepEqual(complaints(), []);
+  },
   "plots are chosen, enlarged, moved and split": async (browser) => {
     const { page, complaints } = await open(browser, join(view("examples/pendulum.toml"), "view.html"));
     const names = () => page.evaluate(() => lissom.plots.plots.map(({ output }) => output));
