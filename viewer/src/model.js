@@ -61,7 +61,8 @@ export class ModelView {
     const heaviest = Math.max(...scene.point_masses.map((mass) => mass.mass), 0);
     for (const mass of scene.point_masses) {
       const own = next();
-      const drawn = new PointMassMesh(mass, heaviest, kinematics, size, own);
+      const shaped = { ...mass, shape: { center: [0, 0, 0] } };
+      const drawn = mass.surface ? new BodyMesh(shaped, [], kinematics, size, own) : new PointMassMesh(mass, heaviest, kinematics, size, own);
       this.add(mass.name, drawn, drawn.group, own, { kind: "point mass", part: mass });
     }
     this.buildConnections(size);

@@ -289,8 +289,8 @@ export class Viewer {
         });
       }
     }
-    const { bodies } = this.result.scene;
-    for (const { node, surface } of bodies) {
+    const { bodies, point_masses: masses } = this.result.scene;
+    for (const { node, surface } of [...bodies, ...masses]) {
       const at = this.kinematics.motion.reference.subarray(7 * node, 7 * node + 3);
       for (const point of surface?.points ?? []) {
         point.forEach((x, k) => {

@@ -237,6 +237,7 @@ pub(super) fn point_masses(context: &Context<'_>) -> Vec<PointMass> {
             }
         }
         let name = Located::new(name.to_owned(), reader.name);
-        Some(PointMass { name, mass: mass?.value, position: position?, plane, velocity })
+        let surface = surface(reader, &Vector3::zeros())?;
+        Some(PointMass { name, mass: mass?.value, position: position?, plane, surface, velocity })
     })
 }

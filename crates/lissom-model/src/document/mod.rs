@@ -306,6 +306,8 @@ pub struct PointMass {
     pub position: Vector3,
     /// The plane it stays in; free in space when `None`.
     pub plane: Option<Plane>,
+    /// Shape to be drawn, if it is specified.
+    pub surface: Option<Arc<Surface>>,
     /// Velocity at the start, global axes [m/s]; `None` leaves it to the initial motion.
     pub velocity: Option<Located<Vector3>>,
 }

@@ -295,6 +295,13 @@ fn point_mass() -> Vec<Key> {
         required("mass", Shape::Positive, "kg", "mass"),
         optional("position", Shape::Place, "m", "position at the start"),
         optional("plane", choice(&["xy", "yz", "zx"]), "", "restricts the motion to this plane"),
+        optional("shape", Shape::Solid, "", "solid to be drawn about its position; default: a ball"),
+        optional(
+            "mesh",
+            Shape::Text,
+            "",
+            "instead of `shape`: an STL or glTF file in metres, along the global axes; path relative to this file",
+        ),
         optional("velocity", Shape::GlobalVector, "m/s", "at the start, global axes"),
     ]
 }

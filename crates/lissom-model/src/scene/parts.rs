@@ -36,6 +36,9 @@ pub struct PointMass {
     pub node: NodeId,
     /// Mass [kg].
     pub mass: f64,
+    /// Shape to be drawn, if the model specifies it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<Surface>,
 }
 
 /// A section at a position along a beam.
@@ -103,7 +106,8 @@ pub(super) fn point_masses(document: &Document, places: &Places<'_>) -> Vec<Poin
     let nodes = &places.lowered.names.nodes;
     let drawn = |mass: &crate::document::PointMass| {
         let name = mass.name.value.clone();
-        Some(PointMass { node: *nodes.get(&name)?, name, mass: mass.mass })
+        let surface = mass.surface.as_deref().cloned();
+        Some(PointMass { node: *nodes.get(&name)?, name, mass: mass.mass, surface })
     };
     document.point_masses.iter().filter_map(drawn).collect()
 }

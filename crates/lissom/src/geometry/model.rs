@@ -197,8 +197,9 @@ impl Geometry {
         }
         let heaviest = scene.point_masses.iter().map(|mass| mass.mass).fold(0.0, f64::max);
         for mass in &scene.point_masses {
-            let radius = self.size * (0.012 + 0.016 * (mass.mass / heaviest).cbrt());
-            self.add(&mass.name, (Role::PointMass, next()), Mesh::ball(radius), Carrier::Node(mass.node));
+            let ball = || Mesh::ball(self.size * (0.012 + 0.016 * (mass.mass / heaviest).cbrt()));
+            let mesh = mass.surface.as_ref().map_or_else(ball, Mesh::of_surface);
+            self.add(&mass.name, (Role::PointMass, next()), mesh, Carrier::Node(mass.node));
         }
     }
 

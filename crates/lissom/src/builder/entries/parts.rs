@@ -78,6 +78,10 @@ entry! {
     position: [f64; 3] = "position";
     /// Restricts the motion to this plane.
     plane: words::Plane = "plane";
+    /// Solid to be drawn about its position; default: a ball.
+    shape: Solid = "shape";
+    /// Instead of `shape`: an STL or glTF file in metres, along the global axes; path relative to this file.
+    mesh: String = "mesh";
     /// At the start, global axes \[m/s\].
     velocity: [f64; 3] = "velocity";
 }
