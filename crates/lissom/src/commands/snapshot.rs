@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use lissom::motion::Motion;
-use lissom::picture::{Picture, PictureError, View, instants};
+use lissom::picture::{Picture, PictureError, RecordedForces, View, instants};
 use lissom::{FolderError, Override, RecordedModes, ResultFolder};
 use lissom_model::files;
 use lissom_model::output::{DrawingError, animation};
@@ -30,6 +30,7 @@ Examples:
 
 Exit code: 0 success; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
 shows the last instant before the failure.")]
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(super) struct Snapshot {
     /// A folder of results, or a model file.
     #[arg(value_name = "RESULT|MODEL.toml")]
@@ -69,6 +70,10 @@ pub(super) struct Snapshot {
     /// Draw the paths of the observed points.
     #[arg(long)]
     paths: bool,
+
+    /// Draw recorded reactions, contact forces and forces of springs as arrows.
+    #[arg(long, conflicts_with_all = ["initial", "mode"])]
+    forces: bool,
 
     /// Draw the initial state of the model, without simulating it.
     #[arg(long, conflicts_with_all = ["at", "strip"])]
@@ -138,7 +143,8 @@ impl Snapshot {
             let InitialScene { title, scene, motion, .. } =
                 InitialScene::of(&self.what, &self.set, self.quiet)?;
             let motion = Motion::from_bytes(&motion).map_err(|error| Failure::new(Exit::Failed, &error))?;
-            return self.draw((&scene, &motion, &title), (&folder, is_png)).map(|()| Exit::Done);
+            let none = RecordedForces::default();
+            return self.draw((&scene, &motion, &title), none, (&folder, is_png)).map(|()| Exit::Done);
         }
         refuse_what_does_not_move(&self.what, &self.set)?;
         // A failed run has results up to the failure; one that could not start has none to be drawn.
@@ -163,7 +169,13 @@ impl Snapshot {
             return Err(Failure::request(message));
         }
         let run = ResultFolder::recorded(folder).map_err(foreign)?;
-        self.draw((&run.scene, &run.motion, &run.title), (folder, is_png))
+        let forces =
+            if self.forces { RecordedForces::of(&run.scene, &run.record) } else { RecordedForces::default() };
+        if self.forces && forces.most() == 0.0 {
+            let message = "no force is recorded: add outputs of kind `reaction` or `spring` to the model";
+            return Err(Failure::request(message));
+        }
+        self.draw((&run.scene, &run.motion, &run.title), forces, (folder, is_png))
     }
 
     /// The first shapes side by side, or one mode over its period.
@@ -212,12 +224,13 @@ impl Snapshot {
             From::Side => View::Side,
             From::Top => View::Top,
         };
-        Picture { times: Vec::new(), view, paths: self.paths, labels: Vec::new() }
+        Picture { view, paths: self.paths, ..Picture::default() }
     }
 
     fn draw(
         &self,
         (scene, motion, title): (&Scene, &Motion, &str),
+        forces: RecordedForces,
         target: (&Path, bool),
     ) -> Result<(), Failure> {
         let times = if self.at.is_empty() {
@@ -226,7 +239,7 @@ impl Snapshot {
         } else {
             self.at.clone()
         };
-        self.write(&Picture { times, ..self.picture() }, (scene, motion, title), target)
+        self.write(&Picture { times, forces, ..self.picture() }, (scene, motion, title), target)
     }
 
     fn write(

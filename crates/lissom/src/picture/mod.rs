@@ -2,11 +2,13 @@
 //! page. Faces are shaded; hidden ones are omitted, and partly hidden ones are divided into small faces and painted from
 //! the farthest to the nearest.
 
+mod forces;
 mod painter;
 mod snapshot;
 mod view;
 mod visible;
 
+pub use forces::RecordedForces;
 pub use painter::{Seen, painted, shade_of};
 pub use snapshot::{Picture, PictureError, instants};
 pub use view::{Projection, View};

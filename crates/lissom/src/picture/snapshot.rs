@@ -1,10 +1,13 @@
 //! The sheet of a picture: panels at several instants, their times, the axes and a scale.
 
+use std::ops::Range;
+
 use lissom_core::diagnostics::Diagnose;
 use lissom_model::output::{Align, Drawing, DrawingError, Shade};
 use lissom_model::scene::Scene;
 use lissom_motion::Vector3;
 
+use super::forces::RecordedForces;
 use super::painter::{Seen, painted};
 use super::view::{Projection, View};
 use crate::geometry::{Geometry, poses_at};
@@ -14,6 +17,10 @@ use lissom_core::kinematics::GROUND;
 const WORDS: Shade = [0x1d, 0x24, 0x30];
 const FAINT: Shade = [0x6b, 0x76, 0x86];
 const TRACE: Shade = [0xd5, 0x5e, 0x00];
+const FORCE: Shade = [0xd1, 0x49, 0x5b];
+/// Length of the arrow of the largest force, relative to the model, and of heads [pixels].
+const ARROW: f64 = 0.22;
+const HEAD: f64 = 13.0;
 /// The global axes.
 const AXES: [(&str, Shade); 3] =
     [("x", [0xd1, 0x49, 0x5b]), ("y", [0x2f, 0x9e, 0x63]), ("z", [0x3b, 0x74, 0xd9])];
@@ -66,6 +73,8 @@ pub struct Picture {
     pub view: View,
     /// Whether the paths of observed points are drawn.
     pub paths: bool,
+    /// Forces to be drawn as arrows.
+    pub forces: RecordedForces,
     /// Captions of the panels, in their order; by default their instants.
     pub labels: Vec<String>,
 }
@@ -115,6 +124,10 @@ impl Frame {
 struct Panels {
     seen: Vec<Vec<Seen>>,
     paths: Vec<Vec<[f64; 2]>>,
+    /// Begin and end of each arrow, by panel.
+    arrows: Vec<Vec<[[f64; 2]; 2]>>,
+    /// Length of the arrow of the largest force [m].
+    longest: f64,
     projection: Projection,
     /// Their common bounds.
     frame: Frame,
@@ -126,9 +139,15 @@ impl Picture {
     /// # Errors
     /// If an instant is outside the motion, or there are none or too many.
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
-        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MAX_PANELS)?;
-        let sheet = Sheet::of(frame, seen.len(), MAX_EXTENT);
-        Ok(sheet.drawn(&seen, &paths, &projection, (title, &self.labels(scene))))
+        let panels = self.panels(scene, motion, MAX_PANELS)?;
+        let count = panels.seen.len();
+        let sheet = Sheet::of(panels.frame, count, MAX_EXTENT);
+        Ok(sheet.drawn(
+            &panels,
+            0..count,
+            (title, &self.labels(scene)),
+            &self.scale_of_forces(panels.longest),
+        ))
     }
 
     /// Draws a model with this motion, with a sheet for each instant, all of the same size and scale.
@@ -141,11 +160,22 @@ impl Picture {
         motion: &Motion,
         title: &str,
     ) -> Result<Vec<Drawing>, PictureError> {
-        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MAX_FRAMES)?;
-        let sheet = Sheet::of(frame, 1, MAX_MOVING);
+        let panels = self.panels(scene, motion, MAX_FRAMES)?;
+        let sheet = Sheet::of(panels.frame, 1, MAX_MOVING);
         let labels = self.labels(scene);
-        let drawn = |(panel, label)| sheet.drawn(panel, &paths, &projection, (title, label));
-        Ok(seen.chunks(1).zip(labels.chunks(1)).map(drawn).collect())
+        let note = self.scale_of_forces(panels.longest);
+        let drawn = |k: usize| sheet.drawn(&panels, k..k + 1, (title, &labels[k..=k]), &note);
+        Ok((0..panels.seen.len()).map(drawn).collect())
+    }
+
+    /// The scale of arrows; empty without forces.
+    fn scale_of_forces(&self, longest: f64) -> String {
+        let most = self.forces.most();
+        if most > 0.0 {
+            format!("forces: {} N per m of arrow, at most {} N", short(most / longest), short(most))
+        } else {
+            String::new()
+        }
     }
 
     /// Captions of the panels.
@@ -170,16 +200,24 @@ impl Picture {
         let geometry = Geometry::new(scene, motion, true);
         let projection = Projection::of(&geometry, self.view);
         let mut panels: Vec<Vec<Seen>> = Vec::new();
+        let (mut arrows, longest) = (Vec::new(), ARROW * geometry.size);
         let mut frame = Frame { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for &time in &self.times {
             let poses = poses_at(motion, time).ok_or(PictureError::Outside { time, first, last })?;
             let seen = painted(&geometry, &projection, &poses, time);
             seen.iter().flat_map(|face| &face.points).for_each(|point| frame.take(point));
             panels.push(seen);
+            let arrow = |(at, force): (Vector3, Vector3)| {
+                let end = at + force * (longest / self.forces.most());
+                [at, end].map(|point| projection.flat(&point))
+            };
+            let drawn: Vec<_> = self.forces.at(&poses, time).into_iter().map(arrow).collect();
+            drawn.iter().flatten().for_each(|point| frame.take(point));
+            arrows.push(drawn);
         }
         let paths = if self.paths { paths(scene, motion, &projection) } else { Vec::new() };
         paths.iter().flatten().for_each(|point| frame.take(point));
-        Ok(Panels { seen: panels, paths, projection, frame })
+        Ok(Panels { seen: panels, paths, arrows, longest, projection, frame })
     }
 }
 
@@ -224,10 +262,10 @@ impl Sheet {
 
     fn drawn(
         &self,
-        panels: &[Vec<Seen>],
-        paths: &[Vec<[f64; 2]>],
-        projection: &Projection,
+        panels: &Panels,
+        shown: Range<usize>,
         (title, labels): (&str, &[String]),
+        note: &str,
     ) -> Drawing {
         let [width, height] = self.frame.extent().map(|extent| extent * self.scale + 2.0 * MARGIN);
         let head = if title.is_empty() { 0.0 } else { 2.0 * LINE };
@@ -238,24 +276,31 @@ impl Sheet {
         if !title.is_empty() {
             drawing.words([0.5 * size[0], 1.3 * LINE], title, 17, Align::Middle, WORDS);
         }
-        for (index, (faces, words)) in panels.iter().zip(labels).enumerate() {
+        let all = panels.seen[shown.clone()].iter().zip(&panels.arrows[shown]);
+        for (index, ((faces, arrows), words)) in all.zip(labels).enumerate() {
             let x = left + (index % self.columns) as f64 * width + MARGIN;
             let y = head + (index / self.columns) as f64 * (height + LINE) + MARGIN;
             let place = |point: &[f64; 2]| {
                 let [low, high] = [self.frame.low[0], self.frame.high[1]];
                 [x + (point[0] - low) * self.scale, y + (high - point[1]) * self.scale]
             };
-            for path in paths {
+            for path in &panels.paths {
                 drawing.line(path.iter().map(place).collect(), TRACE, 1.0);
             }
             for face in faces {
                 drawing.polygon(face.points.iter().map(place).collect(), face.shade);
             }
+            for [from, to] in arrows {
+                arrow(&mut drawing, place(from), place(to));
+            }
             let middle = [x + 0.5 * width - MARGIN, y + height - MARGIN + 0.6 * LINE];
             drawing.words(middle, words, 13, Align::Middle, FAINT);
         }
         let foot = size[1] - 0.45 * FOOT;
-        axes(&mut drawing, projection, [34.0, foot]);
+        axes(&mut drawing, &panels.projection, [34.0, foot]);
+        if !note.is_empty() {
+            drawing.words([0.5 * size[0], foot + 22.0], note, 11, Align::Middle, FAINT);
+        }
         self.ruler(&mut drawing, [size[0] - 20.0, foot + 12.0]);
         drawing
     }
@@ -272,6 +317,22 @@ impl Sheet {
             if length < 1.0 { format!("{} mm", short(1e3 * length)) } else { format!("{} m", short(length)) };
         drawing.words([0.5 * (start + x), y - 6.0], &words, 12, Align::Middle, FAINT);
     }
+}
+
+/// An arrow of a force.
+fn arrow(drawing: &mut Drawing, [x, y]: [f64; 2], end: [f64; 2]) {
+    let along = [end[0] - x, end[1] - y];
+    let length = along[0].hypot(along[1]);
+    if length < 1.0 {
+        return;
+    }
+    let [a, b] = along.map(|part| part / length);
+    let head = HEAD.min(0.6 * length);
+    let neck = [end[0] - head * a, end[1] - head * b];
+    let half = 0.36 * head;
+    drawing.line(vec![[x, y], neck], FORCE, 2.4);
+    let sides = [[neck[0] - half * b, neck[1] + half * a], [neck[0] + half * b, neck[1] - half * a]];
+    drawing.polygon(vec![end, sides[0], sides[1]], FORCE);
 }
 
 /// The global axes at a position; the farthest first.

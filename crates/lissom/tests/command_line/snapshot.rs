@@ -3,7 +3,7 @@
 use std::fs;
 
 use lissom::geometry::{Geometry, Role, poses_at};
-use lissom::picture::{Projection, View, painted};
+use lissom::picture::{Projection, RecordedForces, View, painted};
 use lissom::{Record, ResultFolder};
 use lissom_motion::Vector3;
 
@@ -30,6 +30,64 @@ fn a_strip_shows_instants_and_is_gone_after_another_run() {
     let run = lissom(&[&["run", &model][..], &short].concat(), folder.path());
     assert_eq!(run.code, 0, "{}", run.errors);
     assert!(!picture.exists(), "a picture of a former run would lie");
+}
+
+#[test]
+fn point_masses_are_drawn_by_the_shapes_that_the_model_gives() {
+    let folder = Folder::new("snapshot-point-mass");
+    let extent = |drawn: &str| {
+        let text = format!(
+            "lissom = 1\n[point_masses.load]\nmass = 1\nposition = [3, 0, 0]\n{drawn}\n\
+             [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n"
+        );
+        fs::write(folder.path().join("load.toml"), text).unwrap();
+        let run = lissom(&["run", "load.toml", "-q"], folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let run = ResultFolder::recorded(&folder.path().join("out/load")).unwrap();
+        let geometry = Geometry::new(&run.scene, &run.motion, true);
+        let piece = geometry.pieces.iter().find(|piece| piece.role == Role::PointMass).unwrap();
+        let high = piece.mesh.points.iter().fold(Vector3::repeat(f64::NEG_INFINITY), |high, at| high.sup(at));
+        [0, 1, 2].map(|k| (1e4 * high[k]).round() / 1e4)
+    };
+    assert_eq!(extent("shape = { box = [0.2, 0.4, 0.6] }"), [0.1, 0.2, 0.3]);
+    let [x, y, z] = extent("");
+    assert!(x > 0.0 && x == y && y == z, "a ball");
+}
+
+#[test]
+fn recorded_forces_are_arrows_at_contacts_and_along_springs() {
+    let folder = Folder::new("snapshot-forces");
+    let recorded = |name: &str, set: &[&str]| {
+        let run = lissom(&[&["run", &example(name), "-q", "--out", name][..], set].concat(), folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let run = ResultFolder::recorded(&folder.path().join(name)).unwrap();
+        let forces = RecordedForces::of(&run.scene, &run.record);
+        (run, forces)
+    };
+    // The force on a disc acts at its radius from the centre, in the plane of the floor.
+    let (run, forces) = recorded("rolling-disc", &["--set", "analysis.end=1"]);
+    for time in [0.0, 0.4, 1.0] {
+        let poses = poses_at(&run.motion, time).unwrap();
+        let [(at, force)] = forces.at(&poses, time)[..] else { panic!("one force at {time} s") };
+        let centre = poses[run.scene.bodies[0].node].position;
+        assert!(
+            at.z.abs() < 1e-4 && ((at - centre).norm() - 0.2).abs() < 1e-4 && force.z > 0.0,
+            "{at} {force}"
+        );
+    }
+    let (run, forces) = recorded("crane-slack-cable", &[]);
+    let at = |time: f64| forces.at(&poses_at(&run.motion, time).unwrap(), time);
+    assert!(at(0.1).is_empty(), "slack");
+    let tension = run.record.column("cable", "force").unwrap();
+    let row = (0..tension.len()).max_by(|a, b| tension[*a].total_cmp(&tension[*b])).unwrap();
+    let [(_, force)] = at(run.record.times[row])[..] else { panic!("one force") };
+    assert!((force.z / tension[row] - 1.0).abs() < 1e-9 && forces.most() == tension[row], "{force}");
+    let drawn = lissom(&["snapshot", "rolling-disc", "--forces", "--out", "disc.svg", "-q"], folder.path());
+    assert_eq!(drawn.code, 0, "{}", drawn.errors);
+    let text = fs::read_to_string(folder.path().join("disc.svg")).unwrap();
+    assert!(text.contains("N per m of arrow") && text.contains("#d1495b"));
+    let none = lissom(&["snapshot", &example("gearbox-backlash"), "--forces", "-q"], folder.path());
+    assert!(none.code == 2 && none.errors.contains("no force is recorded"), "{}", none.errors);
 }
 
 #[test]
