@@ -22,7 +22,8 @@ Examples:
   lissom check examples/tip-crank.toml --set beams.beam.elements=16
   lissom check model.toml --json               for programs: counts, redundant constraints, problems with their lines
 
-Exit code: 0 the model can be run, 2 it cannot. Redundant constraints are a warning.")]
+Redundant constraints are a warning.
+Exit code: 0 the model can be run; 2 it cannot.")]
 pub(super) struct Check {
     #[command(flatten)]
     model: ModelArguments,

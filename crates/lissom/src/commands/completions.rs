@@ -55,7 +55,59 @@ impl Man {
         };
         let mut page = Vec::new();
         clap_mangen::Man::new(command).title(title).render(&mut page).map_err(writing_failed)?;
-        terminal::print(&String::from_utf8_lossy(&page));
+        terminal::print(&with_sections(&String::from_utf8_lossy(&page)));
         Ok(Exit::Done)
+    }
+}
+
+/// A manual page whose examples and exit codes, which help texts have below the options, are sections of their own.
+fn with_sections(page: &str) -> String {
+    let Some((before, extra)) = page.split_once(".SH EXTRA\n") else { return page.to_owned() };
+    let (text, rest) = extra.split_once("\n.SH").unwrap_or((extra, ""));
+    let (above, codes) = text.split_once("Exit code: ").unwrap_or((text, ""));
+    let mut sections = vec![before.to_owned()];
+    let notes = match above.strip_prefix("Examples:\n") {
+        Some(examples) => {
+            let (lines, notes) = examples.split_once("\n\n").unwrap_or((examples, ""));
+            sections.push(format!(".SH EXAMPLES\n.nf\n{}\n.fi\n", lines.trim_end()));
+            notes.trim()
+        }
+        None => above.trim(),
+    };
+    if !notes.is_empty() {
+        sections.push(format!(".SH NOTES\n{notes}\n"));
+    }
+    if !codes.is_empty() {
+        sections.push(".SH \"EXIT STATUS\"\n".to_owned());
+        sections.extend(codes.trim().trim_end_matches('.').split("; ").map(|code| {
+            let (number, meaning) = code.split_once(' ').unwrap_or((code, ""));
+            format!(".TP\n\\fB{number}\\fR\n{meaning}\n")
+        }));
+    }
+    if !rest.is_empty() {
+        sections.push(format!(".SH{rest}"));
+    }
+    sections.concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_page_with_exit_codes_has_a_section_of_them() {
+        let mut line = Line::command();
+        line.build();
+        let commands = line.get_subcommands().cloned().chain([line.clone()]);
+        for command in commands {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            let mut page = Vec::new();
+            clap_mangen::Man::new(command.clone()).render(&mut page).unwrap();
+            let page = with_sections(&String::from_utf8_lossy(&page));
+            assert!(!page.contains("EXTRA") && !page.contains("Exit code: "), "{}", command.get_name());
+            let is_listed =
+                page.contains(".SH \"EXIT STATUS\"\n.TP\n\\fB0\\fR\nsuccess\n.TP\n\\fB2\\fR\nwrong model");
+            assert_eq!(is_listed, help.contains("Exit code: 0 success; 2 wrong model"), "{page}");
+        }
     }
 }

@@ -83,7 +83,8 @@ impl Failure {
     /// A failure with its code. The lines `details` follow the message.
     fn with_details(exit: Exit, diagnostic: &Diagnostic, details: &str) -> Self {
         let explained = explained(diagnostic.code);
-        Self { exit, words: format!("error: {diagnostic}\n{details}{explained}") }
+        let remedy = diagnostic.remedy().map_or_else(String::new, |remedy| format!("  remedy: {remedy}\n"));
+        Self { exit, words: format!("error: {}\n{remedy}{details}{explained}", diagnostic.cause) }
     }
 }
 
@@ -100,12 +101,56 @@ fn explained(code: &str) -> String {
     format!("  `lissom explain {code}` explains it\n")
 }
 
+/// The help of the program: its commands by topic.
+const HELP: &str = "\
+{about-with-newline}
+{usage-heading} {usage}
+
+Models:
+  new          Write a commented model to start from: a slider crank with a flexible rod
+  check        Find errors, degrees of freedom and redundant constraints
+  kinds        List kinds, keys, functions and schemes of model files
+  schema       Print the JSON schema of model files, for completion in editors
+  import       Convert a robot description (URDF, MJCF) to a model file
+
+Simulation:
+  run          Simulate a model as specified in its table `[analysis]`
+  live         Show a model in the browser and simulate it again whenever it is saved
+  sweep        Solve a model for many parameter values, on all processors
+  gradient     Compute derivatives of an output with respect to numbers of the model
+  study        Study the effects of scaling, scheme, step size and solver
+  fmu          Export a model as a functional mock-up unit (FMI 3.0, co-simulation)
+
+Linearised models:
+  modes        Compute natural frequencies, damping ratios and shapes
+  campbell     Compute natural frequencies over a parameter, such as the speed of a rotor
+  buckling     Estimate the load factors at which a model buckles
+  response     Compute the response of outputs to harmonic inputs
+  linearize    Write the matrices of a model
+  reduce       Reduce flexible parts to a superelement
+
+Results:
+  view         Show results as an animation with plots, in one HTML file
+  snapshot     Draw a mechanism at one or several instants, as SVG or PNG
+  plot         Plot one or several folders of results
+  export       Export results to ParaView, Blender, NumPy or pandas
+  explain      Explain warnings and failures
+
+Program:
+  completions  Print the completion script for a shell
+  man          Print the manual page of the program or of a command
+  help         Print this message, or the help of a command
+
+Options:
+{options}{after-help}";
+
 /// Flexible multibody dynamics: simulates mechanisms of rigid bodies, flexible beams, joints and springs,
 /// described in a TOML file.
 #[derive(Parser)]
 #[command(
     name = "lissom",
     version,
+    help_template = HELP,
     after_help = "\
 Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
@@ -238,5 +283,24 @@ fn warn(warning: &impl Diagnose) {
 fn show_warnings(document: &Document) {
     if !document.warnings.is_empty() {
         terminal::complain(&document.warnings.render(terminal::in_colour()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_help_lists_every_command_once_and_fits_a_terminal() {
+        let line = Line::command();
+        let listed = |name: &str| HELP.matches(&format!("\n  {name} ")).count();
+        for command in line.get_subcommands() {
+            assert_eq!(listed(command.get_name()), 1, "{}", command.get_name());
+        }
+        let rows = HELP.lines().filter(|row| row.starts_with("  "));
+        assert_eq!(rows.clone().count(), line.get_subcommands().count() + 1, "with `help`");
+        assert!(rows.into_iter().all(|row| row.len() <= 90));
     }
 }
