@@ -20,6 +20,7 @@ mod laws;
 mod mutants;
 mod outcome;
 mod peers;
+mod pictures;
 mod precision;
 mod random;
 mod reference;
@@ -100,6 +101,11 @@ enum Chore {
     },
     /// Measure the claims of the source of the method and write them to docs/claims.md
     Claims,
+    /// Make the pictures of examples in docs/images/ anew
+    Pictures {
+        /// Pictures to make, by their names without ending; all if none is given
+        names: Vec<String>,
+    },
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -236,6 +242,9 @@ fn main() -> ExitCode {
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),
         Chore::Claims => book::claims().map_err(|error| error.to_string()),
+        Chore::Pictures { names } => {
+            pictures::pictures(&names).map(|()| true).map_err(|error| error.to_string())
+        }
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {

@@ -1,0 +1,136 @@
+//! The pictures of examples in the manual, made anew by `cargo xtask pictures`.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use lissom::picture::{Picture, PictureError, View, instants};
+use lissom::{FileError, FolderError, ResultFolder};
+use lissom_model::files;
+use lissom_model::output::{DrawingError, animation};
+
+use crate::verify;
+
+/// Instants of a picture.
+enum Instants {
+    /// These [s].
+    At(&'static [f64]),
+    /// So many at equal distances.
+    Strip(usize),
+    /// So many, one after the other.
+    Moving(usize),
+}
+
+use Instants::{At, Moving, Strip};
+
+/// Names of pictures in docs/images, examples, and their instants.
+const PICTURES: &[(&str, &str, Instants)] = &[
+    ("bridge-crossing", "bridge-crossing", Strip(4)),
+    ("computed-torque", "computed-torque", Strip(4)),
+    ("crane-slack-cable", "crane-slack-cable", At(&[0.0, 0.42, 0.6])),
+    ("delta-robot", "delta-robot", Strip(4)),
+    ("deployable-mast", "deployable-mast", Strip(5)),
+    ("double-wishbone", "double-wishbone", At(&[2.1])),
+    ("rolling-disc", "rolling-disc", Strip(4)),
+    ("satellite-latching-booms", "satellite-latching-booms", Strip(4)),
+    ("slider-crank-3500rpm", "slider-crank-3500rpm", At(&[0.0, 0.002, 0.006, 0.01])),
+    ("slider-crank-elastic", "slider-crank-elastic", Strip(4)),
+    ("tip-crank", "tip-crank", At(&[0.0, 0.1, 0.2, 0.4])),
+    ("tip-crank-moving", "tip-crank", Moving(25)),
+    ("turbine-rotor", "turbine-rotor", At(&[0.0, 0.25, 0.5, 0.75])),
+    ("walking-linkage", "walking-linkage", At(&[0.75])),
+    ("wheelset", "wheelset", At(&[1.0])),
+];
+
+/// Pixels of the files for each of the drawings', and of moving ones.
+const SCALE: f64 = 1.0;
+const MOVING_SCALE: f64 = 0.75;
+/// Time between moving pictures [s].
+const DELAY: f64 = 0.1;
+
+/// Why pictures are not made.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum PicturesError {
+    #[error("`lissom run examples/{0}.toml` failed")]
+    Run(&'static str),
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    #[error(transparent)]
+    Drawing(#[from] DrawingError),
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+fn images() -> PathBuf {
+    verify::root().join("docs/images")
+}
+
+/// Makes all pictures, or those of these names.
+pub(crate) fn pictures(names: &[String]) -> Result<(), PicturesError> {
+    for (name, example, instants) in PICTURES {
+        if !names.is_empty() && !names.iter().any(|known| known == name) {
+            continue;
+        }
+        let folder = verify::root().join("target/pictures").join(example);
+        run(example, &folder)?;
+        let target = images().join(format!("{name}.png"));
+        files::write(&target, &drawn(&folder, instants)?)?;
+        println!("{}", target.display());
+    }
+    Ok(())
+}
+
+fn run(example: &'static str, folder: &Path) -> Result<(), PicturesError> {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.current_dir(verify::root());
+    command.args(["run", "--release", "--quiet", "-p", "lissom", "--", "run", "--quiet"]);
+    command.arg(format!("examples/{example}.toml")).arg("--out").arg(folder);
+    let succeeded = command.status().is_ok_and(|status| status.success());
+    succeeded.then_some(()).ok_or(PicturesError::Run(example))
+}
+
+/// A picture of the results in a folder, as the bytes of a PNG file.
+fn drawn(folder: &Path, chosen: &Instants) -> Result<Vec<u8>, PicturesError> {
+    let found = ResultFolder::recorded(folder)?;
+    let times = match *chosen {
+        At(times) => times.to_vec(),
+        Strip(count) | Moving(count) => instants(&found.motion, count)?,
+    };
+    let picture = Picture { times, view: View::Chosen, ..Picture::default() };
+    if matches!(chosen, Moving(_)) {
+        let drawings = picture.draw_moving(&found.scene, &found.motion, &found.title)?;
+        return Ok(animation(&drawings, DELAY, MOVING_SCALE)?);
+    }
+    let drawing = picture.draw(&found.scene, &found.motion, &found.title)?;
+    // An animation of one picture has no need of the double resolution of others.
+    Ok(animation(&[drawing], 1.0, SCALE)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pictures that `cargo xtask figures` and `cargo xtask bench --sizes` make.
+    const FIGURES: [&str; 2] = ["scale.svg", "tip-crank.svg"];
+
+    #[test]
+    fn every_picture_of_the_manual_is_made_by_a_command_and_shown() {
+        let docs = verify::root().join("docs");
+        let viewing = docs.join("viewing");
+        let pages = files::entries(&docs).chain(files::entries(&viewing));
+        let pages = pages.chain([verify::root().join("README.md")]);
+        let pages = pages.filter(|page| page.extension().is_some_and(|ending| ending == "md"));
+        let text: String = pages.map(|page| files::read_text(&page).unwrap()).collect();
+        for file in files::entries(&images()) {
+            let name = file.file_name().unwrap().to_string_lossy().into_owned();
+            let is_made = PICTURES.iter().any(|(known, ..)| name == format!("{known}.png"));
+            assert!(is_made || FIGURES.contains(&&*name), "no command makes {name}");
+            assert!(text.contains(&format!("images/{name}")), "no page shows {name}");
+        }
+        for (name, example, _) in PICTURES {
+            assert!(images().join(format!("{name}.png")).is_file(), "{name}");
+            assert!(verify::root().join(format!("examples/{example}.toml")).is_file(), "{example}");
+        }
+    }
+}
