@@ -42,6 +42,34 @@ const coverage = (page) =>
     return { across: (right - left + 1) / width, down: (bottom - top + 1) / height, isCut: left === 0 || top === 0 || right === width - 1 || bottom === height - 1 };
   });
 
+/** Pairs of texts within a canvas whose boxes overlap. */
+const canvasOverlaps = (page) =>
+  page.evaluate(async () => {
+    const drawn = new Map();
+    const { prototype } = CanvasRenderingContext2D;
+    const { fillText } = prototype;
+    prototype.fillText = function (text, x, y, most) {
+      const { width, actualBoundingBoxAscent: ascent, actualBoundingBoxDescent: descent } = this.measureText(text);
+      const wide = Math.min(width, most ?? width);
+      const left = x - ({ center: wide / 2, right: wide, end: wide }[this.textAlign] ?? 0);
+      const corners = [[left, y - ascent], [left + wide, y + descent]].map(([a, b]) => this.getTransform().transformPoint(new DOMPoint(a, b)));
+      const [xs, ys] = [corners.map((corner) => corner.x), corners.map((corner) => corner.y)];
+      if (text) drawn.set(this.canvas, [...(drawn.get(this.canvas) ?? []), { text, left: Math.min(...xs), right: Math.max(...xs), top: Math.min(...ys), bottom: Math.max(...ys) }]);
+      return fillText.call(this, text, x, y, most);
+    };
+    for (const { plot } of [...lissom.plots.plots, ...(lissom.campbell?.plots ?? [])]) plot.redraw ? plot.redraw() : plot.draw();
+    await new Promise((done) => setTimeout(done, 50));
+    prototype.fillText = fillText;
+    const found = drawn.size ? [] : ["no text is drawn"];
+    for (const [canvas, texts] of drawn) {
+      texts.forEach((a, i) => {
+        if (a.left < -1 || a.right > canvas.width + 1) found.push(`${a.text} is cut off`);
+        for (const b of texts.slice(0, i)) if (Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 1) found.push(`${b.text} over ${a.text}`);
+      });
+    }
+    return found;
+  });
+
 /** Pairs of texts in headings, legends and controls whose boxes overlap, and boxes that reach out of the page. */
 const overlaps = (page) =>
   page.evaluate(() => {
@@ -117,6 +145,7 @@ export const examples = ({ root, folder, view, open }) => {
             const filled = Math.max(across, down);
             const what = `${file} at ${width} x ${height}, ${theme}`;
             assert.deepEqual(await overlaps(page), [], what);
+            if (await page.evaluate(() => lissom.plots.plots.length)) assert.deepEqual(await canvasOverlaps(page), [], what);
             assert.ok(filled >= 0.3 && filled <= 0.9 && !isCut, `${what}: ${across} across, ${down} down, cut off: ${isCut}`);
           }
         }
