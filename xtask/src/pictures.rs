@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use lissom::campbell::{CampbellError, CampbellRequest, campbell};
 use lissom::picture::{Picture, PictureError, View, instants};
-use lissom::{FileError, FolderError, ResultFolder};
+use lissom::{FileError, FolderError, Model, ResultFolder};
 use lissom_model::files;
 use lissom_model::output::{DrawingError, animation};
 
@@ -41,6 +42,15 @@ const PICTURES: &[(&str, &str, Instants)] = &[
     ("wheelset", "wheelset", At(&[1.0])),
 ];
 
+/// The picture of a Campbell diagram, and an overhung disc.
+const CAMPBELL: &str = "campbell";
+const ROTOR: &str = concat!(
+    "lissom = 1\n[parameters]\nspeed = 10.0\n[initial]\nangular_velocity = [\"speed\", 0, 0]\n",
+    include_str!("../../crates/lissom/tests/support/rotor.toml"),
+    "stiffness = 2000\n[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"bearing\"\nrotation = \"speed*t\"\n",
+    "[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 1e-3\n"
+);
+
 /// Pixels of the files for each of the drawings', and of moving ones.
 const SCALE: f64 = 1.0;
 const MOVING_SCALE: f64 = 0.75;
@@ -52,6 +62,8 @@ const DELAY: f64 = 0.1;
 pub(crate) enum PicturesError {
     #[error("`lissom run examples/{0}.toml` failed")]
     Run(&'static str),
+    #[error(transparent)]
+    Campbell(#[from] CampbellError),
     #[error(transparent)]
     Folder(#[from] FolderError),
     #[error(transparent)]
@@ -78,7 +90,20 @@ pub(crate) fn pictures(names: &[String]) -> Result<(), PicturesError> {
         files::write(&target, &drawn(&folder, instants)?)?;
         println!("{}", target.display());
     }
+    if names.is_empty() || names.iter().any(|name| name == CAMPBELL) {
+        let target = images().join(format!("{CAMPBELL}.svg"));
+        files::write(&target, campbell_diagram()?.as_bytes())?;
+        println!("{}", target.display());
+    }
     Ok(())
+}
+
+/// The diagram of the overhung disc as an SVG text.
+fn campbell_diagram() -> Result<String, PicturesError> {
+    let path = "parameters.speed".to_owned();
+    let request = CampbellRequest { path, from: 5.0, to: 200.0, values: 27, count: 4, rays: vec![1, 2, 3] };
+    let found = campbell(&Model::from_text("rotor.toml", ROTOR), &[], &request)?;
+    Ok(found.figure("Overhung disc").svg().map_err(FolderError::from)?)
 }
 
 fn run(example: &'static str, folder: &Path) -> Result<(), PicturesError> {
@@ -124,7 +149,8 @@ mod tests {
         let text: String = pages.map(|page| files::read_text(&page).unwrap()).collect();
         for file in files::entries(&images()) {
             let name = file.file_name().unwrap().to_string_lossy().into_owned();
-            let is_made = PICTURES.iter().any(|(known, ..)| name == format!("{known}.png"));
+            let is_made = PICTURES.iter().any(|(known, ..)| name == format!("{known}.png"))
+                || name == format!("{CAMPBELL}.svg");
             assert!(is_made || FIGURES.contains(&&*name), "no command makes {name}");
             assert!(text.contains(&format!("images/{name}")), "no page shows {name}");
         }
