@@ -326,3 +326,40 @@ fn folders_of_results_in_a_folder_are_named() {
         assert!(run.errors.contains("`first`, `second`"), "{command}: {}", run.errors);
     }
 }
+
+#[test]
+fn a_campbell_diagram_is_a_page_with_its_lines_and_crossings() {
+    let folder = Folder::new("view-campbell");
+    let model = "../../verification/rotor-whirl/model.toml";
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join(model).display().to_string();
+    let varied = ["campbell", &model, "--vary", "parameters.Omega=0:1000:6", "--out", "rotor"];
+    let run = lissom(&varied, folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains(" rpm, ") && run.output.contains("whirl backward"), "{}", run.output);
+    let view = lissom(&["view", "rotor", "-q"], folder.path());
+    assert_eq!(view.code, 0, "{}", view.errors);
+    let page = fs::read_to_string(folder.path().join("rotor/view.html")).unwrap();
+    let found = results(&page);
+    let lines = found["campbell"]["lines"].as_array().unwrap();
+    assert_eq!((lines.len(), &found["campbell"]["multiples"]), (8, &json!([1, 2, 3])));
+    // Each line goes on over all values, with one sense of whirl.
+    for line in lines {
+        assert_eq!(line["frequencies"].as_array().map(Vec::len), Some(6), "{line}");
+        assert_ne!(line["whirl"], "changes", "{line}");
+    }
+    let summary = fs::read_to_string(folder.path().join("rotor/summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(found["campbell"]["crossings"], summary["critical_speeds"]);
+    let diagram = fs::read_to_string(folder.path().join("rotor/campbell.svg")).unwrap();
+    for words in ["2 backward", "3 forward", "crossing", "rotation 0 to 9549 rpm"] {
+        assert!(diagram.contains(words), "{words}");
+    }
+    let snapshot = lissom(&["snapshot", "rotor"], folder.path());
+    assert!(
+        snapshot.code == 2 && snapshot.errors.contains("show it by `lissom view`"),
+        "{}",
+        snapshot.errors
+    );
+    fs::write(folder.path().join("rotor/campbell.csv"), "value\n1\n").unwrap();
+    assert_eq!(lissom(&["view", "rotor"], folder.path()).code, 2);
+}
