@@ -1,13 +1,17 @@
 //! The pictures of examples in the manual, made anew by `cargo xtask pictures`.
 
+use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use lissom::campbell::{CampbellError, CampbellRequest, campbell};
+use lissom::motion::{Motion, MotionRecorder};
 use lissom::picture::{Picture, PictureError, View, instants};
 use lissom::{FileError, FolderError, Model, ResultFolder};
 use lissom_model::files;
+use lissom_model::lower::lower;
 use lissom_model::output::{DrawingError, animation};
+use lissom_model::scene::Scene;
 
 use crate::verify;
 
@@ -42,6 +46,32 @@ const PICTURES: &[(&str, &str, Instants)] = &[
     ("wheelset", "wheelset", At(&[1.0])),
 ];
 
+/// The picture of kinds of joints, the kinds by rows, with the keys that they need.
+const JOINTS: &str = "joints";
+const KINDS: [[(&str, &str); 5]; 3] = [
+    [
+        ("clamp", ""),
+        ("spherical", ""),
+        ("revolute", "axis = [0, 1, 0]"),
+        ("universal", "axis = [0, 1, 0]\nsecond_axis = [0, 0, 1]"),
+        ("constant_velocity", "axis = [1, 0, 0]\ntip_axis = [1, 0, 0]"),
+    ],
+    [
+        ("prismatic", "axis = [1, 0, 0]"),
+        ("cylindrical", "axis = [1, 0, 0]"),
+        ("screw", "axis = [1, 0, 0]\nlead = 0.01"),
+        ("planar", "axis = [0, 0, 1]"),
+        ("point_in_plane", "axis = [0, 0, 1]"),
+    ],
+    [
+        ("point_on_line", "axis = [0, 1, 0]"),
+        ("inline", "axis = [0, 1, 0]"),
+        ("parallel_axes", "axis = [0, 1, 0]"),
+        ("perpendicular_axes", "axis = [0, 1, 0]\nsecond_axis = [0, 0, 1]"),
+        ("distance", ""),
+    ],
+];
+
 /// The picture of a Campbell diagram, and an overhung disc.
 const CAMPBELL: &str = "campbell";
 const ROTOR: &str = concat!(
@@ -62,6 +92,8 @@ const DELAY: f64 = 0.1;
 pub(crate) enum PicturesError {
     #[error("`lissom run examples/{0}.toml` failed")]
     Run(&'static str),
+    #[error("the joints cannot be drawn: {0}")]
+    Joints(String),
     #[error(transparent)]
     Campbell(#[from] CampbellError),
     #[error(transparent)]
@@ -90,12 +122,62 @@ pub(crate) fn pictures(names: &[String]) -> Result<(), PicturesError> {
         files::write(&target, &drawn(&folder, instants)?)?;
         println!("{}", target.display());
     }
+    if names.is_empty() || names.iter().any(|name| name == JOINTS) {
+        let target = images().join(format!("{JOINTS}.png"));
+        files::write(&target, &joints()?)?;
+        println!("{}", target.display());
+    }
     if names.is_empty() || names.iter().any(|name| name == CAMPBELL) {
         let target = images().join(format!("{CAMPBELL}.svg"));
         files::write(&target, campbell_diagram()?.as_bytes())?;
         println!("{}", target.display());
     }
     Ok(())
+}
+
+/// Two rods for each kind of joint, in rows that are level in an oblique view.
+fn model_of_joints() -> String {
+    let mut text = "lissom = 1\n[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 1\n".to_owned();
+    for (row, kinds) in KINDS.iter().enumerate() {
+        for (column, (kind, keys)) in kinds.iter().enumerate() {
+            let (x, z) = (0.36 * column as f64, 0.095 * column as f64 - 0.26 * row as f64);
+            let reach = if *kind == "distance" { 0.1 } else { 0.065 };
+            for (end, x) in [("base", x - reach), ("tip", x + reach)] {
+                // Writing to a string cannot fail.
+                let _ = write!(
+                    text,
+                    "[bodies.{kind}_{end}]\nmass = 1\ninertia = [1, 1, 1]\nposition = [{x}, 0, {z}]\n\
+                     shape = {{ cylinder = [0.009, 0.13], axis = \"x\" }}\n"
+                );
+            }
+            let at = if *kind == "distance" { String::new() } else { format!("at = [{x}, 0, {z}]\n") };
+            let _ = write!(
+                text,
+                "[joints.{kind}]\nkind = \"{kind}\"\nbase = \"{kind}_base\"\ntip = \"{kind}_tip\"\n{at}{keys}\n"
+            );
+        }
+    }
+    text
+}
+
+/// The picture of the kinds of joints, as the bytes of a PNG file.
+fn joints() -> Result<Vec<u8>, PicturesError> {
+    let wrong = |error: &dyn Display| PicturesError::Joints(error.to_string());
+    let model = Model::from_text("joints.toml", &model_of_joints());
+    let document = model.document(&[]).map_err(|error| wrong(&error))?;
+    let lowered = lower(&document).map_err(|error| wrong(&error))?;
+    let mut motion = Vec::new();
+    let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
+    recorder.write_still(&lowered.state.kinematics).map_err(|error| wrong(&error))?;
+    let motion = Motion::from_bytes(&motion).map_err(|error| wrong(&error))?;
+    let picture = Picture {
+        times: instants(&motion, 1)?,
+        view: View::Oblique,
+        labels: vec![String::new()],
+        ..Picture::default()
+    };
+    let drawing = picture.draw(&Scene::of(&document, &lowered), &motion, "")?;
+    Ok(animation(&[drawing], 1.0, SCALE)?)
 }
 
 /// The diagram of the overhung disc as an SVG text.
@@ -150,7 +232,7 @@ mod tests {
         for file in files::entries(&images()) {
             let name = file.file_name().unwrap().to_string_lossy().into_owned();
             let is_made = PICTURES.iter().any(|(known, ..)| name == format!("{known}.png"))
-                || name == format!("{CAMPBELL}.svg");
+                || [format!("{CAMPBELL}.svg"), format!("{JOINTS}.png")].contains(&name);
             assert!(is_made || FIGURES.contains(&&*name), "no command makes {name}");
             assert!(text.contains(&format!("images/{name}")), "no page shows {name}");
         }
@@ -158,5 +240,6 @@ mod tests {
             assert!(images().join(format!("{name}.png")).is_file(), "{name}");
             assert!(verify::root().join(format!("examples/{example}.toml")).is_file(), "{example}");
         }
+        joints().unwrap();
     }
 }
