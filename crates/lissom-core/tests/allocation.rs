@@ -79,6 +79,7 @@ fn a_step_allocates_nothing() {
             solver: lissom_solver::kind("sparse").expect("registered"),
             threads: 1,
             from_equilibrium: false,
+            follow_drives: true,
             energy_check: true,
         };
         let mut simulation = Simulation::new(system, state, settings).expect("consistent");

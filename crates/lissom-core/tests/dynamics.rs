@@ -28,6 +28,7 @@ fn simulation((system, state): (System, State), scheme: Scheme, step_size: f64) 
         solver: lissom_solver::kind("sparse").expect("registered"),
         threads: 1,
         from_equilibrium: false,
+        follow_drives: true,
         energy_check: true,
     };
     Simulation::new(system, state, settings).expect("consistent")

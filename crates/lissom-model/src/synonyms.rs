@@ -93,6 +93,11 @@ pub(crate) fn all_known_for<'a>(word: &str, known: &[&'a str]) -> Vec<&'a str> {
 pub(crate) fn remedy(word: &str, known: &[&str]) -> Option<String> {
     let is_known = |name: &str| known.contains(&name);
     match word.to_lowercase().as_str() {
+        "velocity" | "angular_velocity" if is_known("section") || is_known("interfaces") => Some(
+            "velocities of flexible parts are those of `[initial]`, or of an entry such as `[initial.motion]` that names them in \
+             `parts`"
+                .to_owned(),
+        ),
         "diameter" if is_known("radius") => Some("write `radius`, half of the diameter".to_owned()),
         "gravity" | "weight" if is_known("joint_torque") => {
             Some("weight is no load: write `gravity = [0, 0, -9.81]` at the top of the file".to_owned())

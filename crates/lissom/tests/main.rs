@@ -18,6 +18,7 @@ mod couplings;
 mod defects;
 mod distributed;
 mod driven_records;
+mod driven_start;
 mod events;
 mod feedback;
 mod force_laws;

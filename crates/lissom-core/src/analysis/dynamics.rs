@@ -234,8 +234,22 @@ fn begin_motion(
 ) -> Result<(f64, Option<ConsistentInitialConditions>), InitialError> {
     let mut initial =
         ConsistentInitialConditions::new(system, state, representative, pivoting_unless_augmented(settings));
-    let given = state.kinematics.clone();
-    let velocity_correction = initial.given_velocities(system, state)?;
+    let given = state.clone();
+    let mut velocity_correction = initial.given_velocities(system, state)?;
+    let deformation = |of: &State| {
+        judge::start::sudden_deformation(system, representative, [&given, of].map(|at| &at.kinematics))
+    };
+    if settings.follow_drives
+        && let Some((rate, _)) = deformation(state)
+        && let Some(driven) = initial.least_deforming(system, &given)
+        && deformation(&driven).is_none_or(|(own, _)| own < rate)
+    {
+        *state = driven;
+        let changes = given.kinematics.nodes.iter().zip(&state.kinematics.nodes);
+        velocity_correction =
+            changes.map(|(given, used)| (used.twist - given.twist).amax()).fold(0.0, f64::max);
+    }
+    let given = given.kinematics;
     let rates = initial.constraint_rates(system, state);
     // Beside given velocities of which nothing remains, what remains is round-off of theirs.
     let [specified, used] = [&given, &state.kinematics].map(|at| representative.largest_speed(system, at));

@@ -38,14 +38,14 @@ pub(super) enum Inertias {
 /// Solves for initial values.
 pub struct ConsistentInitialConditions {
     saddle: SaddlePoint<Matrix<f64>>,
-    linearization: Linearization,
+    pub(super) linearization: Linearization,
     scale: f64,
     /// Length that stands for a radian [m].
     radian: f64,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
     /// The inertias that weigh.
-    weights: Vec<f64>,
+    pub(super) weights: Vec<f64>,
     /// Values of joints where constraints are differentiated.
     starts: JointStarts,
 }
@@ -122,7 +122,7 @@ impl ConsistentInitialConditions {
         }
     }
 
-    fn factor_weights(&mut self, system: &System) -> Result<(), InitialError> {
+    pub(super) fn factor_weights(&mut self, system: &System) -> Result<(), InitialError> {
         let layout = system.layout();
         let Linearization { gram, constraint, .. } = &self.linearization;
         for (i, value) in self.saddle.matrices.values.iter_mut().enumerate() {
@@ -224,7 +224,7 @@ impl ConsistentInitialConditions {
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
         self.factor(system, state, Inertias::All)?;
-        Ok(self.project(system, state))
+        Ok(self.project(system, state, &[]))
     }
 
     /// The same for velocities that are given to parts: coordinates of joints follow, whatever mass they have of their own,
@@ -234,12 +234,14 @@ impl ConsistentInitialConditions {
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn given_velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
         if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
-            return Ok(self.project(system, state));
+            return Ok(self.project(system, state, &[]));
         }
         self.velocities(system, state)
     }
 
-    fn project(&mut self, system: &System, state: &mut State) -> f64 {
+    /// Adds the change of velocities that satisfies the constraints and is caused by `impulses`, by row; none if empty. Returns the
+    /// largest change of a twist.
+    pub(super) fn project(&mut self, system: &System, state: &mut State, impulses: &[f64]) -> f64 {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let mut speeds = vec![0.0; layout.size()];
@@ -251,6 +253,9 @@ impl ConsistentInitialConditions {
         right[..count].fill(0.0);
         for (row, slide) in slides {
             right[row] = slide;
+        }
+        for (value, impulse) in right[..count].iter_mut().zip(impulses) {
+            *value += impulse;
         }
         let mut explicit = vec![0.0; layout.multiplier_count];
         system.constraint_velocities(&state.kinematics, &mut explicit);

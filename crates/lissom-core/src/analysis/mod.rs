@@ -7,6 +7,7 @@ pub(crate) mod cause;
 pub mod conditioning;
 mod corrections;
 mod differentiation;
+mod driven_start;
 pub mod dynamics;
 pub(crate) mod equations;
 pub mod equilibrium;

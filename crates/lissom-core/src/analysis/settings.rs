@@ -26,6 +26,9 @@ pub struct Settings {
     pub threads: usize,
     /// Whether a motion starts from the static equilibrium under the loads of the first instant.
     pub from_equilibrium: bool,
+    /// Whether flexible parts without given velocities start with those that deform them least, instead of those with the least
+    /// kinetic energy, if drives or joints set them in motion.
+    pub follow_drives: bool,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
 }

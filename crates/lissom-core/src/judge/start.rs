@@ -80,14 +80,25 @@ pub(crate) fn velocities(
         }
         warnings.push(Warning::VelocityReplaced { part, given: given_words, used: used_words });
     }
-    let before = Kinematics { nodes: given.clone(), ..used.clone() };
-    let rate = system.deformation_rate(used).zip(system.deformation_rate(&before));
-    if let Some(((rate, node), (known, _))) = rate
-        && rate - known > (JOLT * largest / length).max(STILL)
-    {
+    if let Some((rate, node)) = sudden_deformation(system, representative, [specified, used]) {
         warnings.push(Warning::StartsWithJolt { part: system.layout().name_of_node(node).to_owned(), rate });
     }
     Ok(warnings)
+}
+
+/// The largest deformation rate of an element [1/s] and one of its nodes, if it is significantly larger with the velocities used
+/// than with those given.
+pub(crate) fn sudden_deformation(
+    system: &System,
+    representative: &Representative,
+    [given, used]: [&Kinematics; 2],
+) -> Option<(f64, NodeId)> {
+    let length = representative.length;
+    let nodes = given.nodes.iter().chain(&used.nodes);
+    let largest = nodes.map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
+    let before = Kinematics { nodes: given.nodes.clone(), ..used.clone() };
+    let (most, (known, _)) = system.deformation_rate(used).zip(system.deformation_rate(&before))?;
+    (most.0 - known > (JOLT * largest / length).max(STILL)).then_some(most)
 }
 
 /// The coordinate whose given rate is changed most, if that is significant compared with the `largest` speed of a

@@ -88,9 +88,7 @@ impl From<LinearError> for SteadyError {
 /// # Errors
 /// If nothing rotates, or there are no such positions.
 pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
-    if rate_of(state) == 0.0 {
-        return Err(SteadyError::AtRest {});
-    }
+    let given = state;
     let mut state = state.clone();
     let layout = system.layout();
     refuse(system)?;
@@ -100,6 +98,15 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     let representative = Representative::of(system, &state.kinematics, &unloaded);
     let mut initial = ConsistentInitialConditions::new(system, &state, &representative, solver);
     initial.velocities(system, &mut state).map_err(|error| LinearError::Accelerations { time, error })?;
+    if rate_of(&state) == 0.0 {
+        return Err(SteadyError::AtRest {});
+    }
+    // Drives give parts without velocities theirs.
+    if rate_of(given) == 0.0
+        && let Some(driven) = initial.least_deforming(system, given)
+    {
+        state = driven;
+    }
     let rate = rate_of(&state);
     let fields: Vec<Vector6> =
         state.kinematics.nodes.iter().map(|node| node.frame.adjoint_times(&node.twist)).collect();

@@ -66,7 +66,8 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
         );
     }
     let (velocity, angular_velocity) = (vector("velocity")?, vector("angular_velocity")?);
-    Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation })
+    let follow_drives = !reader.has("follow_drives") || flag("follow_drives");
+    Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation, follow_drives })
 }
 
 /// The names of bodies, point masses and beams that the list under `key` means, each with its position.

@@ -493,3 +493,5 @@ pub struct InitialMotion {
     /// Whether the positions at the start are those of a steady rotation with the velocities given.
     pub steady_rotation: bool,
 }
+    /// Whether flexible parts without given velocities start with the velocity of their drive.
+    pub follow_drives: bool,

@@ -124,7 +124,11 @@ pub(crate) fn part_motion() -> Vec<Key> {
         "",
         "bodies, point masses, beams, superelements and entries of [parts] with this motion",
     )];
-    keys.extend(initial().into_iter().filter(|key| !matches!(key.name, "equilibrium" | "steady_rotation")));
+    keys.extend(
+        initial()
+            .into_iter()
+            .filter(|key| !matches!(key.name, "equilibrium" | "steady_rotation" | "follow_drives")),
+    );
     keys
 }
 
@@ -145,6 +149,12 @@ pub(crate) fn initial() -> Vec<Key> {
             Shape::Flag,
             "",
             "start from the relative equilibrium in which the model rotates steadily with its velocities, default false",
+        ),
+        optional(
+            "follow_drives",
+            Shape::Flag,
+            "",
+            "beams and superelements without given velocities start with those of their drive, default true; otherwise at rest",
         ),
     ]
 }

@@ -7,7 +7,7 @@ use lissom_core::scaling::{ScaleBy, ScalingChoice};
 use lissom_core::schemes::{self, Scheme, SchemeParameters, statics};
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Analysis, AnalysisKind, Scaling, StepChoice};
+use crate::document::{Analysis, AnalysisKind, Document, Scaling, StepChoice};
 use crate::report::Problem;
 
 /// From when to when, in how many steps.
@@ -64,7 +64,8 @@ const FIRST_LOAD_STEP: f64 = 0.1;
 const LONGEST_LOAD_STEP: f64 = 0.25;
 
 /// Settings and plan of an analysis.
-pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(Settings, Plan), Problem> {
+pub(super) fn settings(document: &Document) -> Result<(Settings, Plan), Problem> {
+    let analysis = &document.analysis;
     let duration = analysis.end - analysis.start;
     let (scheme, step_size, steps, choice) = match &analysis.kind {
         AnalysisKind::Dynamics { step, control } => {
@@ -119,7 +120,8 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         },
         solver,
         threads: 1,
-        from_equilibrium,
+        from_equilibrium: document.starts_in_equilibrium(),
+        follow_drives: document.initial.is_none_or(|initial| initial.follow_drives),
         energy_check: analysis.energy_check,
     };
     let is_static = !matches!(analysis.kind, AnalysisKind::Dynamics { .. });

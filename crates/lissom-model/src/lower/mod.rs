@@ -221,7 +221,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;
-    let (settings, plan) = match analysis::settings(&document.analysis, document.starts_in_equilibrium()) {
+    let (settings, plan) = match analysis::settings(document) {
         Ok(chosen) => chosen,
         Err(problem) => return Err(document.report(vec![problem])),
     };

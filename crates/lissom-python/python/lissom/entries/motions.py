@@ -19,6 +19,7 @@ class Initial(Entry):
         about: a point of the rigid motion; default the origin [m]; a position, or nothing.
         equilibrium: start from static equilibrium under the loads at the start, default false; `true` or `false`, or nothing.
         steady_rotation: start from the relative equilibrium in which the model rotates steadily with its velocities, default false; `true` or `false`, or nothing.
+        follow_drives: beams and superelements without given velocities start with those of their drive, default true; otherwise at rest; `true` or `false`, or nothing.
         motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
     """
 
@@ -29,6 +30,7 @@ class Initial(Entry):
     about: Place | None = None
     equilibrium: bool | None = None
     steady_rotation: bool | None = None
+    follow_drives: bool | None = None
     motions: dict[str, PartMotion] | None = None
 
 

@@ -14,6 +14,8 @@ entry! {
     equilibrium: bool = "equilibrium";
     /// Start from the relative equilibrium in which the model rotates steadily with its velocities, default false.
     steady_rotation: bool = "steady_rotation";
+    /// Beams and superelements without given velocities start with those of their drive, default true; otherwise at rest.
+    follow_drives: bool = "follow_drives";
 }
 
 entry! {
