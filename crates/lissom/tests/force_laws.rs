@@ -321,3 +321,37 @@ fn masses_that_attract_each_other_go_round_in_ellipses() {
     assert!((last(&one, "two", "y") - last(&other, "two", "y")).abs() < 1e-12);
     assert_eq!(last(&other, "energy", "strain"), 0.0);
 }
+
+/// Columns `x`, the rate and the force of the spring at the start.
+fn at_start(spring: &str) -> Vec<f64> {
+    let session = session(&slider(spring, "end = 1\nstep = 0.01"));
+    let mut values = Vec::new();
+    session.values(&mut values);
+    let columns = session.columns().iter().zip(values);
+    columns.filter(|(column, _)| column.name().starts_with("spring.")).map(|(_, value)| value).collect()
+}
+
+#[test]
+fn a_preload_is_the_force_at_the_start() {
+    for kind in [AXIAL, POINT] {
+        let [elongation, _, force] = at_start(&format!("{kind}stiffness = 200\npreload = -6"))[..] else {
+            panic!()
+        };
+        assert!(
+            (elongation + 0.03).abs() < 1e-15 && (force + 6.0).abs() < 1e-12,
+            "{elongation} m, {force} N"
+        );
+        let rest = if kind == AXIAL { "displacement = 0.03" } else { "length = 1.03" };
+        let same = at_start(&format!("{kind}stiffness = 200\n{rest}"));
+        assert!((same[0] - elongation).abs() < 1e-15 && (same[2] - force).abs() < 1e-12, "{same:?}");
+    }
+    let model = |spring: &str| slider(spring, "end = 1\nstep = 0.01");
+    for (spring, words) in [
+        (format!("{AXIAL}stiffness = 200\npreload = 6\ndisplacement = 1"), "remove one of them"),
+        (format!("{POINT}stiffness = 200\npreload = 6\nlimits = [-5, 5]"), "cannot be reached"),
+        (format!("{POINT}preload = 6"), "needs a `stiffness`"),
+    ] {
+        let problem = refused(&model(&spring));
+        assert!(problem.contains(words), "{problem}");
+    }
+}

@@ -85,7 +85,9 @@ impl Relation for Bent {
 
 /// Free play would leave most configurations without force; the others are another way to give `dissipation`.
 /// Wheels touch the plane whatever their size; those that are round or creep are looked at apart.
-const LEFT_OUT: [&str; 22] = [
+/// A preload is another way to give the rest of a spring.
+const LEFT_OUT: [&str; 23] = [
+    "preload",
     "traction",
     "backlash",
     "restitution",

@@ -2,7 +2,7 @@
 //! another law of φ - φ₀ and φ̇.
 
 use super::contribution::Contribution;
-use super::force_law::{ForceLaw, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
+use super::force_law::{ForceLaw, PRELOAD_FORCE, PRELOAD_MOMENT, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::switch_states::SwitchStates;
@@ -51,6 +51,7 @@ pub(crate) const TORSIONAL: ElementKind = ElementKind {
             "rad",
             "Relative rotation without moment; default 0.",
         ),
+        PRELOAD_MOMENT,
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Angle),
@@ -93,6 +94,7 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
             "m",
             "Relative displacement without force; default 0.",
         ),
+        PRELOAD_FORCE,
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Length),
@@ -120,14 +122,11 @@ fn add(
 ) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
     model.check_quantity(coordinate, acts_on)?;
+    let law = ForceLaw::new(parameters, [elastic, damper])?;
+    let rest = law.rest(parameters, rest, [model.coordinate_value(coordinate), 0.0])?;
     Ok(Contribution::of(
         model,
-        CoordinateSpring {
-            coordinate: [coordinate],
-            law: ForceLaw::new(parameters, [elastic, damper])?,
-            rest: parameters.number_or(rest, 0.0)?,
-            switch_states: SwitchStates::default(),
-        },
+        CoordinateSpring { coordinate: [coordinate], law, rest, switch_states: SwitchStates::default() },
     ))
 }
 

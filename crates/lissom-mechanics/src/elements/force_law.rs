@@ -17,6 +17,25 @@ use crate::law::{Enclosure, Interval, ScalarLaw, hull, scaled, sum};
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
+/// The force at the start, for lengths.
+pub(crate) const PRELOAD_FORCE: Parameter = Parameter::optional(
+    "preload",
+    ParameterType::Number,
+    "N",
+    "Force at the start, positive if it pulls, instead of the position without force.",
+);
+
+/// The same for angles.
+pub(crate) const PRELOAD_MOMENT: Parameter = Parameter::optional(
+    "preload",
+    ParameterType::Number,
+    "N m",
+    "Moment at the start, positive if it resists a positive rotation, instead of the rotation without moment.",
+);
+
+/// A preload is reached if the law is equal to it to this fraction.
+const REACHED: f64 = 1e-9;
+
 /// On which side of the free length it acts, for lengths.
 pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
     "side",
@@ -109,6 +128,42 @@ impl ForceLaw {
             .is_none_or(|law| law.evaluate(0.0, 0.0)[0].is_finite() && law.is_integrable());
         law.is_active = !(has_potential && law.seems_passive());
         Ok(law)
+    }
+
+    /// The length or coordinate without force: the parameter `key`, or `default`; with the parameter `preload` the one from which
+    /// `at_start` causes this force.
+    ///
+    /// # Errors
+    /// If both are given, or the law is not equal to the preload there.
+    pub(crate) fn rest(
+        &self,
+        parameters: &Parameters,
+        key: &str,
+        [at_start, default]: [f64; 2],
+    ) -> Result<f64, ParameterError> {
+        if !parameters.has("preload") {
+            return parameters.number_or(key, default);
+        }
+        if parameters.has(key) {
+            let problem = format!("determines what `{key}` gives too: remove one of them");
+            return Err(ParameterError::new("preload", problem));
+        }
+        let preload = parameters.number("preload")?;
+        let elongation = preload / self.stiffness;
+        // Without stiffness it is not a number.
+        let force = self.evaluate(elongation, 0.0, &[]).force;
+        if (force - preload).abs() <= REACHED * preload.abs() {
+            return Ok(at_start - elongation);
+        }
+        let problem = if self.stiffness == 0.0 {
+            format!("needs a `stiffness`: give `{key}` instead")
+        } else {
+            format!(
+                "cannot be reached by `stiffness` alone: at its deformation of {elongation} the spring exerts {force}, because of its \
+                 other parameters; give `{key}` instead"
+            )
+        };
+        Err(ParameterError::new("preload", problem))
     }
 
     /// Whether it may supply energy, so that its work is computed instead of its potential energy.
@@ -611,5 +666,29 @@ mod tests {
             let law = law(&Parameters::new().with(name, formula(force, depends_on_second)));
             assert_eq!(law.is_active(), is_active, "case {index}");
         }
+    }
+
+    /// The length without force of a spring of stiffness 200 N/m that is 0.5 m long at the start, with further parameters.
+    fn rest(more: &[(&str, Value)]) -> Result<f64, ParameterError> {
+        let mut parameters = Parameters::new().with("stiffness", Value::Number(200.0));
+        for (name, value) in more {
+            parameters.insert(name, value.clone());
+        }
+        law(&parameters).rest(&parameters, "length", [0.5, 0.3])
+    }
+
+    #[test]
+    fn a_preload_determines_the_length_without_force() {
+        let preload = || ("preload", Value::Number(-20.0));
+        assert_eq!(rest(&[]), Ok(0.3));
+        assert_eq!(rest(&[preload()]), Ok(0.6));
+        let wrong = |more: &[(&str, Value)], words: &str| {
+            let problem = rest(more).unwrap_err().to_string();
+            assert!(problem.contains(words), "{problem}");
+        };
+        wrong(&[preload(), ("length", Value::Number(0.4))], "remove one of them");
+        wrong(&[preload(), ("stiffness", Value::Number(0.0))], "needs a `stiffness`");
+        wrong(&[preload(), ("side", Value::Text("tension".to_owned()))], "cannot be reached");
+        wrong(&[preload(), ("backlash", Value::Number(0.01))], "cannot be reached");
     }
 }

@@ -8,7 +8,7 @@ use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::{RowVector6, SMatrix};
 
 use super::contribution::Contribution;
-use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
+use super::force_law::{ForceLaw, PRELOAD_FORCE, Response, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::law_of_distance::{self, LawOfDistance};
@@ -54,6 +54,7 @@ pub(crate) const KIND: ElementKind = ElementKind {
             "m",
             "Free length; default: the length at the start.",
         ),
+        PRELOAD_FORCE,
     ],
     attachment: Attachment::TwoNodes,
     build,
@@ -83,15 +84,11 @@ fn build(
             "is at the same position as `base`: the spring has no direction",
         ));
     }
+    let law = ForceLaw::new(parameters, ["force", "damper_force"])?;
+    let length = law.rest(parameters, "length", [distance; 2])?;
     Ok(Contribution::of(
         model,
-        PointSpring {
-            nodes,
-            points,
-            law: ForceLaw::new(parameters, ["force", "damper_force"])?,
-            length: parameters.number_or("length", distance)?,
-            switch_states: SwitchStates::default(),
-        },
+        PointSpring { nodes, points, law, length, switch_states: SwitchStates::default() },
     ))
 }
 

@@ -32,6 +32,7 @@ class Axial(Spring):
         limits: Minimum and maximum force; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         backlash: Width of the backlash about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
         displacement: Relative displacement without force; default 0 [m]; a number, or nothing.
+        preload: Force at the start, positive if it pulls, instead of the position without force [N]; a number, or nothing.
         coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
@@ -47,6 +48,7 @@ class Axial(Spring):
     limits: Vector | None = None
     backlash: Number | None = None
     displacement: Number | None = None
+    preload: Number | None = None
     coordinate: Number | None = None
 
 
@@ -68,6 +70,7 @@ class Point(Spring):
         limits: Minimum and maximum force; default: none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         backlash: Width of the backlash about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
         length: Free length; default: the length at the start [m]; a number ≥ 0, or nothing.
+        preload: Force at the start, positive if it pulls, instead of the position without force [N]; a number, or nothing.
     """
 
     _form: ClassVar[str] = "point"
@@ -85,6 +88,7 @@ class Point(Spring):
     limits: Vector | None = None
     backlash: Number | None = None
     length: Number | None = None
+    preload: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -172,6 +176,7 @@ class Torsional(Spring):
         limits: Minimum and maximum moment; default: none [N m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         backlash: Width of the backlash about the free rotation, without moment; default 0 [rad]; a number ≥ 0, or nothing.
         angle: Relative rotation without moment; default 0 [rad]; a number, or nothing.
+        preload: Moment at the start, positive if it resists a positive rotation, instead of the rotation without moment [N m]; a number, or nothing.
         coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
     """
 
@@ -187,6 +192,7 @@ class Torsional(Spring):
     limits: Vector | None = None
     backlash: Number | None = None
     angle: Number | None = None
+    preload: Number | None = None
     coordinate: Number | None = None
 
 

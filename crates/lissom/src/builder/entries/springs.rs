@@ -108,6 +108,8 @@ entry! {
     backlash: f64 = "backlash";
     /// Relative rotation without moment; default 0 \[rad\].
     angle: f64 = "angle";
+    /// Moment at the start, positive if it resists a positive rotation, instead of the rotation without moment \[N m\].
+    preload: f64 = "preload";
 }
 
 entry! {
@@ -263,6 +265,8 @@ keys! {
     limits: [f64; 2] = "limits";
     /// Width of the backlash about the free length, without force; default 0 \[m\].
     backlash: f64 = "backlash";
+    /// Force at the start, positive if it pulls, instead of the position without force \[N\].
+    preload: f64 = "preload";
 }
 
 keys! {
