@@ -97,8 +97,14 @@ impl Simulation {
         self.joints.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// For threads without the interpreter lock.
     fn lock(&self) -> MutexGuard<'_, CachedSession> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// For threads with the interpreter lock, which is released while they wait: a thread that steps needs it to look for signals.
+    fn lock_attached(&self, py: Python<'_>) -> MutexGuard<'_, CachedSession> {
+        self.inner.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Present value of a column, a signal, an input or a state.
@@ -165,38 +171,38 @@ impl Simulation {
 
     /// Warnings so far, as in `summary.json`. Each is also reported by a `ModelWarning` when it occurs.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.lock().session.warnings().map(with_code).collect()
+    fn warnings(&self, py: Python<'_>) -> Vec<String> {
+        self.lock_attached(py).session.warnings().map(with_code).collect()
     }
 
     /// Present time [s].
     #[getter]
-    fn time(&self) -> f64 {
-        self.lock().session.progress().time
+    fn time(&self, py: Python<'_>) -> f64 {
+        self.lock_attached(py).session.progress().time
     }
 
     /// End of the model's analysis [s].
     #[getter]
-    fn end(&self) -> f64 {
-        self.lock().session.progress().end
+    fn end(&self, py: Python<'_>) -> f64 {
+        self.lock_attached(py).session.progress().end
     }
 
     /// Whether that end is reached.
     #[getter]
-    fn is_finished(&self) -> bool {
-        self.lock().session.is_finished()
+    fn is_finished(&self, py: Python<'_>) -> bool {
+        self.lock_attached(py).session.is_finished()
     }
 
     /// Name of the event at which the simulation is, if that is to end the run.
     #[getter]
-    fn stopped_by(&self) -> Option<String> {
-        self.lock().session.stopped_by().map(str::to_owned)
+    fn stopped_by(&self, py: Python<'_>) -> Option<String> {
+        self.lock_attached(py).session.stopped_by().map(str::to_owned)
     }
 
     /// Names and times [s] of the events that have happened.
     #[getter]
-    fn events(&self) -> Vec<(String, f64)> {
-        self.lock().session.events().map(|(name, time)| (name.to_owned(), time)).collect()
+    fn events(&self, py: Python<'_>) -> Vec<(String, f64)> {
+        self.lock_attached(py).session.events().map(|(name, time)| (name.to_owned(), time)).collect()
     }
 
     /// Names of the columns, in the order of `values`.
@@ -207,13 +213,13 @@ impl Simulation {
 
     /// Units of the columns, in the order of `values`.
     #[getter]
-    fn units(&self) -> Vec<String> {
-        self.lock().session.columns().iter().map(|column| column.unit.clone()).collect()
+    fn units(&self, py: Python<'_>) -> Vec<String> {
+        self.lock_attached(py).session.columns().iter().map(|column| column.unit.clone()).collect()
     }
 
     /// Present values of all columns: an array of shape (number of columns,), in SI units.
     fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.lock().values())
+        PyArray1::from_slice(py, self.lock_attached(py).values())
     }
 
     /// Sets inputs of the model from now on, until they are set again: `set("torque", 0.5)`, `set({"torque": 0.5, "brake": 1})`,
@@ -348,7 +354,7 @@ impl Simulation {
 
     /// Present value of a column, a signal, an input or a state, in SI units; with a list of names an array of their values.
     fn __getitem__<'py>(&self, py: Python<'py>, names: Names) -> PyResult<Bound<'py, PyAny>> {
-        let mut inner = self.lock();
+        let mut inner = self.lock_attached(py);
         match names {
             Names::One(name) => Ok(PyFloat::new(py, self.value(&mut inner, &name)?).into_any()),
             Names::Several(names) => {
@@ -426,8 +432,8 @@ impl Simulation {
         })
     }
 
-    fn __repr__(&self) -> String {
-        let progress = self.lock().session.progress();
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let progress = self.lock_attached(py).session.progress();
         format!("<lissom.Simulation at t = {} of {} s>", progress.time, progress.end)
     }
 }

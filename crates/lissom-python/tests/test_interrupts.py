@@ -78,3 +78,22 @@ print(len(lissom.load({PENDULUM!r}, **{{"analysis.end": 0.1}}).run().time), flus
     output, errors = child.communicate(timeout=100)
     timer.cancel()
     assert output == "11\n" and child.returncode == 0, errors
+
+
+def test_a_getter_waits_for_the_step_of_another_thread() -> None:
+    """The thread that steps asks for the interpreter lock at times, which a thread that waits for it must not have."""
+    code = f"""
+import lissom, threading
+sim = lissom.load({PENDULUM!r}).simulation()
+worker = threading.Thread(target=sim.step_to, args=(2000.0,))
+worker.start()
+while sim.time == 0:
+    pass
+for _ in range(20):
+    sim["bob.x"], sim.values(), sim.is_finished, sim.events, sim.warnings, repr(sim)
+worker.join()
+print(sim.time)
+"""
+    # One that waits for ever has the lock, and no thread of its own process could end it.
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True)
+    assert ended.stdout == "2000.0\n"
