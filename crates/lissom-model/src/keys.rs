@@ -38,6 +38,8 @@ pub(crate) enum Shape {
     Direction,
     /// The same with a default: this axis of the part.
     DirectionOr(ModelAxis),
+    /// The same in axes of a body, which are not transformed.
+    BodyDirection,
     /// One of the words.
     Choice(Cow<'static, [&'static str]>),
     /// A number, an expression of this variable, or a table of it.
@@ -121,8 +123,6 @@ macro_rules! three_numbers {
     ($($other:pat_param),*) => {
         Shape::Vector
             | Shape::GlobalVector
-            | Shape::Direction
-            | Shape::DirectionOr(_)
             | Shape::Curve
             | Shape::Distribution
             | Shape::SectionDistribution
@@ -131,7 +131,14 @@ macro_rules! three_numbers {
     };
 }
 
-pub(crate) use three_numbers;
+/// Pattern of the shapes of directions.
+macro_rules! direction {
+    () => {
+        Shape::Direction | Shape::DirectionOr(_) | Shape::BodyDirection
+    };
+}
+
+pub(crate) use {direction, three_numbers};
 
 impl Shape {
     /// Whether the value is expressed in model axes, so that the decoder transforms it with the part in which it is written.
@@ -148,8 +155,9 @@ impl Shape {
             | Self::Distribution
             | Self::Axes
             | Self::Rotation => true,
-            // The first seven are in axes of a body, a section or an element; the others have no axes.
+            // The first eight are in axes of a body, a section or an element; the others have no axes.
             Self::Vector
+            | Self::BodyDirection
             | Self::SectionDistribution
             | Self::Inertia
             | Self::Solid
@@ -241,12 +249,40 @@ impl Shape {
     /// Keys of an inertia that is given by a solid.
     pub(crate) fn solid_keys() -> Vec<Key> {
         vec![
-            optional("box", Self::Vector, "m", "sides along the body axes; give one of the solids"),
-            optional("cylinder", Self::Pair, "m", "[radius, length]"),
-            optional("tube", Self::Vector, "m", "[outer radius, inner radius, length]"),
-            optional("sphere", Self::Positive, "m", "radius"),
-            optional("axis", choice(&["x", "y", "z"]), "", "axis of a cylinder or tube, default z"),
+            optional("kind", choice(&["box", "cylinder", "tube", "sphere"]), "", "which solid it is"),
+            optional("sides", Self::Vector, "m", "of a box, along the body axes"),
+            optional("radius", Self::Positive, "m", "of a cylinder or sphere; the outer one of a tube"),
+            optional("inner_radius", Self::Positive, "m", "of a tube"),
+            optional("length", Self::Positive, "m", "of a cylinder or tube"),
+            optional("axis", Self::BodyDirection, "", "of a cylinder or tube, body axes; default z"),
+            optional("box", Self::Vector, "m", "sides along the body axes, instead of `kind` and dimensions"),
+            optional("cylinder", Self::Pair, "m", "[radius, length], instead of `kind` and dimensions"),
+            optional(
+                "tube",
+                Self::Vector,
+                "m",
+                "[outer radius, inner radius, length], instead of `kind` and dimensions",
+            ),
+            optional("sphere", Self::Positive, "m", "radius, instead of `kind` and dimensions"),
         ]
+    }
+
+    /// Keys of what is drawn of a body.
+    pub(crate) fn drawn_keys() -> Vec<Key> {
+        let mut keys = Self::solid_keys();
+        keys[0].holds = choice(&["box", "cylinder", "tube", "sphere", "mesh"]);
+        keys.extend([
+            optional("file", Self::Text, "", "of a mesh: an STL or glTF file; path relative to this file"),
+            optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres; default 1"),
+            optional(
+                "position",
+                Self::Vector,
+                "m",
+                "body axes; default the centre of mass, of a mesh the origin",
+            ),
+            optional("rotation", Self::Vector, "rad", "rotation vector, body axes"),
+        ]);
+        keys
     }
 
     /// Keys of friction in a joint.

@@ -6,7 +6,7 @@ use crate::context::singular;
 use crate::document::part_tables::part_motion;
 use crate::document::tables::{Holds, Top, Variants, tops, variants};
 use crate::expression::FUNCTION_NAMES;
-use crate::keys::{Key, Shape};
+use crate::keys::{Key, Shape, direction};
 use crate::registry::{ChoiceEntry, KindEntry, Registry};
 use crate::table_values::table_keys;
 
@@ -26,6 +26,11 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
 - **Sizes** of loads are functions of time, or expressions that contain inputs, signals, states, coordinates of joints such as
   `arm.angle`, and components of outputs such as `tip.u1`.
 - **Positions** are three numbers or the name of an entry of `[points]`.
+- **Directions** are three numbers, of which only the direction counts, or the letter of an axis, such as `\"z\"` or `\"-x\"`.
+- **Solids** are `{ kind = \"box\", sides = [a, b, c] }`, `{ kind = \"cylinder\", radius = r, length = l, axis = \"z\" }`,
+  `{ kind = \"tube\", radius = r, inner_radius = i, length = l, axis = \"z\" }` or `{ kind = \"sphere\", radius = r }`; shorter
+  `{ box = [a, b, c] }`, `{ cylinder = [r, l] }`, `{ tube = [r, i, l] }` and `{ sphere = r }`. What is drawn of a body may also be
+  `{ kind = \"mesh\", file = \"arm.stl\", scale = [1, 1, 1] }`, and has a `position` and a `rotation` in body axes.
 - **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
   Beams, bodies and point masses share one set of names.
 - **Sections** have the order axial, shear 2, shear 3, torsion, bending 2, bending 3; axis 1 is along the beam, axis 3 oriented
@@ -191,7 +196,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Point => "three numbers, or `{ in = \"part\", at = [x, y, z] }`",
         Shape::Names => "a list of names of parts",
         Shape::Entries(table) => return format!("entries as in `[{table}]`"),
-        Shape::Direction | Shape::DirectionOr(_) => "three numbers, not all zero",
+        direction!() => "a direction",
         Shape::Choice(words) => {
             let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
             return quoted.join(", ");
@@ -217,8 +222,8 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Distribution | Shape::SectionDistribution => "three expressions of `s` and `t`",
         Shape::Axes => "two vectors",
         Shape::Mass => "a number > 0, or `{ density }`",
-        Shape::Inertia => "three numbers, a 3 x 3 matrix, or `{ box, cylinder, tube or sphere }`",
-        Shape::Solid => "`{ box, cylinder, tube or sphere }`",
+        Shape::Inertia => "three numbers, a 3 x 3 matrix, or a solid",
+        Shape::Solid => "a solid, or a list of solids",
         Shape::Friction => "`{ coulomb, static, stribeck, viscous, deflection, damping }`",
         Shape::Latch => "`{ at }`",
         Shape::Stiffness => "six numbers or a 6 x 6 matrix",

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use crate::context::singular;
 use crate::document::part_tables::part_motion;
 use crate::document::tables::{Holds, Top, Variant, tops, variants};
-use crate::keys::{Key, Shape, three_numbers};
+use crate::keys::{Key, Shape, direction, three_numbers};
 use crate::manual::words;
 use crate::registry::Registry;
 
@@ -163,6 +163,7 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Profile => "Number",
         Shape::Flag => "bool",
         three_numbers!(Shape::Pair, Shape::Numbers, Shape::Range) => "Vector",
+        direction!() => "Vector | str",
         Shape::Point => "Vector | Table",
         Shape::Names | Shape::Words | Shape::Coordinates => "Names",
         Shape::Place | Shape::PlaceOrNode => "Place",
@@ -178,7 +179,8 @@ fn type_of(shape: &Shape) -> String {
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
         Shape::Shear => "Number | Vector",
         Shape::Stations | Shape::Places | Shape::Interfaces => "list[Table]",
-        Shape::Friction | Shape::Latch | Shape::Solid | Shape::Table => "Table",
+        Shape::Friction | Shape::Latch | Shape::Table => "Table",
+        Shape::Solid => "Table | list[Table]",
         Shape::Entries(_) => "Tables",
     };
     fixed.to_owned()

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::document::VERSION;
 use crate::document::part_tables::part_motion;
 use crate::document::tables::{Holds, Variant, tops, variants};
-use crate::keys::{Key, Shape, three_numbers};
+use crate::keys::{Key, Shape, direction, three_numbers};
 use crate::registry::Registry;
 use crate::table_values::table_keys;
 
@@ -61,10 +61,19 @@ fn table(name: &str, registry: &Registry) -> Value {
         json!({ "if": { "properties": { tag: { "const": form.word } } }, "then": then })
     };
     let branches: Vec<Value> = forms.all.iter().map(branch).collect();
-    let words = forms.words();
+    let words = json!({ "enum": forms.words() });
+    let choice = if name == "sections" {
+        // Its dimensions may be within.
+        any_of(&[
+            words.clone(),
+            json!({ "type": "object", "properties": { "kind": words }, "required": ["kind"] }),
+        ])
+    } else {
+        words
+    };
     json!({
         "type": "object",
-        "properties": { tag: { "enum": words } },
+        "properties": { tag: choice },
         "required": [tag],
         "allOf": branches,
     })
@@ -117,6 +126,7 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Count(least, most) => number(&json!({ "type": "integer", "minimum": least, "maximum": most })),
         Shape::Flag => json!({ "type": "boolean" }),
         three_numbers!() => vector(),
+        direction!() => any_of(&[vector(), json!({ "enum": ["x", "y", "z", "-x", "-y", "-z"] })]),
         Shape::Point => {
             let placed = json!({
                 "type": "object",
@@ -141,7 +151,10 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Axes => list(&vector(), 2),
         Shape::Mass => any_of(&[number(&json!({ "exclusiveMinimum": 0 })), of_keys(&Shape::density_keys())]),
         Shape::Inertia => any_of(&[vector(), matrix(3), of_keys(&Shape::solid_keys())]),
-        Shape::Solid => of_keys(&Shape::solid_keys()),
+        Shape::Solid => {
+            let solid = of_keys(&Shape::drawn_keys());
+            any_of(&[solid.clone(), json!({ "type": "array", "minItems": 1, "items": solid })])
+        }
         Shape::Latch => of_keys(&Shape::latch_keys()),
         Shape::Friction => of_keys(&Shape::friction_keys()),
         Shape::Stiffness => any_of(&[list(&plain(), 6), matrix(6)]),

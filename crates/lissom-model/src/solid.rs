@@ -15,8 +15,8 @@ pub(crate) enum Solid {
         inner: f64,
         /// Length along the axis.
         length: f64,
-        /// Axis, 0 to 2.
-        axis: usize,
+        /// Direction of the axis, a unit vector.
+        axis: Vector3,
     },
     /// Radius [m].
     Sphere(f64),
@@ -49,9 +49,9 @@ impl Solid {
             Self::Box([a, b, c]) => Vector3::new(b * b + c * c, a * a + c * c, a * a + b * b) / 12.0,
             Self::Tube { outer, inner, length, axis } => {
                 let radii = outer * outer + inner * inner;
-                let mut moments = Vector3::repeat((3.0 * radii + length * length) / 12.0);
-                moments[axis] = 0.5 * radii;
-                moments
+                let across = (3.0 * radii + length * length) / 12.0;
+                let along = axis * axis.transpose();
+                return across * (Matrix3::identity() - along) + 0.5 * radii * along;
             }
             Self::Sphere(radius) => Vector3::repeat(0.4 * radius * radius),
         };
@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn volumes_and_moments_are_those_of_many_small_cubes() {
         let across = |x: &Vector3| x.y.hypot(x.z);
-        let tube = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: 0 };
+        let tube = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: Vector3::x() };
         let sides = [0.4, 0.7, 1.0];
         for (solid, (volume, moments)) in [
             (Solid::Sphere(0.5), summed(|x| x.norm() < 0.5, 1.0)),
@@ -94,5 +94,10 @@ mod tests {
             let found = solid.inertia().diagonal();
             assert!((found - moments).norm() < 1e-2 * moments.norm(), "{solid:?} {moments}");
         }
+        // About an oblique axis the moments of inertia are turned.
+        let turn = lissom_motion::Rotation::exponential(&Vector3::new(0.3, -0.7, 1.1));
+        let oblique = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: turn.apply(&Vector3::x()) };
+        let turned = turn.matrix() * tube.inertia() * turn.matrix().transpose();
+        assert!((oblique.inertia() - turned).norm() < 1e-15);
     }
 }

@@ -222,7 +222,8 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         | Shape::Point
         | Shape::Place
         | Shape::Direction
-        | Shape::DirectionOr(_) => "[f64; 3]",
+        | Shape::DirectionOr(_)
+        | Shape::BodyDirection => "[f64; 3]",
         Shape::Names => "Vec<Part>",
         Shape::Choice(known) => return Some(format!("words::{}", word_type(key, known, words))),
         Shape::Choices(known) => return Some(format!("Vec<words::{}>", word_type(key, known, words))),

@@ -122,8 +122,15 @@ impl Context<'_> {
         self.numbers::<3>(node, what).map(Vector3::from)
     }
 
-    /// Three numbers that are not all zero, as they are written.
+    /// Three numbers that are not all zero, or the letter of an axis, as they are written.
     pub(crate) fn own_direction(&self, node: &Node, what: &str) -> Option<Vector3> {
+        if let Value::Text(word) = &node.value {
+            let (sign, letter) = word.strip_prefix('-').map_or((1.0, word.as_str()), |letter| (-1.0, letter));
+            if let Some(axis) = ["x", "y", "z"].iter().position(|own| *own == letter) {
+                return Some(Vector3::from_fn(|k, _| if k == axis { sign } else { 0.0 }));
+            }
+            return self.wrong_type(node, what, "a direction, such as [0, 0, 1] or \"z\"");
+        }
         let vector = self.vector(node, what)?;
         if vector.norm() > f64::MIN_POSITIVE && vector.norm().is_finite() {
             return Some(vector);

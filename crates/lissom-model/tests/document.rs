@@ -202,3 +202,47 @@ fn later_problems_can_be_underlined() {
     let report = document.report(vec![lissom_model::Problem::error(span, "too stiff")]);
     assert!(report.render(false).contains("[planar.toml:20:13]"), "{}", report.render(false));
 }
+
+/// A wheel with this inertia, on a beam of this section, with an axle along this axis.
+fn wheel(inertia: &str, section: &str, axis: &str) -> Document {
+    let text = format!(
+        "lissom = 1\n[materials.steel]\nE = 210e9\nnu = 0.3\ndensity = 7850\n[sections.bar]\nmaterial = \"steel\"\n{section}\n\
+         [beams.beam]\nsection = \"bar\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nelements = 2\n\
+         [bodies.wheel]\nmass = {{ density = 1000 }}\ninertia = {inertia}\nshape = {inertia}\n\
+         [joints.axle]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"wheel\"\naxis = {axis}\n\
+         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.01\n"
+    );
+    Document::parse(&text, "wheel.toml", &registry())
+        .unwrap_or_else(|report| panic!("{}", report.render(false)))
+}
+
+#[test]
+fn solids_sections_and_axes_have_one_grammar() {
+    let one = wheel(
+        "{ tube = [0.3, 0.2, 0.1], axis = \"y\" }",
+        "shape = \"rectangle\"\nwidth = 0.1\nheight = 0.2",
+        "[0, -1, 0]",
+    );
+    let other = wheel(
+        "{ kind = \"tube\", radius = 0.3, inner_radius = 0.2, length = 0.1, axis = [0, 2, 0] }",
+        "shape = { kind = \"rectangle\", width = 0.1, height = 0.2 }",
+        "\"-y\"",
+    );
+    let (body, same) = (&one.bodies[0], &other.bodies[0]);
+    assert_eq!((body.mass, body.inertia, &body.surface), (same.mass, same.inertia, &same.surface));
+    assert_eq!(one.sections[0].properties, other.sections[0].properties);
+    let axis = |document: &Document| match &document.joints[0].attachment {
+        Attachment::TwoNodes { axis: Some(axis), .. } => axis.value,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(axis(&one), axis(&other));
+    for (short, long) in [
+        ("{ box = [0.1, 0.2, 0.3] }", "{ kind = \"box\", sides = [0.1, 0.2, 0.3] }"),
+        ("{ cylinder = [0.1, 0.3] }", "{ kind = \"cylinder\", radius = 0.1, length = 0.3 }"),
+        ("{ sphere = 0.1 }", "{ kind = \"sphere\", radius = 0.1 }"),
+    ] {
+        let circle = "shape = \"circle\"\nradius = 0.1";
+        let [short, long] = [short, long].map(|solid| wheel(solid, circle, "\"z\"").bodies[0].clone());
+        assert_eq!((short.mass, short.inertia, short.surface), (long.mass, long.inertia, long.surface));
+    }
+}

@@ -1,20 +1,17 @@
 //! Rigid bodies and point masses of a model file.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::decode::each;
+use super::solids::{solid, surface};
 use super::{Body, Plane, PointMass};
 use crate::context::Context;
 use crate::keys::Shape;
-use crate::library::joined;
 use crate::line::are_parallel;
 use crate::reader::Reader;
-use crate::report::{Located, Problem};
-use crate::solid::Solid;
-use crate::surface::Surface;
+use crate::report::Located;
 use crate::text::{Node, Value};
 
 pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
@@ -69,75 +66,6 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
         (None, _) => reader.inertia("inertia").map(|inertia| inertia.value),
     };
     Some((mass?, inertia?))
-}
-
-/// Shape for drawings, if it is specified; the outer `None` stands for an error.
-#[expect(clippy::option_option, reason = "a mistake, or nothing given")]
-fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surface>>> {
-    let context = reader.context;
-    match (reader.node("shape"), reader.node("mesh")) {
-        (None, None) => Some(None),
-        (Some(node), None) => {
-            let solid = solid(reader, node, "shape")?;
-            Some(Some(Arc::new(Surface::of_solid(&solid, center))))
-        }
-        (None, Some(node)) => {
-            let name = reader.text("mesh")?.value;
-            let path = joined(context.sources.file(node.span), name);
-            let error = match context.library.surface(&path) {
-                Ok(surface) => return Some(surface),
-                Err(error) => error,
-            };
-            let problem = Problem::error(node.span, format!("{}: {}", reader.words("mesh"), error.message));
-            context.report(problem.label("named here").maybe_help(error.help));
-            None
-        }
-        (Some(_), Some(node)) => {
-            let message = format!("{} has both `shape` and `mesh`", reader.what);
-            context.fail(node.span, message, "remove one of them")
-        }
-    }
-}
-
-/// The solid of a table, the value of `key`, with one of their names.
-fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
-    let context = reader.context;
-    let what = reader.words(key);
-    let own = Reader::open(context, node, (what.clone(), node.span), Shape::solid_keys())?;
-    let given: Vec<&str> =
-        ["box", "cylinder", "tube", "sphere"].into_iter().filter(|key| own.has(key)).collect();
-    let [form] = given.as_slice() else {
-        let message = format!("{what} must name one solid, not {}", given.len());
-        return context.fail(node.span, message, "write `box`, `cylinder`, `tube` or `sphere`");
-    };
-    let axis = match own.choice("axis").map(|word| word.value) {
-        Some("x") => 0,
-        Some("y") => 1,
-        _ => 2,
-    };
-    if own.has("axis") && matches!(*form, "box" | "sphere") {
-        return context.fail(node.span, format!("a {form} has no `axis`"), "remove it");
-    }
-    let value = own.node(form)?;
-    let solid = match *form {
-        "box" => Solid::Box(context.numbers::<3>(value, &own.words(form))?),
-        "cylinder" => {
-            let [radius, length] = context.numbers::<2>(value, &own.words(form))?;
-            Solid::Tube { outer: radius, inner: 0.0, length, axis }
-        }
-        "tube" => {
-            let [outer, inner, length] = context.numbers::<3>(value, &own.words(form))?;
-            Solid::Tube { outer, inner, length, axis }
-        }
-        _ => Solid::Sphere(own.number(form)?.value),
-    };
-    if solid.is_solid() {
-        return Some(solid);
-    }
-    let message = format!(
-        "{what} is not a valid solid: lengths must be greater than zero, and the outer radius must exceed the inner one"
-    );
-    context.fail(value.span, message, "check the order of the numbers")
 }
 
 /// The position `position`, the origin of the axes around it where it is not given.

@@ -19,6 +19,7 @@ mod outputs;
 pub(crate) mod part_tables;
 mod places;
 mod signals;
+mod solids;
 mod superelements;
 pub(crate) mod tables;
 mod unloaded;
@@ -492,6 +493,6 @@ pub struct InitialMotion {
     pub equilibrium: bool,
     /// Whether the positions at the start are those of a steady rotation with the velocities given.
     pub steady_rotation: bool,
-}
     /// Whether flexible parts without given velocities start with the velocity of their drive.
     pub follow_drives: bool,
+}

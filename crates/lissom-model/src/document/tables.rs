@@ -266,7 +266,7 @@ fn body() -> Vec<Key> {
             "inertia",
             Shape::Inertia,
             "kg m²",
-            "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { box = [a, b, c] }",
+            "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { kind = \"box\", sides = [a, b, c] }",
         ),
         optional("position", Shape::Place, "m", "position of the reference frame"),
         optional("rotation", Shape::Rotation, "rad", "rotation vector of the reference frame"),
@@ -276,7 +276,7 @@ fn body() -> Vec<Key> {
             "shape",
             Shape::Solid,
             "",
-            "solid to be drawn about the centre of mass; default: one with its inertia",
+            "what is drawn of it, about the centre of mass; default: a solid with its inertia",
         ),
         optional(
             "mesh",

@@ -52,6 +52,10 @@ pub(crate) fn expand(tree: Tree) -> Result<Expanded, (Vec<Problem>, Sources)> {
     if !work.problems.is_empty() {
         return Err((work.problems, work.into.sources));
     }
+    flatten_sections(&mut work);
+    if !work.problems.is_empty() {
+        return Err((work.problems, work.into.sources));
+    }
     place_entries(&mut work.into);
     work.into.library = Arc::clone(&library);
     Ok(work.into)
@@ -59,6 +63,33 @@ pub(crate) fn expand(tree: Tree) -> Result<Expanded, (Vec<Problem>, Sources)> {
 
 fn in_list(table: &Table) -> Vec<(String, Span, Node)> {
     in_order(table).into_iter().map(|(name, key, node)| (name.to_owned(), key, node.clone())).collect()
+}
+
+/// Writes sections with `shape = { kind = "tube", radius = … }` as `shape = "tube"` and `radius = …`.
+fn flatten_sections(work: &mut Expansion<'_>) {
+    let Some(Value::Table(sections)) = work.into.root.get_mut("sections").map(|entry| &mut entry.node.value)
+    else {
+        return;
+    };
+    let mut twice = Vec::new();
+    for (name, section) in sections {
+        let Value::Table(table) = &mut section.node.value else { continue };
+        let Some(Value::Table(shape)) = table.get_mut("shape").map(|shape| &mut shape.node.value) else {
+            continue;
+        };
+        let shape = std::mem::take(shape);
+        // Without a kind it is reported as a shape that is missing.
+        table.remove("shape");
+        for (key, entry) in shape {
+            let key = if key == "kind" { "shape".to_owned() } else { key };
+            if let Some(first) = table.insert(key.clone(), entry) {
+                twice.push((first.key, format!("section `{name}` has `{key}` twice")));
+            }
+        }
+    }
+    for (span, message) in twice {
+        work.report(span, &message, "write it beside `shape` or within it");
+    }
 }
 
 /// Creates a scope for each entry with `in`, placed as that part.

@@ -5,7 +5,7 @@ mod stl;
 
 use std::collections::HashMap;
 
-use lissom_motion::Vector3;
+use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::solid::Solid;
@@ -60,13 +60,12 @@ impl Surface {
                 Self::of_rings(&[at(-c), at(c)], center, true)
             }
             Solid::Tube { outer, inner, length, axis } => {
+                let start = Vector3::ith((axis.iamax() + 1) % 3, 1.0);
+                let across = (start - start.dot(&axis) * axis).normalize();
+                let other = axis.cross(&across);
                 let place = |radius: f64, height: f64, side: usize| {
                     let (sine, cosine) = (std::f64::consts::TAU * side as f64 / ROUND as f64).sin_cos();
-                    let mut place = Vector3::zeros();
-                    place[(axis + 1) % 3] = radius * cosine;
-                    place[(axis + 2) % 3] = radius * sine;
-                    place[axis] = height;
-                    place
+                    radius * cosine * across + radius * sine * other + height * axis
                 };
                 let ring = |radius: f64, height: f64| -> Vec<Vector3> {
                     (0..ROUND).map(|side| place(radius, height, side)).collect()
@@ -97,6 +96,27 @@ impl Surface {
                 Self::of_rings(&rings, center, true)
             }
         }
+    }
+
+    /// The same stretched along its axes and placed in others. A reflection turns the order of the corners.
+    pub(crate) fn moved(&self, frame: &Motion, scale: &Vector3) -> Self {
+        let place = |point: &[f32; 3]| {
+            let point = Vector3::from(point.map(f64::from)).component_mul(scale);
+            frame.transform_point(&point).cast::<f32>().into()
+        };
+        let is_mirrored = scale.product() < 0.0;
+        let corners = |[a, b, c]: &[u32; 3]| if is_mirrored { [*a, *c, *b] } else { [*a, *b, *c] };
+        Self {
+            points: self.points.iter().map(place).collect(),
+            triangles: self.triangles.iter().map(corners).collect(),
+        }
+    }
+
+    /// Adds another surface.
+    pub(crate) fn append(&mut self, other: &Self) {
+        let first = self.points.len() as u32;
+        self.points.extend(&other.points);
+        self.triangles.extend(other.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
     }
 
     /// Rings of equally many points, each joined to the next, counterclockwise about the way from the first to the last; with
@@ -168,8 +188,11 @@ mod tests {
     fn surfaces_of_solids_enclose_their_volume() {
         for (solid, slack) in [
             (Solid::Box([0.1, 0.2, 0.3]), 1e-6),
-            (Solid::Tube { outer: 0.1, inner: 0.0, length: 0.4, axis: 0 }, 0.01),
-            (Solid::Tube { outer: 0.1, inner: 0.06, length: 0.4, axis: 2 }, 0.01),
+            (Solid::Tube { outer: 0.1, inner: 0.0, length: 0.4, axis: Vector3::x() }, 0.01),
+            (
+                Solid::Tube { outer: 0.1, inner: 0.06, length: 0.4, axis: Vector3::new(0.48, -0.6, 0.64) },
+                0.01,
+            ),
             (Solid::Sphere(0.2), 0.02),
         ] {
             let surface = Surface::of_solid(&solid, &Vector3::new(0.3, -0.1, 0.2));

@@ -82,13 +82,13 @@ class ConstantVelocity(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
-        tip_axis: Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft; three numbers, not all zero, or nothing.
+        axis: direction at the start, global axes; a direction.
+        tip_axis: Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft; a direction, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "constant_velocity"
@@ -97,13 +97,13 @@ class ConstantVelocity(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
-    tip_axis: Vector | None = None
+    axis: Vector | str
+    tip_axis: Vector | str | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -115,14 +115,14 @@ class Cylindrical(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "cylindrical"
@@ -131,14 +131,14 @@ class Cylindrical(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     angle: Number | None = None
     displacement: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -246,15 +246,15 @@ class Generic(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
-        second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
+        axis: direction of x at the start, global axes; default: global x; a direction, or nothing.
+        second_axis: direction of y at the start, global axes; default: global y; a direction, or nothing.
         locked: Locked motions: x along `axis`, y along `second_axis`, z perpendicular to both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "generic"
@@ -263,15 +263,15 @@ class Generic(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector | None = None
-    second_axis: Vector | None = None
+    axis: Vector | str | None = None
+    second_axis: Vector | str | None = None
     locked: list[Literal["x", "y", "z", "rx", "ry", "rz"]]
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
-    second_axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
+    second_axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -283,12 +283,12 @@ class Inline(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "inline"
@@ -297,12 +297,12 @@ class Inline(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -314,13 +314,13 @@ class ParallelAxes(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "parallel_axes"
@@ -329,13 +329,13 @@ class ParallelAxes(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     angle: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -347,14 +347,14 @@ class PerpendicularAxes(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
-        second_axis: second direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
+        second_axis: second direction at the start, global axes; a direction.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "perpendicular_axes"
@@ -363,14 +363,14 @@ class PerpendicularAxes(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
-    second_axis: Vector
+    axis: Vector | str
+    second_axis: Vector | str
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
-    second_axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
+    second_axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -382,13 +382,13 @@ class Planar(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "planar"
@@ -397,13 +397,13 @@ class Planar(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     angle: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -415,12 +415,12 @@ class PointInPlane(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "point_in_plane"
@@ -429,12 +429,12 @@ class PointInPlane(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -446,13 +446,13 @@ class PointOnLine(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "point_on_line"
@@ -461,13 +461,13 @@ class PointOnLine(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     displacement: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -498,8 +498,8 @@ class PrescribedMotion(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
-        second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
+        axis: direction of x at the start, global axes; default: global x; a direction, or nothing.
+        second_axis: direction of y at the start, global axes; default: global y; a direction, or nothing.
         x: Displacement along `axis` from the start [m]; a function of time, or nothing.
         y: Displacement along `second_axis` [m]; a function of time, or nothing.
         z: Displacement perpendicular to both [m]; a function of time, or nothing.
@@ -510,8 +510,8 @@ class PrescribedMotion(Joint):
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "prescribed_motion"
@@ -520,8 +520,8 @@ class PrescribedMotion(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector | None = None
-    second_axis: Vector | None = None
+    axis: Vector | str | None = None
+    second_axis: Vector | str | None = None
     x: Function | None = None
     y: Function | None = None
     z: Function | None = None
@@ -532,8 +532,8 @@ class PrescribedMotion(Joint):
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
-    second_axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
+    second_axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -564,13 +564,13 @@ class Prismatic(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "prismatic"
@@ -579,13 +579,13 @@ class Prismatic(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     displacement: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -597,13 +597,13 @@ class Revolute(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "revolute"
@@ -612,13 +612,13 @@ class Revolute(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     angle: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -657,8 +657,8 @@ class Rolling(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
-        wheel_axis: Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
+        wheel_axis: Axis of the wheel at the start, global axes, through the tip's position, the wheel's centre; a direction.
         radius: Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` [m]; a number ≥ 0, or nothing.
         rim: Rounding radius of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of friction; a warning reports when rolling requires more; default: no limit; a number > 0, or nothing.
@@ -667,7 +667,7 @@ class Rolling(Joint):
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "rolling"
@@ -676,8 +676,8 @@ class Rolling(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
-    wheel_axis: Vector
+    axis: Vector | str
+    wheel_axis: Vector | str
     radius: Number | None = None
     rim: Number | None = None
     friction_coefficient: Number | None = None
@@ -686,7 +686,7 @@ class Rolling(Joint):
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -698,14 +698,14 @@ class Screw(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         lead: Displacement along `axis` per revolution; negative for a left-handed thread [m]; a number.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "screw"
@@ -714,14 +714,14 @@ class Screw(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     lead: Number
     angle: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -787,13 +787,13 @@ class SwingArm(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
         angle: Value of the link's angle at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "swing_arm"
@@ -802,13 +802,13 @@ class SwingArm(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     angle: Number | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -820,14 +820,14 @@ class Universal(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
-        second_axis: second direction at the start, global axes; three numbers, not all zero.
+        axis: direction at the start, global axes; a direction.
+        second_axis: second direction at the start, global axes; a direction.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "universal"
@@ -836,14 +836,14 @@ class Universal(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
-    second_axis: Vector
+    axis: Vector | str
+    second_axis: Vector | str
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
-    second_axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
+    second_axis_at_tip: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -855,9 +855,9 @@ class WheelOnRail(Joint):
         base: first node: "ground", "body", "beam.end" …; a node.
         tip: second node; a node.
         at: location; default: the tip node's position [m]; a position, or nothing.
-        axis: direction at the start, global axes; three numbers, not all zero.
-        second_axis: second direction at the start, global axes; three numbers, not all zero.
-        axle: Axis of the wheel at the start, global axes, through the tip's position; default: `axis`; three numbers, not all zero, or nothing.
+        axis: direction at the start, global axes; a direction.
+        second_axis: second direction at the start, global axes; a direction.
+        axle: Axis of the wheel at the start, global axes, through the tip's position; default: `axis`; a direction, or nothing.
         radius: Radius of the wheel at its nominal circle; default: the one with which it touches the rail at the start [m]; a number > 0, or nothing.
         offset: Distance of the nominal circle from the tip's position along the wheel's axis, outwards positive; default: that of the rail's point `at` at the start [m]; a number, or nothing.
         cone_angle: Cone angle of the wheel: its radius decreases outwards; default 0 [rad]; a number, or nothing.
@@ -878,8 +878,8 @@ class WheelOnRail(Joint):
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
         at_tip: location on the tip in its approximate position, if different from `at`; requires [assembly] [m]; a position, or nothing.
-        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; three numbers, not all zero, or nothing.
-        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; three numbers, not all zero, or nothing.
+        axis_at_tip: direction of `axis` on the tip in its approximate position, if different; requires `at_tip`; a direction, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "wheel_on_rail"
@@ -888,9 +888,9 @@ class WheelOnRail(Joint):
     base: str
     tip: str
     at: Place | None = None
-    axis: Vector
-    second_axis: Vector
-    axle: Vector | None = None
+    axis: Vector | str
+    second_axis: Vector | str
+    axle: Vector | str | None = None
     radius: Number | None = None
     offset: Number | None = None
     cone_angle: Number | None = None
@@ -911,5 +911,5 @@ class WheelOnRail(Joint):
     latch: Table | None = None
     release: Number | None = None
     at_tip: Place | None = None
-    axis_at_tip: Vector | None = None
-    second_axis_at_tip: Vector | None = None
+    axis_at_tip: Vector | str | None = None
+    second_axis_at_tip: Vector | str | None = None

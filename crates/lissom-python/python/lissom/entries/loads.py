@@ -109,7 +109,7 @@ class Gyrostat(Load):
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         on: node on which it acts; a node.
         at: location; default: the node's position [m]; a position, or nothing.
-        axis: Axis of the rotor at the start, global axes; it rotates with the node; three numbers, not all zero.
+        axis: Axis of the rotor at the start, global axes; it rotates with the node; a direction.
         inertia: Inertia of the rotor about its axis [kg m²]; a number > 0.
         spin: Rate of spin relative to the body [rad/s]; a number.
     """
@@ -119,6 +119,6 @@ class Gyrostat(Load):
     in_: str | None = None
     on: str
     at: Place | None = None
-    axis: Vector
+    axis: Vector | str
     inertia: Number
     spin: Number

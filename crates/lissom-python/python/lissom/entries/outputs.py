@@ -104,14 +104,14 @@ class Angle(Output):
 
     Args:
         of: the node, such as "beam@0.5"; a node.
-        axis: axis at the start, global axes; it is fixed in `relative_to`; three numbers, not all zero.
+        axis: axis at the start, global axes; it is fixed in `relative_to`; a direction.
         relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
     """
 
     _form: ClassVar[str] = "angle"
 
     of: str
-    axis: Vector
+    axis: Vector | str
     relative_to: str | None = None
 
 

@@ -23,7 +23,7 @@ class Beam(Entry):
         curve: instead of `from` and `to`: three expressions of s in 0..1 [m]; three expressions of `s`, or nothing.
         elements: number of elements; a whole number from 1 to 100000.
         order: 1, 2 or 3 (default): elements of 2, 3 or 4 nodes; a whole number from 1 to 3, or nothing.
-        up: direction towards which local axis 3 is oriented; three numbers, not all zero, or nothing.
+        up: direction towards which local axis 3 is oriented; a direction, or nothing.
         force_per_length: in global axes, fixed in direction: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
         section_force_per_length: in the section's axes 1, 2 and 3, with which it rotates: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
         twist: rotation about the tangent, a number or an expression of s [rad]; a number or an expression of `s`, or nothing.
@@ -40,7 +40,7 @@ class Beam(Entry):
     curve: Vector | None = None
     elements: Count
     order: Count | None = None
-    up: Vector | None = None
+    up: Vector | str | None = None
     force_per_length: Vector | None = None
     section_force_per_length: Vector | None = None
     twist: Number | None = None
@@ -53,12 +53,12 @@ class Body(Entry):
     Args:
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         mass: mass, or { density } of the solid in `inertia` [kg]; a number > 0, or `{ density }`.
-        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box, cylinder, tube or sphere }`.
+        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid such as { kind = "box", sides = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or a solid.
         position: position of the reference frame [m]; a position, or nothing.
         rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
         axes: instead of `rotation`: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
-        shape: solid to be drawn about the centre of mass; default: one with its inertia; `{ box, cylinder, tube or sphere }`, or nothing.
+        shape: what is drawn of it, about the centre of mass; default: a solid with its inertia; a solid, or a list of solids, or nothing.
         mesh: instead of `shape`: an STL or glTF file in metres and body axes; path relative to this file; a text, or nothing.
         velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
         angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.
@@ -73,7 +73,7 @@ class Body(Entry):
     rotation: Vector | None = None
     axes: list[Vector] | None = None
     center_of_mass: Vector | None = None
-    shape: Table | None = None
+    shape: Table | list[Table] | None = None
     mesh: str | None = None
     velocity: Vector | None = None
     angular_velocity: Vector | None = None

@@ -101,8 +101,8 @@ class RollingContact(Spring):
         tip: second node; a node.
         at_base: location on the base; default: the node's position [m]; a position, or nothing.
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
-        normal: Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane; three numbers, not all zero.
-        wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre; three numbers, not all zero.
+        normal: Normal at the start of the plane, which is fixed in the base, global axes; `at_base` is a point of the plane; a direction.
+        wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre; a direction.
         radius: Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` [m]; a number ≥ 0, or nothing.
         rim: Rounding radius of the rim; default 0 [m]; a number ≥ 0, or nothing.
         stiffness: Normal force per penetration [N/m]; a number > 0.
@@ -119,8 +119,8 @@ class RollingContact(Spring):
     tip: str
     at_base: Place | None = None
     at_tip: Place | None = None
-    normal: Vector
-    wheel_axis: Vector
+    normal: Vector | str
+    wheel_axis: Vector | str
     radius: Number | None = None
     rim: Number | None = None
     stiffness: Number
@@ -266,8 +266,8 @@ class Bushing(Spring):
         at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
         stiffness: 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 [N/m, N, N m/rad]; six numbers or a 6 x 6 matrix, or nothing.
         damping: 6 x 6 or its diagonal, as `stiffness`; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
-        axis: First axis at the start, global axes; default global x. The axes rotate with the base; three numbers, not all zero, or nothing.
-        second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; three numbers, not all zero, or nothing.
+        axis: First axis at the start, global axes; default global x. The axes rotate with the base; a direction, or nothing.
+        second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; a direction, or nothing.
     """
 
     _form: ClassVar[str] = "bushing"
@@ -279,8 +279,8 @@ class Bushing(Spring):
     at_tip: Place | None = None
     stiffness: Vector | list[Vector] | None = None
     damping: Vector | list[Vector] | None = None
-    axis: Vector | None = None
-    second_axis: Vector | None = None
+    axis: Vector | str | None = None
+    second_axis: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)
