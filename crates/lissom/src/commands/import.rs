@@ -69,7 +69,8 @@ impl Import {
         }
         let text =
             files::read_input_text(&self.file).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let robot = from_description(&text).map_err(|error| bad(error.diagnostic()))?;
+        let mut robot = from_description(&text).map_err(|error| bad(error.diagnostic()))?;
+        robot.locate_meshes(&self.file, &out);
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {
             root: if self.floating { Root::Floating } else { Root::Held },
@@ -92,8 +93,10 @@ impl Import {
         files::write(&out, model.as_bytes()).map_err(|error| Failure::new(Exit::Failed, &error))?;
         let moving =
             robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();
-        let left_out = robot.left_out.iter().chain(&robot.unsupported);
-        let left_out: String = left_out.flat_map(|what| ["  omitted: ", what, "\n"]).collect();
+        let left_out =
+            robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone());
+        let left_out: String =
+            left_out.flat_map(|what| ["  omitted: ".to_owned(), what, "\n".to_owned()]).collect();
         terminal::print(&format!(
             "{} is written: {} links, {moving} moving joints.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch the \
              motion\n",

@@ -53,7 +53,7 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
         .collect();
     let is_on_ground = links.iter().any(|joint| ends(joint).contains(&&NodeReference::Ground));
     if is_on_ground || document.bodies.is_empty() {
-        robot.links.push(Link { name: "world".to_owned(), inertia: None });
+        robot.links.push(Link { name: "world".to_owned(), inertia: None, visuals: Vec::new() });
         tree.frames.push(Motion::identity());
     } else {
         let body = &document.bodies[0];
@@ -155,7 +155,11 @@ fn link(body: &Body, offset: &Motion) -> Link {
     let turn = offset.rotation.matrix();
     let inertia = turn * body.inertia * turn.transpose();
     let centre = offset.transform_point(&body.center_of_mass);
-    Link { name: body.name.value.clone(), inertia: Some(LinkInertia { mass: body.mass, centre, inertia }) }
+    Link {
+        name: body.name.value.clone(),
+        inertia: Some(LinkInertia { mass: body.mass, centre, inertia }),
+        visuals: Vec::new(),
+    }
 }
 
 struct Tree {

@@ -9,6 +9,7 @@ mod mjcf;
 mod model_text;
 mod to_urdf;
 mod urdf;
+mod visuals;
 mod xml;
 
 use lissom_core::diagnostics::Diagnose;
@@ -21,6 +22,7 @@ pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
+pub use visuals::{Visual, VisualShape};
 
 /// Reads a robot from a URDF or MJCF text, distinguished by the root element.
 ///
@@ -65,6 +67,8 @@ pub struct Link {
     pub name: String,
     /// Its mass.
     pub inertia: Option<LinkInertia>,
+    /// What is drawn of it.
+    pub visuals: Vec<Visual>,
 }
 
 /// Mass of a link in its own frame.

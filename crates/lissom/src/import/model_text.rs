@@ -76,6 +76,8 @@ struct Group {
     frame: Motion,
     twist: Vector6,
     mass: Option<LinkInertia>,
+    /// Entries of its shape.
+    shapes: Vec<String>,
 }
 
 /// The model file of `robot` with its joints at `pose`, with a fixed or floating root.
@@ -96,12 +98,20 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
             number[link] = groups.len();
             let is_ground = link == 0 && options.root == Root::Held;
             let name = if is_ground { "ground".to_owned() } else { names.links[link].clone() };
-            groups.push(Group { link, name, frame: frames[link], twist: twists[link], mass: None });
+            groups.push(Group {
+                link,
+                name,
+                frame: frames[link],
+                twist: twists[link],
+                mass: None,
+                shapes: Vec::new(),
+            });
         }
         number[link] = number[group_of[link]];
         let group = &mut groups[number[link]];
+        let offset = frames[link].relative_to(&frames[group.link]);
+        group.shapes.extend(own.visuals.iter().filter_map(|visual| visual.text(&offset)));
         if let Some(mass) = &own.inertia {
-            let offset = frames[link].relative_to(&frames[group.link]);
             group.mass = Some(together(group.mass.as_ref(), &carried(mass, &offset)));
         }
     }
@@ -371,7 +381,8 @@ fn header(robot: &Robot, options: Options) -> String {
     if options.limits {
         text.push_str("\n# Stiffness of stops [N m/rad, N/m], which the description does not specify.");
     }
-    for what in robot.left_out.iter().chain(&robot.unsupported) {
+    for what in robot.left_out.iter().cloned().chain(robot.meshes_left_out()).chain(robot.unsupported.clone())
+    {
         let _ = write!(text, "\n# Omitted: {}.", what.escape_debug());
     }
     text.push('\n');
@@ -413,6 +424,9 @@ fn write_body(text: &mut String, group: &Group, mass: &LinkInertia, renamed: boo
         list(&group.frame.position),
         list(&group.frame.rotation.logarithm()),
     );
+    if !group.shapes.is_empty() {
+        let _ = write!(text, "shape = [\n    {},\n]\n", group.shapes.join(",\n    "));
+    }
     if group.twist != Vector6::zeros() {
         let velocity = group.frame.rotation.apply(&translation_part(&group.twist));
         let angular = rotation_part(&group.twist);

@@ -1,5 +1,5 @@
-//! URDF, the robot description of ROS: links with inertia, joints with axes, limits, friction. Shapes, transmissions and
-//! extensions of simulators are omitted.
+//! URDF, the robot description of ROS: links with inertia, joints with axes, limits, friction, and what is drawn of links.
+//! Shapes for collisions, colours, transmissions and extensions of simulators are omitted.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,7 +7,7 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use roxmltree::Node;
 
 use super::xml::{self, children, line};
-use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
+use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint, Visual, VisualShape};
 
 /// Gravity as in ROS [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
@@ -64,9 +64,7 @@ fn left_out(root: Node<'_, '_>) -> Vec<String> {
     let inside = |tag: &'static str, inner: &'static str| {
         children(root, tag).flat_map(move |own| children(own, inner)).count()
     };
-    for (tag, inner) in
-        [("link", "visual"), ("link", "collision"), ("joint", "safety_controller"), ("joint", "calibration")]
-    {
+    for (tag, inner) in [("link", "collision"), ("joint", "safety_controller"), ("joint", "calibration")] {
         match inside(tag, inner) {
             0 => {}
             count => words.push(format!("{count} <{inner}>")),
@@ -169,7 +167,9 @@ fn origin(node: Node<'_, '_>) -> Result<Motion, ImportError> {
 
 fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
     let name = name(node)?;
-    let Some(inertial) = child(node, "inertial") else { return Ok(Link { name, inertia: None }) };
+    let visuals = children(node, "visual").map(|node| visual(node, &name)).collect::<Result<Vec<_>, _>>()?;
+    let visuals = visuals.into_iter().flatten().collect();
+    let Some(inertial) = child(node, "inertial") else { return Ok(Link { name, inertia: None, visuals }) };
     let missing = |tag: &str| ImportError::new(format!("link `{name}`: its <inertial> has no <{tag}>"));
     let mass = required(child(inertial, "mass").ok_or_else(|| missing("mass"))?, "value")?;
     let tensor = child(inertial, "inertia").ok_or_else(|| missing("inertia"))?;
@@ -186,10 +186,46 @@ fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
     let turn = frame.rotation.matrix();
     let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
     if mass == 0.0 && own.iter().all(|value| *value == 0.0) {
-        return Ok(Link { name, inertia: None });
+        return Ok(Link { name, inertia: None, visuals });
     }
     let inertia = turn * own * turn.transpose();
-    Ok(Link { name, inertia: Some(LinkInertia { mass, centre: frame.position, inertia }) })
+    Ok(Link { name, inertia: Some(LinkInertia { mass, centre: frame.position, inertia }), visuals })
+}
+
+/// What is drawn of a link; none for a geometry that the format does not define.
+fn visual(node: Node<'_, '_>, link: &str) -> Result<Option<Visual>, ImportError> {
+    let Some(geometry) = child(node, "geometry") else {
+        return Err(ImportError::new(format!("link `{link}`: a <visual> has no <geometry>")));
+    };
+    let attribute = |node, key: &str| {
+        let missing = || ImportError::new(format!("link `{link}`: the shape of its <visual> has no `{key}`"));
+        numbers::<3>(node, key)?.map(Vector3::from).ok_or_else(missing)
+    };
+    let shape = if let Some(node) = child(geometry, "box") {
+        VisualShape::Box(attribute(node, "size")?)
+    } else if let Some(node) = child(geometry, "cylinder") {
+        VisualShape::Cylinder { radius: required(node, "radius")?, length: required(node, "length")? }
+    } else if let Some(node) = child(geometry, "sphere") {
+        VisualShape::Sphere(required(node, "radius")?)
+    } else if let Some(node) = child(geometry, "mesh") {
+        let scale = numbers::<3>(node, "scale")?.map_or(Vector3::repeat(1.0), Vector3::from);
+        let name = node.attribute("filename").unwrap_or_default().to_owned();
+        VisualShape::Mesh { name, scale, path: None }
+    } else {
+        return Ok(None);
+    };
+    let lengths = match &shape {
+        VisualShape::Box(sides) => sides.iter().copied().collect(),
+        VisualShape::Cylinder { radius, length } => vec![*radius, *length],
+        VisualShape::Sphere(radius) => vec![*radius],
+        VisualShape::Mesh { .. } => Vec::new(),
+    };
+    if lengths.iter().any(|length| *length <= 0.0) {
+        return Err(ImportError::new(format!(
+            "link `{link}`: the shape of its <visual> has a length that is not positive"
+        )));
+    }
+    Ok(Some(Visual { shape, origin: origin(node)? }))
 }
 
 fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoint, ImportError> {

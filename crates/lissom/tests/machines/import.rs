@@ -235,6 +235,56 @@ fn limits_damping_and_friction_become_springs_and_followers_gears() {
     assert!((b - 0.02 + 0.1 * a).abs() < 1e-9 && a.abs() > 1e-3, "{a} {b}");
 }
 
+/// Least and greatest corner of what is drawn of a body.
+fn extent(body: &lissom_model::document::Body) -> [[f32; 3]; 2] {
+    let points = &body.surface.as_ref().expect("a shape").points;
+    [f32::min as fn(f32, f32) -> f32, f32::max]
+        .map(|of| std::array::from_fn(|k| points.iter().map(|point| point[k]).reduce(of).expect("points")))
+}
+
+#[test]
+fn shapes_and_meshes_of_links_are_drawn() {
+    let folder = crate::support::Folder::new("visuals");
+    let meshes = folder.path().join("robots/arm_description/meshes");
+    std::fs::create_dir_all(&meshes).unwrap();
+    let facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1000 0 0 vertex 0 500 0 endloop endfacet";
+    std::fs::write(meshes.join("plate.stl"), format!("solid plate\n{facet}\nendsolid")).unwrap();
+    let text = "<robot name='arm'><link name='base'><visual><geometry><sphere radius='1'/></geometry></visual></link>\
+         <link name='upper'><inertial><origin xyz='9 9 9'/><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
+         <visual><origin xyz='0.5 0 0' rpy='0 0 1.5707963267948966'/><geometry><box size='0.2 1 0.4'/></geometry></visual>\
+         <visual><geometry><mesh filename='hand.dae'/></geometry></visual></link>\
+         <link name='tool'><visual><geometry><cylinder radius='0.1' length='2'/></geometry></visual></link>\
+         <link name='plate'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1'/></inertial>\
+         <visual><geometry><mesh filename='package://arm_description/meshes/plate.stl' scale='0.001 -0.001 0.001'/></geometry></visual></link>\
+         <joint name='a' type='continuous'><parent link='base'/><child link='upper'/></joint>\
+         <joint name='glue' type='fixed'><parent link='upper'/><child link='tool'/><origin xyz='2 0 0'/></joint>\
+         <joint name='b' type='continuous'><parent link='tool'/><child link='plate'/></joint></robot>";
+    let description = folder.path().join("robots/arm_description/urdf/arm.urdf");
+    std::fs::create_dir_all(description.parent().unwrap()).unwrap();
+    let mut robot = from_urdf(text).expect("a robot");
+    let model = folder.path().join("arm.toml");
+    robot.locate_meshes(&description, &model);
+    let text = model_text(&robot, &Pose::default(), Options::default()).expect("a model");
+    assert!(
+        text.contains(
+            "# Omitted: meshes, which must be STL or glTF files in the folders of the description: hand.dae."
+        ),
+        "{text}"
+    );
+    assert!(text.contains("file = \"robots/arm_description/meshes/plate.stl\""), "{text}");
+    let registry = lissom_model::lower::registry::registry();
+    let document =
+        lissom_model::Document::parse(&text, &model.display().to_string(), &registry).expect("a model");
+    let body = |name: &str| document.bodies.iter().find(|body| body.name.value == name).expect("there");
+    let is_near = |found: [[f32; 3]; 2], wanted: [[f32; 3]; 2]| {
+        let near = found.iter().flatten().zip(wanted.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(near, "{found:?} is not {wanted:?}");
+    };
+    // The box, turned by a quarter about z, and the cylinder of the tool, which is fixed 2 m away.
+    is_near(extent(body("upper")), [[0.0, -0.1, -1.0], [2.1, 0.1, 1.0]]);
+    is_near(extent(body("plate")), [[0.0, -0.5, 0.0], [1.0, 0.0, 0.0]]);
+}
+
 #[test]
 fn wrong_descriptions_are_reported() {
     let said = |text: &str| match from_urdf(text) {

@@ -50,7 +50,7 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
         robot: Robot {
             name: root.attribute("model").unwrap_or("robot").to_owned(),
             gravity: outside::gravity(root)?,
-            links: vec![Link { name: "world".to_owned(), inertia: None }],
+            links: vec![Link { name: "world".to_owned(), inertia: None, visuals: Vec::new() }],
             is_root_the_world: true,
             joints: Vec::new(),
             left_out: Vec::new(),
@@ -238,7 +238,11 @@ impl Reader {
                 None => format!("{name}_joint{}", number + 1),
             };
             let link = if is_last { name.clone() } else { format!("{name} behind {joint_name}") };
-            self.robot.links.push(Link { name: link, inertia: inertia.filter(|_| is_last) });
+            self.robot.links.push(Link {
+                name: link,
+                inertia: inertia.filter(|_| is_last),
+                visuals: Vec::new(),
+            });
             let compiled = (&self.angles, self.autolimits);
             let joint = joint::joint(element, compiled, (joint_name, carrier, child, origin))?;
             if joint.freedom == Freedom::Floating && (count > 1 || parent > 0) {
@@ -251,7 +255,7 @@ impl Reader {
         }
         if count == 0 {
             let child = self.robot.links.len();
-            self.robot.links.push(Link { name: name.clone(), inertia });
+            self.robot.links.push(Link { name: name.clone(), inertia, visuals: Vec::new() });
             let fixed = RobotJoint::new(format!("{name}_fixed"), Freedom::Fixed, parent, child, origin);
             self.robot.joints.push(fixed);
             carrier = child;

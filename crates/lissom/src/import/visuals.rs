@@ -1,0 +1,127 @@
+//! What is drawn of a robot's links: solids, and meshes in files of their own.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use lissom_model::toml_text::quoted;
+use lissom_motion::{Motion, Vector3};
+
+use super::Robot;
+use super::model_text::list;
+
+/// Formats of meshes that can be drawn.
+const DRAWN: [&str; 3] = ["stl", "gltf", "glb"];
+
+/// A shape at its position in the link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Visual {
+    /// The shape.
+    pub shape: VisualShape,
+    /// Its frame in that of the link.
+    pub origin: Motion,
+}
+
+/// The shape of a visual.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VisualShape {
+    /// A box with these sides [m].
+    Box(Vector3),
+    /// A cylinder along z [m].
+    Cylinder {
+        /// Radius.
+        radius: f64,
+        /// Length.
+        length: f64,
+    },
+    /// A sphere of this radius [m].
+    Sphere(f64),
+    /// A file with triangles.
+    Mesh {
+        /// The file as the description names it.
+        name: String,
+        /// Factors along its axes, to metres.
+        scale: Vector3,
+        /// The file as the model names it; none before [`Robot::locate_meshes`], or if it cannot be drawn.
+        path: Option<String>,
+    },
+}
+
+impl Visual {
+    /// The entry of a body's `shape`, in the frame of the body; none for a mesh that is not drawn.
+    pub(super) fn text(&self, link_in_body: &Motion) -> Option<String> {
+        let mut text = match &self.shape {
+            VisualShape::Box(sides) => format!("kind = \"box\", sides = {}", list(sides)),
+            VisualShape::Cylinder { radius, length } => {
+                format!("kind = \"cylinder\", radius = {radius:?}, length = {length:?}")
+            }
+            VisualShape::Sphere(radius) => format!("kind = \"sphere\", radius = {radius:?}"),
+            VisualShape::Mesh { scale, path, .. } => {
+                let file = quoted(path.as_ref()?);
+                format!("kind = \"mesh\", file = {file}, scale = {}", list(scale))
+            }
+        };
+        let frame = *link_in_body * self.origin;
+        // Writing to a string cannot fail.
+        let _ = write!(text, ", position = {}", list(&frame.position));
+        let rotation = frame.rotation.logarithm();
+        if rotation != Vector3::zeros() {
+            let _ = write!(text, ", rotation = {}", list(&rotation));
+        }
+        Some(format!("{{ {text} }}"))
+    }
+}
+
+impl Robot {
+    /// Looks for the files of meshes: beside the `description`, or for `package://name/…` in a folder `name` around it. Those that
+    /// are found in a format that can be drawn are named relative to the folder of the `model` file, or absolutely if they are
+    /// not in it.
+    pub fn locate_meshes(&mut self, description: &Path, model: &Path) {
+        let folder = |file: &Path| {
+            let folder =
+                file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+        };
+        let (around, of_model) = (folder(description), folder(model));
+        for visual in self.links.iter_mut().flat_map(|link| &mut link.visuals) {
+            let VisualShape::Mesh { name, path, .. } = &mut visual.shape else { continue };
+            *path = found(name, &around).map(|file| {
+                let named = file.strip_prefix(&of_model).unwrap_or(&file);
+                named.to_string_lossy().replace('\\', "/")
+            });
+        }
+    }
+
+    /// The meshes that are not drawn, in a sentence.
+    pub fn meshes_left_out(&self) -> Option<String> {
+        let names =
+            self.links.iter().flat_map(|link| &link.visuals).filter_map(|visual| match &visual.shape {
+                VisualShape::Mesh { name, path: None, .. } => Some(name.as_str()),
+                _ => None,
+            });
+        let mut names: Vec<&str> = names.collect();
+        names.sort_unstable();
+        names.dedup();
+        let first = names.first()?;
+        let more = if names.len() > 1 { format!(" and {} more", names.len() - 1) } else { String::new() };
+        Some(format!(
+            "meshes, which must be STL or glTF files in the folders of the description: {first}{more}"
+        ))
+    }
+}
+
+/// The file of a mesh.
+fn found(name: &str, around: &Path) -> Option<PathBuf> {
+    let candidates: Vec<PathBuf> = match name.strip_prefix("package://") {
+        // The package is a folder around the description, or beside it.
+        Some(inside) => {
+            let own = inside.split_once('/').map_or("", |(_, own)| own);
+            around.ancestors().flat_map(|folder| [folder.join(inside), folder.join(own)]).collect()
+        }
+        None => vec![around.join(name.strip_prefix("file://").unwrap_or(name))],
+    };
+    let is_drawn = |file: &PathBuf| {
+        let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        ending.is_some_and(|ending| DRAWN.contains(&ending.as_str())) && file.is_file()
+    };
+    candidates.into_iter().find(is_drawn)?.canonicalize().ok()
+}
