@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lissom::core::analysis::Simulation;
+use lissom::core::simulation::Simulation;
 use lissom::{Model, Session};
 use lissom_model::lower::lower;
 use serde::{Deserialize, Serialize};

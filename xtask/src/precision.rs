@@ -1,8 +1,9 @@
 //! `cargo xtask precision`: work and error of adaptive steps. Runs scenes and model files without records, with several schemes and
 //! tolerances, and prints steps, iterations, processor time and the error of the poses at the end. Independent of mechanics.
 
-use lissom::core::analysis::{Simulation, Unwatched};
 use lissom::core::kinematics::Kinematics;
+use lissom::core::settings::Unwatched;
+use lissom::core::simulation::Simulation;
 use lissom::{Model, Override};
 use lissom_model::lower::lower;
 

@@ -1,4 +1,4 @@
-//! `cargo xtask structure`: import cycles between the files of a crate. A file imports another one if it names an item that is defined there,
+//! `cargo xtask structure`: import cycles between the files of a crate, and between its folders. A file imports another one if it names an item that is defined there,
 //! also through re-exports; a re-export alone is no import, and tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -220,9 +220,26 @@ fn reached(edges: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeSe
 /// # Errors
 /// If a file cannot be read or is no Rust.
 pub(crate) fn cycles(root: &Path) -> Result<Vec<Vec<String>>, StructureError> {
-    let edges = Crate::read(root)?.edges();
+    Ok(cycles_of(&Crate::read(root)?.edges()))
+}
+
+/// Those of its folders and of the files beside them.
+///
+/// # Errors
+/// If a file cannot be read or is no Rust.
+pub(crate) fn cycles_of_folders(root: &Path) -> Result<Vec<Vec<String>>, StructureError> {
+    let mut edges: BTreeMap<Module, BTreeSet<Module>> = BTreeMap::new();
+    let folder = |module: &Module| module.iter().take(1).cloned().collect::<Module>();
+    for (from, targets) in Crate::read(root)?.edges() {
+        let others = targets.iter().map(folder).filter(|to| *to != folder(&from) && !to.is_empty());
+        edges.entry(folder(&from)).or_default().extend(others);
+    }
+    Ok(cycles_of(&edges))
+}
+
+fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     let reach: BTreeMap<&Module, BTreeSet<Module>> =
-        edges.keys().map(|module| (module, reached(&edges, module))).collect();
+        edges.keys().map(|module| (module, reached(edges, module))).collect();
     let mut cycles: BTreeSet<Vec<String>> = BTreeSet::new();
     for (module, others) in &reach {
         let own = others.iter().filter(|other| reach.get(other).is_some_and(|back| back.contains(*module)));
@@ -233,7 +250,7 @@ pub(crate) fn cycles(root: &Path) -> Result<Vec<Vec<String>>, StructureError> {
     }
     let mut cycles: Vec<Vec<String>> = cycles.into_iter().collect();
     cycles.sort_by_key(|files| std::cmp::Reverse(files.len()));
-    Ok(cycles)
+    cycles
 }
 
 /// Prints the cycles of a crate.
@@ -243,6 +260,9 @@ pub(crate) fn cycles(root: &Path) -> Result<Vec<Vec<String>>, StructureError> {
 pub(crate) fn run(root: &Path) -> Result<(), StructureError> {
     for files in cycles(root)? {
         println!("{} files: {}", files.len(), files.join(", "));
+    }
+    for folders in cycles_of_folders(root)? {
+        println!("{} folders: {}", folders.len(), folders.join(", "));
     }
     Ok(())
 }
@@ -280,6 +300,15 @@ mod tests {
     }
 
     #[test]
+    fn folders_of_the_core_stand_on_floors() {
+        for name in ["lissom-system", "lissom-core"] {
+            let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src");
+            let found = cycles_of_folders(&root).expect("readable sources");
+            assert!(found.is_empty(), "folders of {name} import each other: {found:?}");
+        }
+    }
+
+    #[test]
     fn cycles_are_found_through_re_exports() {
         let folder = std::env::temp_dir().join(format!("xtask-structure-{}", std::process::id()));
         std::fs::create_dir_all(folder.join("inner")).expect("a folder");
@@ -291,11 +320,12 @@ mod tests {
             "inner/b.rs",
             "pub struct Thing;\nimpl Thing { fn own(&self) -> crate::a::Other { crate::a::Other(Thing) } }\n",
         );
-        let found = cycles(&folder);
+        let (found, folders) = (cycles(&folder), cycles_of_folders(&folder));
         write("inner/b.rs", "pub struct Thing;\n#[cfg(test)]\nmod tests { use crate::a::Other; }\n");
         let without = cycles(&folder);
         std::fs::remove_dir_all(&folder).expect("a folder");
         assert_eq!(found.expect("a crate"), [["a", "inner/b"]]);
+        assert_eq!(folders.expect("a crate"), [["a", "inner"]]);
         assert!(without.expect("a crate").is_empty());
     }
 }

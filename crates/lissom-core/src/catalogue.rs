@@ -1,15 +1,16 @@
 //! All codes of warnings and failures of the core, for the manual and `lissom explain`.
 
-use crate::analysis::assembly::AssemblyError;
-use crate::analysis::joint_space::JointSpaceError;
-use crate::analysis::path::PathError;
-use crate::analysis::{InitialError, InputError, StepError, signal_failure};
+use crate::assembly::AssemblyError;
 use crate::diagnostics::Entry;
-use crate::judge::Warning;
+use crate::errors::Warning;
+use crate::errors::{InitialError, StepError, signal_failure};
 use crate::linear::{
     BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
 };
-use crate::stepping::SnapshotError;
+use crate::path::PathError;
+use crate::simulation::InputError;
+use crate::simulation::SnapshotError;
+use crate::studies::joint_space::JointSpaceError;
 
 /// Their entries: warnings, then failures.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {

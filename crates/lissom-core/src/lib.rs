@@ -9,25 +9,33 @@ pub use lissom_mechanics::{
 };
 pub use lissom_system as system;
 
-pub mod analysis;
+pub mod assembly;
 mod bytes;
 pub mod catalogue;
-pub mod catalogued;
+pub mod consistent;
 pub(crate) mod control;
 pub mod diagnostics;
+pub mod differentiation;
+mod energy_balance;
+pub mod errors;
 pub(crate) mod integrator;
 pub mod interrupt;
-pub mod judge;
+pub(crate) mod judge;
 pub mod linear;
 pub(crate) mod monitors;
 pub mod newton;
 mod node_motion;
+pub mod path;
 pub mod saddle_point;
 pub mod scaling;
 pub mod schemes;
+pub mod settings;
+pub mod simulation;
 pub mod solver_features;
-pub mod stepping;
+pub mod studies;
 pub mod tuning;
+
+pub use energy_balance::EnergyBalance;
 
 /// The linear solvers, by name.
 pub mod solvers {

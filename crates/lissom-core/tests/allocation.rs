@@ -3,7 +3,6 @@
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 
-use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
 use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::joints;
@@ -11,6 +10,8 @@ use lissom_core::newton::Limits;
 use lissom_core::registry::Parameters;
 use lissom_core::scaling::ScalingChoice;
 use lissom_core::schemes::{energy_decaying, generalized_alpha, radau_iia};
+use lissom_core::settings::Settings;
+use lissom_core::simulation::Simulation;
 use lissom_core::system::{Builder, Placement};
 use lissom_motion::{Matrix6, Motion, Vector3};
 

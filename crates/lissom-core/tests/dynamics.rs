@@ -1,6 +1,5 @@
 //! Whole systems in time: orders of convergence, energy, drift, statics.
 
-use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
 use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::elements::inertia::Inertia;
@@ -11,6 +10,8 @@ use lissom_core::newton::Limits;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::scaling::ScalingChoice;
 use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, statics};
+use lissom_core::settings::Settings;
+use lissom_core::simulation::Simulation;
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6};
 

@@ -1,6 +1,6 @@
 //! Degrees of freedom and redundant constraints.
 
-use lissom_core::analysis::mobility;
+use lissom_core::consistent::mobility;
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::joints;
 use lissom_core::kinematics::{Freedoms, NodeId};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::analysis::Need;
+use lissom_core::simulation::Need;
 use lissom_core::system::{State, System};
 
 use crate::document::{Feature, OutputKind};

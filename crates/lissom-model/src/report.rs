@@ -2,7 +2,7 @@
 //! Independent of the meaning of keys.
 
 use lissom_core::diagnostics::{self, Diagnose, Diagnostic, Entry, Value};
-use lissom_core::judge::Warning;
+use lissom_core::errors::Warning;
 use lissom_core::kinematics::Subject;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

@@ -1,6 +1,6 @@
 //! The properties of the energy-decaying scheme, on a rigid and flexible spatial model.
 
-use lissom_core::analysis::Simulation;
+use lissom_core::simulation::Simulation;
 use lissom_model::Document;
 use lissom_model::lower::{lower, registry::registry};
 

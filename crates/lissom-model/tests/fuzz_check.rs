@@ -2,7 +2,7 @@
 
 use crate::support::damage;
 
-use lissom_core::analysis::mobility::mobility;
+use lissom_core::consistent::mobility::mobility;
 use lissom_model::Document;
 use lissom_model::lower::{lower, registry::registry};
 use proptest::prelude::*;

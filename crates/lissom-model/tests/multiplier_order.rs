@@ -1,6 +1,6 @@
 //! Multipliers keep second order with steps that change by 1.2 every time, in fast rotation.
 
-use lissom_core::analysis::Simulation;
+use lissom_core::simulation::Simulation;
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower, registry::registry};
 

@@ -1,6 +1,6 @@
 //! Steps of changing size: chosen by their error, or given. References are runs with far smaller steps of one size.
 
-use lissom_core::analysis::Simulation;
+use lissom_core::simulation::Simulation;
 use lissom_core::system::State;
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower, registry::registry};
@@ -43,7 +43,7 @@ fn simulation_of(text: &str) -> Simulation {
 
 fn run_to(simulation: &mut Simulation, end: f64) {
     while simulation.state().kinematics.time < end {
-        simulation.step_watched(end, &mut lissom_core::analysis::Unwatched).expect("it has a solution");
+        simulation.step_watched(end, &mut lissom_core::settings::Unwatched).expect("it has a solution");
     }
 }
 
@@ -215,7 +215,7 @@ fn steps_end_where_loads_have_kinks() {
     let mut simulation = Simulation::new(system, state, settings).expect("it starts");
     let mut times = Vec::new();
     while simulation.state().kinematics.time < 1.0 {
-        simulation.step_watched(1.0, &mut lissom_core::analysis::Unwatched).expect("it has a solution");
+        simulation.step_watched(1.0, &mut lissom_core::settings::Unwatched).expect("it has a solution");
         times.push(simulation.state().kinematics.time);
     }
     // Behind the jump, and before the kink.

@@ -1,6 +1,6 @@
 //! The source's main problem, from its model file: lateral buckling of a beam lifted by a tip crank.
 
-use lissom_core::analysis::Simulation;
+use lissom_core::simulation::Simulation;
 use lissom_model::Document;
 use lissom_model::lower::{lower, registry::registry};
 

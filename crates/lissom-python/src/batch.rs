@@ -6,7 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lissom::core::analysis::{InputError, StepError};
+use lissom::core::simulation::InputError;
+use lissom::core::errors::StepError;
 use lissom::core::interrupt;
 use lissom::{Diagnose, Diagnostic, Prepared, Session, SessionSnapshot, with_code};
 use numpy::ndarray::ArrayViewD;

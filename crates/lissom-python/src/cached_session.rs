@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use lissom::core::judge::Warning;
+use lissom::core::errors::Warning;
 use lissom::{Column, Session, with_code};
 
 use crate::joints::Beginning;

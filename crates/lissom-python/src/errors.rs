@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use lissom::core::analysis::InputError;
+use lissom::core::simulation::InputError;
 use lissom::core::diagnostics::Value;
 use lissom::sweep::{SweepError, SweepFolderError};
 use lissom::{CommandError, Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};

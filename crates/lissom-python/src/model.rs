@@ -5,7 +5,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::num::NonZero;
 use std::path::PathBuf;
 
-use lissom::core::analysis::mobility::{Redundant, mobility};
+use lissom::core::consistent::Redundant;
+use lissom::core::consistent::mobility::mobility;
 use lissom::{Document, Model, Override, Prepared, Record, Session, SessionError, Stopped, Summary, summary};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;

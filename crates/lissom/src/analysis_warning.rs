@@ -4,7 +4,7 @@ use std::fmt::{self, Display};
 
 use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
-use lissom_core::judge::Warning;
+use lissom_core::errors::Warning;
 
 /// A warning about the result of an analysis.
 #[derive(Clone, Debug, PartialEq)]

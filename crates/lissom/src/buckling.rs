@@ -5,8 +5,8 @@ use lissom_core::diagnostics::Diagnose;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
 use lissom_core::linear::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
+use lissom_core::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
 use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
 use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::Summary;

@@ -48,7 +48,7 @@ pub(crate) fn facts(error: &impl Diagnose) -> serde_json::Value {
 
 #[cfg(test)]
 mod tests {
-    use lissom_core::analysis::StepError;
+    use lissom_core::errors::StepError;
 
     use super::*;
     use crate::RunError;

@@ -9,8 +9,8 @@ use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::diagnostics::{Entry, Severity};
+use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Switch;
 use lissom_model::document::AnalysisKind;
 use lissom_model::output::Summary;

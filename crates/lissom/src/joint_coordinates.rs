@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use lissom_core::analysis::assembly::AssemblyError;
-use lissom_core::analysis::joint_space::{JointSpace, JointSpaceError, check_number};
-use lissom_core::analysis::mobility::mobility;
+use lissom_core::assembly::AssemblyError;
+use lissom_core::consistent::mobility::mobility;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::kinematics::CoordinateId;
+use lissom_core::studies::joint_space::{JointSpace, JointSpaceError, check_number};
 use lissom_core::system::ElementId;
 use lissom_motion::Vector6;
 

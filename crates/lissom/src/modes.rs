@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::{InitialError, StepError};
+use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Kinematics;
 use lissom_core::linear::{
     Completeness, Departure, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind,

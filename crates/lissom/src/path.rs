@@ -9,12 +9,10 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::Settings;
-use lissom_core::analysis::equilibrium::at_rest;
-use lissom_core::analysis::path::{
-    BranchChoice, CriticalPoint, EquilibriumPath, Family, PathError, PathSettings,
-};
-use lissom_core::judge::Warning;
+use lissom_core::errors::Warning;
+use lissom_core::path::{BranchChoice, CriticalPoint, EquilibriumPath, Family, PathError, PathSettings};
+use lissom_core::settings::Settings;
+use lissom_core::simulation::equilibrium::at_rest;
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 use lissom_model::document::{AnalysisKind, OutputKind};

@@ -3,7 +3,7 @@
 use lissom_core::diagnostics::Diagnose;
 use std::sync::Arc;
 
-use lissom_core::analysis::InitialError;
+use lissom_core::errors::InitialError;
 use lissom_core::kinematics::Kinematics;
 use lissom_core::system::{State, System};
 use lissom_model::Document;

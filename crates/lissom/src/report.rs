@@ -4,8 +4,9 @@ use lissom_core::diagnostics::Diagnose;
 use std::io;
 use std::time::Duration;
 
-use lissom_core::analysis::{StepError, Totals};
 use lissom_core::elements::Energy;
+use lissom_core::errors::StepError;
+use lissom_core::settings::Totals;
 
 use serde::{Deserialize, Serialize};
 

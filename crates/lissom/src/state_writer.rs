@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lissom_core::analysis::Simulation;
+use lissom_core::simulation::Simulation;
 
 /// Receives states during a run.
 pub trait StateWriter: Send {

@@ -2,10 +2,10 @@
 
 use std::fmt::Display;
 
-use lissom_core::analysis::InitialError;
-use lissom_core::analysis::assembly::Gap;
+use lissom_core::assembly::Gap;
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::elements::Energy;
+use lissom_core::errors::InitialError;
 use lissom_core::scaling::Representative;
 use lissom_model::Document;
 use lissom_model::lower::{Assembly, Brought, Lowered, MovedPart, lower};

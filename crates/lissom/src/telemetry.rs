@@ -2,7 +2,8 @@
 //! summary remains small, and the condition is estimated less and less often. Nothing depends on the clock: a resumed
 //! run reports the same as an uninterrupted one.
 
-use lissom_core::analysis::{Simulation, StepReport};
+use lissom_core::settings::StepReport;
+use lissom_core::simulation::Simulation;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::{Phase, Stopwatch};
 use lissom_core::interrupt;
+use lissom_core::settings::{Phase, Stopwatch};
 
 /// Steps that take longer than this on average are all measured.
 const LONG: Duration = Duration::from_micros(20);

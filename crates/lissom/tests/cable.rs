@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session};
-use lissom_core::judge::Warning;
+use lissom_core::errors::Warning;
 use lissom_core::linear::Completeness;
 use lissom_model::output::Summary;
 

@@ -5,7 +5,7 @@ use crate::support::truss;
 
 use lissom::Model;
 use lissom::path::{PathEnd, PathSession};
-use lissom_core::analysis::path::CriticalKind;
+use lissom_core::path::CriticalKind;
 use paths::{follow, near};
 use truss::truss;
 

@@ -4,7 +4,7 @@ use crate::support::paths;
 use crate::support::truss;
 
 use lissom::path::PathEnd;
-use lissom_core::analysis::path::CriticalKind;
+use lissom_core::path::CriticalKind;
 use paths::{follow, near, start};
 use truss::truss;
 

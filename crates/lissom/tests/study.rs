@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use lissom::Model;
-use lissom::core::analysis::ConditionMethod;
 use lissom::core::scaling::ScaleBy;
+use lissom::core::simulation::ConditionMethod;
 use lissom::study::{StudyError, conditioning, convergence, factorization, roundoff};
 
 /// Powers of ten between two published values.

@@ -1,7 +1,7 @@
 //! The claims of [Epple 2008] about the method, each with the command that measures it, the figure, and whether they agree.
 
 use lissom::Override;
-use lissom::core::analysis::factorization_study::{Case, Factored};
+use lissom::core::studies::factorization::{Case, Factored};
 use lissom::study::conditioning::{self, Table as Conditions};
 use lissom::study::convergence;
 use lissom::study::factorization::{self, scaling_name};

@@ -1,6 +1,6 @@
 //! Effects of scaling, augmented term and pivoting on the first tangent of the tip crank.
 
-use lissom::core::analysis::factorization_study::{Case, Factored};
+use lissom::core::studies::factorization::{Case, Factored};
 use lissom::study::factorization::{Table, scaling_name, study};
 
 use super::fragment::{Fragment, overrides, study_command};

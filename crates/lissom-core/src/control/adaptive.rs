@@ -10,12 +10,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::interface::{Control, Review};
-use crate::analysis::{Controlled, Problem, StepControl};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::instants::SAME;
 use crate::integrator::Attempt;
 use crate::integrator::error_estimate::{MIN_ERROR, MIN_REFERENCE, driven, excursion};
 use crate::kinematics::CoordinateId;
+use crate::settings::{Controlled, Problem, StepControl};
 use crate::tuning::{Tuning, TuningParameter};
 
 /// Fraction of the tolerance that a step may err in accelerations: the errors of a vibration add up over its periods.

@@ -1,9 +1,9 @@
 //! Interface of a step-length control.
 
-use crate::analysis::Problem;
+use crate::energy_balance::EnergyBalance;
 use crate::integrator::{Attempt, Integrator};
-use crate::judge::EnergyBalance;
 use crate::kinematics::Kinematics;
+use crate::settings::Problem;
 use crate::system::State;
 use crate::tuning::Tuning;
 

@@ -7,9 +7,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::interface::{Control, Review};
-use crate::analysis::StepControl;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::integrator::Attempt;
+use crate::settings::StepControl;
 use crate::tuning::{MAX_HALVINGS, Tuning, TuningParameter};
 
 /// Iterations of a step of suitable length: few tangents serve several steps.

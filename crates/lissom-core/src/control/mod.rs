@@ -11,7 +11,7 @@ mod planned;
 
 pub(crate) use interface::{Control, Review};
 
-use crate::analysis::Settings;
+use crate::settings::Settings;
 
 /// The control required by the settings.
 pub(crate) fn of(settings: &Settings) -> Box<dyn Control> {

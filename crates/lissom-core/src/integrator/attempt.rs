@@ -1,6 +1,6 @@
 //! An attempt at a step: the step control accepts it, requires a shorter one, or rejects it.
 
-use crate::judge::EnergyBalance;
+use crate::energy_balance::EnergyBalance;
 use crate::newton::Outcome;
 use crate::system::State;
 

@@ -15,9 +15,9 @@
 //! those at its start, which does not become smaller with the step: up to its size nothing is reported.
 
 use super::{Integrator, dense_output};
-use crate::analysis::Problem;
 use crate::joints::evaluation_point::{Increments, Point};
 use crate::kinematics::MotionChange;
+use crate::settings::Problem;
 use crate::system::State;
 
 /// Defects below this multiple of the relative violation at the start are its correction: with its accelerations the dense output

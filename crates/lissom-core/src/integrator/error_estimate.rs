@@ -15,10 +15,10 @@
 //! a node since the start, or that of a drive within the longest step, at most 1.
 
 use super::Integrator;
-use crate::analysis::Problem;
 use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity, Subject};
 use crate::schemes::ErrorEstimate;
+use crate::settings::Problem;
 use crate::system::{Drive, System};
 
 /// Motions smaller than this fraction of the model's size are not resolved individually.

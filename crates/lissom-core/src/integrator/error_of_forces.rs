@@ -13,9 +13,9 @@
 
 use super::Integrator;
 use super::error_estimate::inertial_part;
-use crate::analysis::Problem;
 use crate::kinematics::Kinematics;
 use crate::round_off;
+use crate::settings::Problem;
 
 impl Integrator {
     /// The largest scaled error of an acceleration at the end of the last attempt, whose error has been estimated, and the largest

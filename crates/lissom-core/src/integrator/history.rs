@@ -14,8 +14,8 @@
 
 use lissom_solver::SolverKind;
 
-use crate::analysis::InitialError;
-use crate::analysis::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::initial_conditions::ConsistentInitialConditions;
+use crate::errors::InitialError;
 use crate::kinematics::LOCKED;
 use crate::scaling::Representative;
 use crate::system::{State, System};

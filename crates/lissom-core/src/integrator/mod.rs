@@ -1,27 +1,36 @@
 //! Solves steps: from a state and a step size to the state at the end of the step. It neither chooses the size nor accepts
 //! the result.
 
+pub(crate) mod anderson;
 mod attempt;
+mod corrections;
 mod defect;
+pub(crate) mod dense;
+pub(crate) mod equations;
 pub(crate) mod error_estimate;
 mod error_of_forces;
 mod history;
+pub(crate) mod predictor;
+pub(crate) mod projection;
+pub(crate) mod workspace;
 
 pub(crate) use attempt::Attempt;
 pub(crate) use history::IntegratorHistory;
 
 use lissom_solver::{FactorError, SolverKind};
 
-use crate::analysis::equations::StepEquations;
-use crate::analysis::projection::Projection;
-use crate::analysis::step_error::describe;
-use crate::analysis::workspace::Workspace;
-use crate::analysis::{Problem, Settings, StepError, Stopwatch, TangentValues, Unwatched};
+use crate::errors::StepError;
+use crate::errors::step_error::describe;
+use crate::integrator::dense::{DenseOutput, SolvedStages};
+use crate::integrator::equations::StepEquations;
+use crate::integrator::projection::Projection;
+use crate::integrator::workspace::Workspace;
 use crate::kinematics::{Kinematics, MotionChange};
 use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
+use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, ScaleBy, Scaled};
 use crate::schemes::StageSystem;
-use crate::stepping::dense::{DenseOutput, SolvedStages};
+use crate::settings::{Problem, Settings, Stopwatch, Unwatched};
 use crate::system::{State, Threads};
 
 /// If round-off prevents schemes that integrate velocities from reaching the tolerance, a last correction below this is

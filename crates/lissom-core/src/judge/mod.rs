@@ -6,22 +6,15 @@
 //! motions which it does not resolve.
 
 pub(crate) mod degenerate_joint;
-mod energy_balance;
-mod reports;
 pub(crate) mod start;
-mod warning;
-
-pub use energy_balance::EnergyBalance;
-pub(crate) use energy_balance::StepWork;
-pub(crate) use reports::{report, warn};
-pub use warning::Warning;
 
 use std::f64::consts::PI;
 
-use crate::analysis::Problem;
-use crate::analysis::StepError;
+use crate::energy_balance::{EnergyBalance, StepWork};
+use crate::errors::{StepError, Warning};
 use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
 use crate::scaling::Representative;
+use crate::settings::Problem;
 use crate::system::{State, System};
 
 /// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions

@@ -2,8 +2,8 @@
 
 use lissom_motion::Vector3;
 
-use super::Warning;
-use crate::analysis::InitialError;
+use crate::errors::InitialError;
+use crate::errors::Warning;
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, NodeMotion, Quantity, Subject, split};
 use crate::scaling::Representative;
 use crate::system::System;

@@ -19,7 +19,7 @@ use super::model::{LinearError, LinearModel, nothing, point, stopped};
 use super::rolling_axes;
 use super::shifted::ComplexShift;
 use super::velocity_constraints::refuse;
-use crate::analysis::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{CoordinateId, LOCKED, NodeId, NodeMotion, Quantity};

@@ -3,7 +3,7 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::{Warning, report};
+use crate::errors::{Warning, report};
 
 /// Strains of the line above this are reported [-].
 const NOTEWORTHY: f64 = 0.1;

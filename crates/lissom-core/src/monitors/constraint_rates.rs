@@ -11,7 +11,7 @@ use lissom_motion::Motion;
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::pairs::Pairs;
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::{Warning, report};
+use crate::errors::{Warning, report};
 use crate::kinematics::{Kinematics, Quantity};
 use crate::round_off::VIOLATION;
 use crate::system::System;

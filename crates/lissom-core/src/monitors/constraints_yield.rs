@@ -2,8 +2,9 @@
 //! redundant or contradictory, and are regularised.
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::judge::warn;
-use crate::judge::{Judge, Warning};
+use crate::errors::Warning;
+use crate::errors::warn;
+use crate::judge::Judge;
 
 /// Has no state.
 struct ConstraintsYield;

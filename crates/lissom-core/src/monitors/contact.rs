@@ -4,9 +4,9 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::contact::wheel_on_rail::Pose;
 use crate::elements::rolling::Rolling;
+use crate::errors::Warning;
+use crate::errors::warn;
 use crate::joints::attached::AttachedJoint;
-use crate::judge::Warning;
-use crate::judge::warn;
 use crate::kinematics::Kinematics;
 use crate::round_off;
 use crate::system::{State, System};

@@ -1,11 +1,11 @@
 //! Drives that jump: however short the step, a prescribed position that jumps is reached with an undefined speed.
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::analysis::Problem;
-use crate::judge::Warning;
-use crate::judge::warn;
+use crate::errors::Warning;
+use crate::errors::warn;
 use crate::kinematics::{Kinematics, Quantity};
 use crate::scaling::Representative;
+use crate::settings::Problem;
 use crate::system::System;
 
 /// A drive jumps if it moves in a step by more than this multiple of its larger rate at both ends times the step.

@@ -12,12 +12,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::analysis::Problem;
 use crate::bytes::{from_bytes, to_bytes};
+use crate::errors::{Warning, report};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
-use crate::judge::{Warning, report};
 use crate::kinematics::Kinematics;
 use crate::linear::LinearModel;
+use crate::settings::Problem;
 use crate::system::State;
 
 /// Phase shifts above this are reported [rad].

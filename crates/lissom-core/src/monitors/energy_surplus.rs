@@ -1,7 +1,7 @@
 //! A motion with more energy than loads and drives have supplied.
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::judge::{Warning, report};
+use crate::errors::{Warning, report};
 
 /// Has no state: the energy balance is part of the simulation's state.
 struct EnergySurplus;

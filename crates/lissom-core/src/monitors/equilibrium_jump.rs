@@ -2,7 +2,7 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::{Warning, warn};
+use crate::errors::{Warning, warn};
 
 /// Fraction of the work of a load step that must be missing for a jump to be reported. On a path of equilibria that
 /// the trapezoidal rule approximates badly, for example with the whole load at once, up to a third is missing.

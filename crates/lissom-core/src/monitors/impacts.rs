@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::{Warning, report};
+use crate::errors::{Warning, report};
 use crate::kinematics::{Kinematics, Switch};
 use crate::system::System;
 

@@ -2,7 +2,7 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::elements::{LinearLimit, LinearRange};
-use crate::judge::Warning;
+use crate::errors::Warning;
 use crate::system::{State, System};
 
 /// Reports the first superelement that leaves its linear range in each respect. Has no state.

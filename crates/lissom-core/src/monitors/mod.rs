@@ -28,9 +28,10 @@ use std::any::Any;
 use monitor::Monitor;
 pub(crate) use monitor::{Accepted, Beginning};
 
-use crate::analysis::{Problem, StepError};
-use crate::judge::Warning;
+use crate::errors::StepError;
+use crate::errors::Warning;
 use crate::kinematics::Kinematics;
+use crate::settings::Problem;
 
 /// A kind of monitor.
 struct Kind {

@@ -2,12 +2,13 @@
 
 use std::any::Any;
 
-use crate::analysis::Problem;
-use crate::analysis::StepError;
+use crate::energy_balance::EnergyBalance;
+use crate::errors::StepError;
+use crate::errors::Warning;
 use crate::integrator::Integrator;
-use crate::judge::{EnergyBalance, Warning};
 use crate::kinematics::Kinematics;
 use crate::scaling::Representative;
+use crate::settings::Problem;
 use crate::system::State;
 
 /// A simulation at its start.

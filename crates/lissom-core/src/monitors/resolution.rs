@@ -17,8 +17,8 @@ use super::instants::Instants;
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::pairs::Pairs;
 use crate::bytes::{from_bytes, to_bytes};
+use crate::errors::{Warning, report};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
-use crate::judge::{Warning, report};
 use crate::schemes::ErrorEstimate;
 
 /// Errors that differ by more than this factor from those of the next step, or of the last pair, are due to an instant, not to the

@@ -3,7 +3,7 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::{Warning, report};
+use crate::errors::{Warning, report};
 
 /// Errors above this fraction of the largest axial force, shear force, torsion or bending moment are reported.
 const NOTEWORTHY: f64 = 0.01;

@@ -1,11 +1,12 @@
 //! Whether the motion crosses singular positions of closed loops.
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::analysis::singular_positions::SingularPositions;
-use crate::analysis::{Problem, StepError};
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::{Warning, warn};
+use crate::consistent::singular_positions::SingularPositions;
+use crate::errors::StepError;
+use crate::errors::{Warning, warn};
 use crate::kinematics::Kinematics;
+use crate::settings::Problem;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let system = beginning.problem.system;

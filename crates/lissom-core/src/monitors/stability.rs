@@ -2,11 +2,11 @@
 //! that satisfy the constraints. They are counted by the signs of pivots [Sylvester's law of inertia].
 
 use super::monitor::{Accepted, Beginning, Monitor};
-use crate::analysis::Problem;
 use crate::bytes::{from_bytes, to_bytes};
-use crate::judge::Warning;
-use crate::judge::warn;
+use crate::errors::Warning;
+use crate::errors::warn;
 use crate::linear::LinearModel;
+use crate::settings::Problem;
 use crate::system::State;
 
 /// Stability of the equilibria of load steps.

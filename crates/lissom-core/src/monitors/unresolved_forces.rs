@@ -13,11 +13,11 @@ use lissom_motion::{Motion, Vector6};
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
-use crate::analysis::Controlled;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::elements::beam::section_error::SectionError;
-use crate::judge::{Warning, report};
+use crate::errors::{Warning, report};
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId};
+use crate::settings::Controlled;
 use crate::system::System;
 
 /// c.

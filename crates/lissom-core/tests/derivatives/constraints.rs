@@ -1,6 +1,6 @@
 //! Every query of the one interface of constraints, applied to every kind that adds one.
 
-use lissom_core::analysis::mobility;
+use lissom_core::consistent::mobility;
 use lissom_core::joints::constraint::{Constraint, Port};
 use lissom_core::joints::{Build, JointKind, KINDS};
 use lissom_core::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED};

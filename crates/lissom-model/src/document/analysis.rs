@@ -1,7 +1,7 @@
 //! The analysis that a model file requests, with its settings.
 
-use lissom_core::analysis::Controlled;
 use lissom_core::registry::{Parameter, Parameters};
+use lissom_core::settings::Controlled;
 use lissom_core::solver_features::DisabledFeatures;
 
 use super::decode::of_kind;

@@ -1,10 +1,10 @@
 //! Scheme, step size, scaling and limits from the table `[analysis]`.
 
-use lissom_core::analysis::Settings;
-use lissom_core::analysis::{Controlled, StepControl};
 use lissom_core::newton::Limits;
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
 use lissom_core::schemes::{self, Scheme, SchemeParameters, statics};
+use lissom_core::settings::Settings;
+use lissom_core::settings::{Controlled, StepControl};
 use serde::{Deserialize, Serialize};
 
 use crate::document::{Analysis, AnalysisKind, Document, Scaling, StepChoice};

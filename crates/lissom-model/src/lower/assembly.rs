@@ -1,6 +1,6 @@
 //! Corrects approximate positions of parts until all joints close, and reports the displacements.
 
-use lissom_core::analysis::assembly::{AssemblyError, Gap, Request, assemble};
+use lissom_core::assembly::{AssemblyError, Gap, Request, assemble};
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::system::System;
 use lissom_motion::Motion;

@@ -1,9 +1,9 @@
 //! Whether prescribed motions begin where their joints are, and go on without jumps of speed.
 
-use lissom_core::analysis::Settings;
-use lissom_core::judge::Warning;
+use lissom_core::errors::Warning;
 use lissom_core::kinematics::{Quantity, Subject};
 use lissom_core::linear::{LinearModel, steady};
+use lissom_core::settings::Settings;
 use lissom_core::system::{Drive, State, System};
 
 use crate::document::{AnalysisKind, Component, Document};

@@ -1,8 +1,8 @@
 //! Which columns are not unique because constraints repeat each other: those that change where multipliers are added
 //! that are in equilibrium with each other.
 
-use lissom_core::analysis::mobility::{has_loops, mobility};
-use lissom_core::judge::Warning;
+use lissom_core::consistent::mobility::{has_loops, mobility};
+use lissom_core::errors::Warning;
 use lissom_core::kinematics::Subject;
 use lissom_core::system::{State, System};
 

@@ -27,12 +27,12 @@ pub(crate) mod work;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::analysis::accumulated::Accumulated;
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::linear::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Measurement};
+use lissom_core::simulation::accumulated::Accumulated;
 use lissom_core::system::element_quantity;
 use lissom_core::system::{ElementId, State, System};
 

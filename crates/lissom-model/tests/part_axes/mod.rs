@@ -6,8 +6,8 @@ mod joint_axes;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use lissom_core::analysis::Simulation;
 use lissom_core::registry::ParameterType;
+use lissom_core::simulation::Simulation;
 use lissom_model::document::OutputKind;
 use lissom_model::lower::{Lowered, lower, registry::registry};
 use lissom_model::registry::{ActsOn, KindEntry};

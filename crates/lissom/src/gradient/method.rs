@@ -1,7 +1,8 @@
 //! Two methods for the derivatives of a state: direct differentiation along the steps, with derivatives as linear unknowns,
 //! or differences of two neighbouring models with the same steps.
 
-use lissom_core::analysis::{Sensitivities, Simulation};
+use lissom_core::differentiation::Sensitivities;
+use lissom_core::simulation::Simulation;
 use lissom_core::system::State;
 use lissom_model::Document;
 use lissom_model::numbers::number_at;

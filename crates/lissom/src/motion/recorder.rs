@@ -8,9 +8,9 @@ use std::io::{self, Write};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::Simulation;
 use lissom_core::elements::beam::line::BeamProbe;
 use lissom_core::kinematics::{Kinematics, NodeMotion};
+use lissom_core::simulation::Simulation;
 use lissom_core::system::State;
 use lissom_model::lower::Lowered;
 

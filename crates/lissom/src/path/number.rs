@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use lissom_core::analysis::path::Family;
 use lissom_core::kinematics::{Kinematics, LOCKED};
+use lissom_core::path::Family;
 use lissom_core::system::{State, System};
 use lissom_model::lower::registry::registry;
 use lissom_model::lower::{Lowered, lower};

@@ -5,8 +5,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::time::Instant;
 
-use lissom_core::analysis::InputError;
-use lissom_core::stepping::SnapshotError;
+use lissom_core::simulation::InputError;
+use lissom_core::simulation::SnapshotError;
 use lissom_core::system::State;
 
 use super::{Observed, Session};

@@ -13,11 +13,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use lissom_core::analysis::{InitialError, InputError, Simulation, StepError, StepReport};
+use lissom_core::errors::Warning;
+use lissom_core::errors::{InitialError, StepError};
 use lissom_core::instants;
-use lissom_core::judge::Warning;
+use lissom_core::settings::StepReport;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
+use lissom_core::simulation::{InputError, Simulation};
 use lissom_core::system::State;
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::lower::{Lowered, Plan};

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lissom_core::analysis::{Need, Recovered, Recovery, Simulation};
+use lissom_core::simulation::{Need, Recovered, Recovery, Simulation};
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 

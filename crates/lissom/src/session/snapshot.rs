@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lissom_core::stepping::{Snapshot, SnapshotError};
+use lissom_core::simulation::{Snapshot, SnapshotError};
 use lissom_model::sweep::WindowedHistory;
 use serde::{Deserialize, Serialize};
 

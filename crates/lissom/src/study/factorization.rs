@@ -1,7 +1,7 @@
 //! Effects of scaling, augmented term and pivoting on the first step of a model.
 
-use lissom_core::analysis::Simulation;
-use lissom_core::analysis::factorization_study::{Case, factorization_study};
+use lissom_core::simulation::Simulation;
+use lissom_core::studies::factorization::{Case, factorization_study};
 use lissom_model::lower::{Lowered, lower};
 
 use super::{StudyError, csv_line};

@@ -9,8 +9,8 @@ mod observed;
 pub mod roundoff;
 mod scheme_words;
 
-use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::diagnostics::Diagnose;
+use lissom_core::errors::{InitialError, StepError};
 use lissom_model::Report;
 
 use crate::report::RunError;

@@ -8,7 +8,7 @@ use lissom::gradient::{Confirmation, GradientReport, Method, Target, gradient};
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::path::PathEnd;
 use lissom::{Model, Override, Session};
-use lissom_core::analysis::path::CriticalKind;
+use lissom_core::path::CriticalKind;
 
 use crate::support::paths::{follow, near};
 

@@ -137,7 +137,7 @@ fn an_axial_jolt_does_not_shake_a_blade_across() {
         let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
         let (found, ended) = session.record();
         assert!(ended.is_complete(), "{:?}", ended.error());
-        let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+        let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         assert_eq!(codes.contains(&"modes-left-out"), modes == 0, "{modes} modes: {codes:?}");
         for (component, allowed) in [("f3", 2.5), ("m2", 2.5), ("f1", 1.05)] {
             let [exact, found] = [&exact, &found].map(|record| {
@@ -211,7 +211,7 @@ fn a_hard_stop_is_that_of_the_beam_to_second_order() {
             let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
             let (found, ended) = session.record();
             assert!(ended.is_complete(), "{modes} modes, {speed} rad/s: {:?}", ended.error());
-            let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+            let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
             assert_eq!(
                 codes.contains(&"beyond-linear"),
                 speed > 2.0,
@@ -246,7 +246,7 @@ fn a_blade_bent_beyond_its_matrices_is_rejected() {
     let message = ended.error().map(ToString::to_string).unwrap_or_default();
     assert!(message.contains("kinetic energy is no longer positive"), "{message}");
     assert!(message.contains("--modes-alone"), "{message}");
-    let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+    let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
     assert!(codes.contains(&"beyond-linear"), "{codes:?}");
     assert!(found.times.last().is_some_and(|time| *time > 0.3 && *time < 0.5), "{:?}", found.times.last());
 }

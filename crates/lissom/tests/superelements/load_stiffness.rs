@@ -9,10 +9,10 @@ fn spinning(model: &Model, speed: f64) -> (f64, Vec<(String, f64)>) {
     let (record, report) = session.record();
     assert!(report.is_complete(), "{:?}", report.error());
     let warnings = session.warnings().filter_map(|warning| match warning {
-        lissom_core::judge::Warning::LoadStiffness { largest, .. } => {
+        lissom_core::errors::Warning::LoadStiffness { largest, .. } => {
             Some((warning.code().to_owned(), 0.5 * largest))
         }
-        lissom_core::judge::Warning::TurnsFast { .. } => None,
+        lissom_core::errors::Warning::TurnsFast { .. } => None,
         other => Some((other.code().to_owned(), 0.0)),
     });
     (last(&record, "end", "u3"), warnings.collect())
@@ -76,7 +76,7 @@ fn stiffness_that_axial_forces_change_is_reported() {
         let (error, _) = rod_error(&exact, &model, &overrides);
         let mut session = model.session(&overrides).expect("a good model");
         assert!(session.record().1.is_complete());
-        let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+        let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         match codes.as_slice() {
             [] => assert!(error < 0.005, "{speed} 1/min: {error} without a warning"),
             ["load-stiffness"] => assert!(error > 0.001, "{speed} 1/min: {error}"),

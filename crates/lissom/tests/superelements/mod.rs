@@ -563,7 +563,7 @@ fn leaving_the_linear_range_is_a_warning() {
     let mut session = using(&report, &rest).session(&[]).expect("a good model");
     let (_, found) = session.record();
     assert!(found.is_complete());
-    let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+    let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
     assert_eq!(codes, ["beyond-linear"]);
 }
 
@@ -581,7 +581,7 @@ fn turning_fast_is_a_warning() {
         let mut session = using(&bare(&report), &rest).session(&[]).expect("a good model");
         let (_, found) = session.record();
         assert!(found.is_complete());
-        let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+        let codes: Vec<&str> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         assert_eq!(codes, expected, "{speed} rad/s");
     }
 }

@@ -15,7 +15,7 @@ fn bent(model: &Model, [y, z, torque]: [f64; 3]) -> ([f64; 6], Vec<(String, f64)
     // Large loads bend beyond the linear range as well.
     let others = session.warnings().filter(|warning| warning.code() != "beyond-linear");
     let warnings = others.map(|warning| match warning {
-        lissom_core::judge::Warning::MomentStiffness { largest, .. } => {
+        lissom_core::errors::Warning::MomentStiffness { largest, .. } => {
             (warning.code().to_owned(), 0.005 * largest)
         }
         other => (other.code().to_owned(), 0.0),

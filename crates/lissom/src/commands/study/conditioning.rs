@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use lissom::Model;
 use lissom::study::conditioning::{Measured, Request, SCALINGS, Table, study};
-use lissom_core::analysis::ConditionMethod;
+use lissom_core::simulation::ConditionMethod;
 
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal::{self, Interrupt};

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lissom::study::factorization::{Table, scaling_name, study};
-use lissom_core::analysis::factorization_study::{Case, ITERATIONS};
+use lissom_core::studies::factorization::{Case, ITERATIONS};
 
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;

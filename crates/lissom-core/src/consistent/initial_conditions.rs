@@ -1,0 +1,579 @@
+//! Consistent initial values: velocities that satisfy the constraints' first derivative, accelerations
+//! and multipliers that satisfy equilibrium and their second.
+//!
+//! ```text
+//! [M Bᵀ; B 0] [Δv; ·] = [0; -(B v + ∂c/∂t)],      [M Bᵀ; B 0] [v̇; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]
+//! ```
+//!
+//! solved in scaled and augmented form, like a step.
+
+use lissom_motion::{Motion, Vector6};
+use lissom_solver::{FactorError, SolverKind};
+
+use super::singular_positions::SingularPositions;
+use crate::errors::InitialError;
+use crate::errors::step_error::pivot_hint;
+use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
+use crate::joints::starts::JointStarts;
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
+use crate::saddle_point::{Matrix, SaddlePoint};
+use crate::scaling::Representative;
+use crate::system::{Linearization, State, System};
+
+/// Repetitions after which forces by multipliers count as not found.
+const MAX_REPETITIONS: usize = 100;
+
+/// Changes of multipliers below are round-off, where they fall no further.
+const REPEATED: f64 = 1e-10;
+
+/// Which inertias weigh in a projection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Inertias {
+    /// All of them.
+    All,
+    /// Those of parts and of generalised coordinates, not those that act on coordinates of joints.
+    OfParts,
+}
+
+/// Solves for initial values.
+pub struct ConsistentInitialConditions {
+    saddle: SaddlePoint<Matrix<f64>>,
+    pub(crate) linearization: Linearization,
+    scale: f64,
+    /// Length that stands for a radian [m].
+    radian: f64,
+    still: Vec<MotionChange>,
+    unchanged: Vec<f64>,
+    /// The inertias that weigh.
+    pub(crate) weights: Vec<f64>,
+    /// Values of joints where constraints are differentiated.
+    starts: JointStarts,
+}
+
+impl ConsistentInitialConditions {
+    /// Room for initial values of `system`.
+    pub fn new(system: &System, state: &State, representative: &Representative, kind: &SolverKind) -> Self {
+        let (layout, structure) = (system.layout(), system.structure());
+        let matrix = Matrix::new((kind.real)(structure), structure);
+        let count = layout.coordinate_count();
+        // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
+        let repeating =
+            SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
+        Self {
+            saddle: SaddlePoint::new(matrix, count)
+                .equilibrated(layout.size())
+                .with_redundancy(structure, repeating.map(|multiplier| count + multiplier)),
+            linearization: system.empty_linearization(),
+            scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
+            radian: representative.length,
+            still: vec![MotionChange::none(); state.kinematics.nodes.len()],
+            unchanged: vec![0.0; state.kinematics.coordinates.len()],
+            weights: Vec::new(),
+            starts: JointStarts::default(),
+        }
+    }
+
+    pub(crate) fn factor(
+        &mut self,
+        system: &System,
+        state: &State,
+        inertias: Inertias,
+    ) -> Result<(), InitialError> {
+        let zero = vec![0.0; system.layout().multiplier_count];
+        let mut linearization = std::mem::take(&mut self.linearization);
+        system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
+        self.linearization = linearization;
+        self.weigh(system, inertias);
+        self.factor_weights(system)
+    }
+
+    /// Makes the matrix of inertias from the linearisation.
+    fn weigh(&mut self, system: &System, inertias: Inertias) {
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let (weights, linearization) = (&mut self.weights, &self.linearization);
+        weights.clone_from(&linearization.mass);
+        // States have no inertia: a unit in its place keeps them apart from the rest.
+        for (row, ..) in layout.states() {
+            if let Some(diagonal) = pattern.position(row, row) {
+                weights[diagonal] += 1.0;
+            }
+        }
+        // Constraints between velocities stand where those between places do: [M Bᵀ; B 0].
+        for (row, _) in layout.impulses() {
+            for &other in pattern.column(row) {
+                for (row, column) in [(row, other), (other, row)] {
+                    if let Some(position) = pattern.position(row, column) {
+                        weights[position] = linearization.damping[position];
+                    }
+                }
+            }
+        }
+        if inertias == Inertias::OfParts {
+            let coordinates = system.joints().iter().flat_map(|joint| &joint.coordinates);
+            for row in coordinates.map(|&coordinate| layout.row_of_coordinate(coordinate)) {
+                for &other in pattern.column(row) {
+                    for (row, column) in [(row, other), (other, row)] {
+                        if let Some(position) = pattern.position(row, column) {
+                            weights[position] = 0.0;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    pub(crate) fn factor_weights(&mut self, system: &System) -> Result<(), InitialError> {
+        let layout = system.layout();
+        let Linearization { gram, constraint, .. } = &self.linearization;
+        for (i, value) in self.saddle.matrices.values.iter_mut().enumerate() {
+            *value = self.weights[i] + self.scale * (gram[i] + constraint[i]);
+        }
+        let result = self.saddle.factor(system.structure(), self.scale).map(|_| ());
+        result.map_err(|error| match error {
+            FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
+                pivot,
+                unknown: layout.subject_of(unknown),
+                hint: pivot_hint(unknown, layout, true),
+            },
+            FactorError::NotFinite { unknown } => {
+                InitialError::NotFinite { unknown: layout.subject_of(unknown) }
+            }
+        })
+    }
+
+    fn augmentation(&self) -> Augmentation {
+        Augmentation { weight: 0.0, radian: self.radian }
+    }
+
+    pub(crate) fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
+        Point {
+            at,
+            stressed: at,
+            increments: Increments {
+                start: at,
+                nodes: &self.still,
+                coordinates: &self.unchanged,
+                joints: None,
+            },
+            multipliers,
+            violations: multipliers,
+            augmentation: self.augmentation(),
+        }
+    }
+
+    /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector.
+    pub(crate) fn solve(&mut self, system: &System, right: &mut [f64]) {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let original = right.to_vec();
+        let mut solution = vec![0.0; right.len()];
+        // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also
+        // takes back what constraints have yielded, while multipliers stay the least ones.
+        for _ in 0..if self.saddle.redundant().is_some() { 4 } else { 2 } {
+            let mut rest = original.clone();
+            self.subtract_product(system, &solution, &mut rest);
+            let constraints: Vec<f64> = rest[count..].to_vec();
+            self.add_transposed(system, &constraints, &mut rest);
+            rest[count..].iter_mut().for_each(|value| *value *= self.scale);
+            self.saddle.solve_with_factors(&mut rest);
+            for (row, value) in rest.iter().enumerate() {
+                solution[row] += if row < count { *value } else { self.scale * value };
+            }
+        }
+        right.copy_from_slice(&solution);
+    }
+
+    /// M x of the matrix factorised last.
+    pub(crate) fn multiply_mass(&self, system: &System, x: &[f64], out: &mut [f64]) {
+        system.structure().pattern.multiply(&self.linearization.mass, x, out);
+    }
+
+    /// rest -= [M Bᵀ; B 0] x.
+    pub(crate) fn subtract_product(&self, system: &System, x: &[f64], rest: &mut [f64]) {
+        let pattern = &system.structure().pattern;
+        for column in 0..pattern.size() {
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for position in range {
+                let row = pattern.row_indices()[position];
+                rest[row] -= (self.weights[position] + self.linearization.constraint[position]) * x[column];
+            }
+        }
+    }
+
+    /// motion += s Bᵀ W c.
+    fn add_transposed(&self, system: &System, constraints: &[f64], rest: &mut [f64]) {
+        let pattern = &system.structure().pattern;
+        let count = system.layout().coordinate_count();
+        for (k, violation) in constraints.iter().enumerate() {
+            let column = count + k;
+            let violation = self.augmentation().relative(system.layout().quantities()[column]) * violation;
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for position in range {
+                let row = pattern.row_indices()[position];
+                if row < count {
+                    rest[row] += self.scale * self.linearization.constraint[position] * violation;
+                }
+            }
+        }
+    }
+
+    /// Makes velocities consistent with the constraints, changing them as little as possible in the norm
+    /// of the kinetic energy. Gives the largest change of a node's twist [m/s, rad/s].
+    ///
+    /// # Errors
+    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    pub fn velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
+        self.factor(system, state, Inertias::All)?;
+        Ok(self.project(system, state, &[]))
+    }
+
+    /// The same for velocities that are given to parts: coordinates of joints follow, whatever mass they have of their own,
+    /// for no rate was given to them.
+    ///
+    /// # Errors
+    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    pub fn given_velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
+        if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
+            return Ok(self.project(system, state, &[]));
+        }
+        self.velocities(system, state)
+    }
+
+    /// Adds the change of velocities that satisfies the constraints and is caused by `impulses`, by row; none if empty. Returns the
+    /// largest change of a twist.
+    pub(crate) fn project(&mut self, system: &System, state: &mut State, impulses: &[f64]) -> f64 {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, &state.kinematics, &mut speeds);
+        let mut right = vec![0.0; layout.size()];
+        // -(B v + ∂c/∂t): only the constraint rows are kept, and those of constraints between velocities.
+        self.subtract_product(system, &speeds, &mut right);
+        let slides: Vec<(usize, f64)> = layout.impulses().map(|(row, _)| (row, right[row])).collect();
+        right[..count].fill(0.0);
+        for (row, slide) in slides {
+            right[row] = slide;
+        }
+        for (value, impulse) in right[..count].iter_mut().zip(impulses) {
+            *value += impulse;
+        }
+        let mut explicit = vec![0.0; layout.multiplier_count];
+        system.constraint_velocities(&state.kinematics, &mut explicit);
+        for (value, rate) in right[count..].iter_mut().zip(&explicit) {
+            *value -= rate;
+        }
+        self.solve(system, &mut right);
+        let mut largest = 0.0_f64;
+        for (rows, node) in layout.node_rows.iter().zip(&mut state.kinematics.nodes) {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                node.twist[k] += right[row as usize];
+                largest = largest.max(right[row as usize].abs());
+            }
+        }
+        // What stopped the sliding is no force.
+        layout.impulses().for_each(|(row, _)| right[row] = 0.0);
+        for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
+            coordinate.rate += right[row as usize];
+        }
+        largest
+    }
+
+    /// Rates of the constraints at the velocities of `state`, by multiplier, with the linearisation made last.
+    pub(crate) fn constraint_rates(&self, system: &System, state: &State) -> Vec<f64> {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, &state.kinematics, &mut speeds);
+        let mut rates = vec![0.0; layout.size()];
+        self.subtract_product(system, &speeds, &mut rates);
+        let mut explicit = vec![0.0; layout.multiplier_count];
+        system.constraint_velocities(&state.kinematics, &mut explicit);
+        rates[count..].iter().zip(&explicit).map(|(product, rate)| rate - product).collect()
+    }
+
+    /// Accelerations and multipliers in equilibrium with places and velocities.
+    ///
+    /// # Errors
+    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
+        self.factor(system, state, Inertias::All)?;
+        self.factored_accelerations(system, state)
+    }
+
+    fn factored_accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
+        let mut right = self.acceleration_with_factors(system, state)?;
+        let layout = system.layout();
+        for (row, impulse) in layout.impulses() {
+            state.kinematics.coordinates[impulse].rate = std::mem::take(&mut right[row]);
+        }
+        scatter_accelerations(layout, &right, &mut state.kinematics);
+        state.multipliers.copy_from_slice(&right[layout.coordinate_count()..]);
+        state.kinematics.show_multipliers(&state.multipliers);
+        Ok(())
+    }
+
+    /// Sets the rates of first-order states to what their equations x' - f = 0 say.
+    pub(crate) fn set_state_rates(&self, system: &System, at: &mut Kinematics) {
+        let layout = system.layout();
+        if layout.state_count() == 0 {
+            return;
+        }
+        for (_, coordinate, _) in layout.states() {
+            at.coordinates[coordinate].rate = 0.0;
+        }
+        let zero = vec![0.0; layout.multiplier_count];
+        let mut residual = vec![0.0; layout.size()];
+        system.residual(&self.point(at, &zero), &mut residual);
+        for (row, coordinate, _) in layout.states() {
+            at.coordinates[coordinate].rate = -residual[row];
+        }
+    }
+
+    /// Second derivatives of first-order states by a central difference of their derivatives over `delay` [s] before
+    /// and after the state, along the motion.
+    pub(crate) fn accelerate_states(&self, system: &System, state: &mut State, delay: f64) {
+        let states: Vec<_> = system.layout().states().map(|(_, coordinate, _)| coordinate).collect();
+        if states.is_empty() {
+            return;
+        }
+        for &coordinate in &states {
+            state.kinematics.coordinates[coordinate].acceleration = 0.0;
+        }
+        let [after, before] = [delay, -delay].map(|delay| {
+            let mut moved = moved(state, delay).kinematics;
+            self.set_state_rates(system, &mut moved);
+            moved.coordinates
+        });
+        for coordinate in states {
+            let difference = after[coordinate].rate - before[coordinate].rate;
+            let acceleration = difference / (2.0 * delay);
+            // Outside of where its expression is defined a state starts without.
+            let own = &mut state.kinematics.coordinates[coordinate];
+            own.acceleration = if acceleration.is_finite() { acceleration } else { 0.0 };
+        }
+    }
+
+    /// By what accelerations and multipliers jump, by row, where a state goes over to the held values `held`, with the matrix
+    /// factorised last. In the rows of states stands what their rates lack, in those of impulses their rates.
+    pub(crate) fn acceleration_jump(
+        &mut self,
+        system: &System,
+        state: &State,
+        held: &[f64],
+    ) -> Result<Vec<f64>, InitialError> {
+        // Without such forces one solution for the difference is enough.
+        let by_repetition = system.sees_multipliers();
+        let mut of = |at: &Kinematics| {
+            if by_repetition { self.repeated(system, at.clone()) } else { Ok(self.right_side(system, at)) }
+        };
+        let mut at = without_accelerations(system.layout(), state);
+        let before = of(&at)?;
+        at.held.copy_from_slice(held);
+        let mut jump = of(&at)?;
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        if !by_repetition {
+            self.solve(system, &mut jump);
+        }
+        Ok(jump)
+    }
+
+    /// Accelerations and multipliers by row; in the rows of states, what their rates lack, in those of impulses their
+    /// rates.
+    pub(crate) fn acceleration_at(
+        &mut self,
+        system: &System,
+        state: &State,
+    ) -> Result<Vec<f64>, InitialError> {
+        self.factor(system, state, Inertias::All)?;
+        self.acceleration_with_factors(system, state)
+    }
+
+    /// The same with the matrix factorised last.
+    pub(crate) fn acceleration_with_factors(
+        &mut self,
+        system: &System,
+        state: &State,
+    ) -> Result<Vec<f64>, InitialError> {
+        self.repeated(system, without_accelerations(system.layout(), state))
+    }
+
+    /// The same for a motion without accelerations. Where forces depend on multipliers, these are found by repetition: friction is
+    /// small against what presses.
+    fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
+        let count = system.layout().coordinate_count();
+        let (mut change, mut solution) = (f64::INFINITY, Vec::new());
+        for _ in 0..MAX_REPETITIONS {
+            let mut right = self.right_side(system, &at);
+            self.solve(system, &mut right);
+            if !system.sees_multipliers() {
+                return Ok(right);
+            }
+            let (seen, found) = (&mut at.multipliers, &right[count..]);
+            let largest = found.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let changes = seen.iter().zip(found).map(|(seen, found)| (seen - found).abs());
+            let last =
+                std::mem::replace(&mut change, changes.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE));
+            if change == 0.0 || (change < REPEATED && change >= last) {
+                return Ok(right);
+            }
+            at.show_multipliers(found);
+            solution = right;
+        }
+        if change < REPEATED { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
+    }
+
+    /// [-f; -(Ḃ v + ∂²c/∂t²)] at a motion without accelerations.
+    fn right_side(&mut self, system: &System, at: &Kinematics) -> Vec<f64> {
+        let layout = system.layout();
+        let zero = vec![0.0; layout.multiplier_count];
+        let mut right = vec![0.0; layout.size()];
+        system.residual(&self.point(at, &zero), &mut right);
+        self.turn_slides(system, at, &mut right);
+        let mut rates = zero;
+        system.begin_step(at, &mut self.starts);
+        let accelerations = &mut right[layout.coordinate_count()..];
+        system.violation_rates(at, &self.starts, [&mut rates, accelerations]);
+        for value in &mut right {
+            *value = -*value;
+        }
+        right
+    }
+
+    /// Puts Ḃ v in the rows of constraints between velocities: their derivative by places, along the motion.
+    pub(crate) fn turn_slides(&self, system: &System, at: &Kinematics, rows: &mut [f64]) {
+        let layout = system.layout();
+        if layout.impulses.is_empty() {
+            return;
+        }
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, at, &mut speeds);
+        let pattern = &system.structure().pattern;
+        for (row, _) in layout.impulses() {
+            let by_place = |&column: &usize| {
+                pattern.position(row, column).map_or(0.0, |at| self.linearization.stiffness[at])
+            };
+            rows[row] = pattern.column(row).iter().map(|column| by_place(column) * speeds[*column]).sum();
+        }
+    }
+
+    /// Accelerations by row `delay` [s] after (or before) the state, for a scheme whose memory starts
+    /// there: v̇ + delay v̈, with v̈ from a central difference along the motion.
+    ///
+    /// # Errors
+    /// If the equations cannot be solved nearby.
+    pub fn delayed_accelerations(
+        &mut self,
+        system: &System,
+        state: &State,
+        delay: f64,
+    ) -> Result<Vec<f64>, InitialError> {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let mut now = vec![0.0; layout.size()];
+        gather_accelerations(layout, &state.kinematics, &mut now);
+        now.truncate(count);
+        if delay == 0.0 {
+            return Ok(now);
+        }
+        let mut difference = vec![0.0; count];
+        for sign in [1.0, -1.0] {
+            let moved = moved(state, sign * delay);
+            self.factor(system, &moved, Inertias::All)?;
+            let there = self.acceleration_with_factors(system, &moved)?;
+            for (value, acceleration) in difference.iter_mut().zip(&there) {
+                *value += 0.5 * sign * acceleration;
+            }
+        }
+        // States follow their rates, which are in equilibrium already.
+        let mut compared = now.clone();
+        for row in layout.rate_rows() {
+            (compared[row], difference[row]) = (0.0, 0.0);
+        }
+        let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        // Where accelerations change more than they are, the step does not resolve them, and starting
+        // ahead of them would only feed the oscillation.
+        if size(&difference) <= size(&compared) {
+            for (value, change) in now.iter_mut().zip(&difference) {
+                *value += change;
+            }
+        }
+        Ok(now)
+    }
+}
+
+/// The motion of a state with accelerations and impulses of zero.
+fn without_accelerations(layout: &Layout, state: &State) -> Kinematics {
+    let mut at = state.kinematics.clone();
+    scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
+    for (_, impulse) in layout.impulses() {
+        at.coordinates[impulse].rate = 0.0;
+    }
+    at
+}
+
+/// The state moved along its motion for a short time, to second order.
+fn moved(state: &State, time: f64) -> State {
+    let mut moved = state.clone();
+    moved.kinematics.time += time;
+    for node in &mut moved.kinematics.nodes {
+        let psi = time * (node.twist + 0.5 * time * node.acceleration);
+        node.frame = node.frame * Motion::exponential(&psi);
+        node.twist += time * node.acceleration;
+    }
+    for coordinate in &mut moved.kinematics.coordinates {
+        coordinate.value += time * (coordinate.rate + 0.5 * time * coordinate.acceleration);
+        coordinate.rate += time * coordinate.acceleration;
+    }
+    moved
+}
+
+pub(crate) fn gather_rates(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
+    gather(layout, at, out, |node| &node.twist, |coordinate| coordinate.rate);
+}
+
+pub(crate) fn gather_accelerations(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
+    gather(layout, at, out, |node| &node.acceleration, |coordinate| coordinate.acceleration);
+}
+
+fn gather(
+    layout: &Layout,
+    at: &Kinematics,
+    out: &mut [f64],
+    of_node: impl Fn(&crate::kinematics::NodeMotion) -> &Vector6,
+    of_coordinate: impl Fn(&crate::kinematics::CoordinateMotion) -> f64,
+) {
+    for (rows, node) in layout.node_rows.iter().zip(&at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            out[row as usize] = of_node(node)[k];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&at.coordinates) {
+        out[row as usize] = of_coordinate(coordinate);
+    }
+}
+
+/// Sets twists and rates; those of impulses, which are forces, to zero.
+pub(crate) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.twist[k] = values[row as usize];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
+        coordinate.rate = values[row as usize];
+    }
+    for (_, impulse) in layout.impulses() {
+        at.coordinates[impulse].rate = 0.0;
+    }
+}
+
+pub(crate) fn scatter_accelerations(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.acceleration[k] = values[row as usize];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
+        coordinate.acceleration = values[row as usize];
+    }
+}

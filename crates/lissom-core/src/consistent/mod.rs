@@ -1,0 +1,9 @@
+//! Consistent positions, velocities and accelerations: initial values, mobility, loops and singular positions.
+
+mod driven_start;
+pub mod initial_conditions;
+pub(crate) mod loops;
+pub mod mobility;
+pub(crate) mod singular_positions;
+
+pub use mobility::{Mobility, Redundant};

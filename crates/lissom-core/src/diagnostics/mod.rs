@@ -1,0 +1,393 @@
+//! Diagnostics: the contents of warnings and failures, and the table of their codes.
+//!
+//! An enumeration in `diagnostics!` is a part of the catalogue: each variant states, in one place, its values, code, time,
+//! subject, cause, remedy and explanation. A new warning is a new variant.
+
+pub mod catalogued;
+
+use std::fmt::{self, Display};
+
+use crate::kinematics::Subject;
+
+/// Severity of a diagnostic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// A result may be inaccurate.
+    Warning,
+    /// There is no result.
+    Failure,
+}
+
+/// A code with its explanation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Short name for scripts.
+    pub code: &'static str,
+    /// Name of the variant.
+    pub variant: &'static str,
+    /// Whether it is a warning.
+    pub severity: Severity,
+    /// Its message, with placeholders of values in braces.
+    pub message: &'static str,
+    /// Its meaning.
+    pub meaning: &'static str,
+    /// General remedy.
+    pub advice: &'static str,
+}
+
+/// A value of a diagnostic, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// An integer.
+    Count(usize),
+    /// A truth value.
+    Flag(bool),
+    /// Words or a name.
+    Text(String),
+}
+
+/// A warning or failure, for programs. It is rendered as "cause; remedy".
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// Its code in the catalogue.
+    pub code: &'static str,
+    /// Whether it is a warning.
+    pub severity: Severity,
+    /// Time [s], if there is one.
+    pub time: Option<f64>,
+    /// Its subject.
+    pub subject: Option<Subject>,
+    /// Values by name, without the time.
+    pub values: Vec<(&'static str, Value)>,
+    /// The event and its cause.
+    pub cause: String,
+    /// The remedy; may be empty.
+    pub remedy: String,
+}
+
+/// A type of warning or failure.
+pub trait Diagnose {
+    /// Its code, time, subject, values, cause and remedy.
+    fn diagnostic(&self) -> Diagnostic;
+}
+
+impl Diagnose for Diagnostic {
+    fn diagnostic(&self) -> Diagnostic {
+        self.clone()
+    }
+}
+
+impl Diagnostic {
+    /// A diagnostic of an entry without values.
+    pub fn of(entry: &Entry, cause: impl Into<String>, remedy: impl Into<String>) -> Self {
+        crate::diagnostics::catalogued::diagnostic(entry, Vec::new(), cause.into(), remedy.into())
+    }
+
+    /// The same, in a wider context: `context` precedes the cause.
+    #[must_use]
+    pub fn within(self, context: &str) -> Self {
+        Self { cause: format!("{context}: {}", self.cause), ..self }
+    }
+
+    /// The same at a time [s].
+    #[must_use]
+    pub fn at(self, time: f64) -> Self {
+        Self { time: Some(time), ..self }
+    }
+
+    /// Name of the entry that is its subject.
+    pub fn part(&self) -> Option<&str> {
+        self.subject.as_ref().and_then(Subject::entry)
+    }
+
+    /// The remedy, if there is one.
+    pub fn remedy(&self) -> Option<&str> {
+        Some(self.remedy.as_str()).filter(|remedy| !remedy.is_empty())
+    }
+}
+
+impl Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.cause)?;
+        self.remedy().map_or(Ok(()), |remedy| write!(f, "; {remedy}"))
+    }
+}
+
+macro_rules! value_from {
+    ($($type:ty, $own:ident => $value:expr;)*) => {
+        $(impl From<&$type> for Value {
+            fn from($own: &$type) -> Self {
+                $value
+            }
+        })*
+    };
+}
+
+value_from! {
+    f64, own => Self::Number(*own);
+    u32, own => Self::Count(*own as usize);
+    usize, own => Self::Count(*own);
+    bool, own => Self::Flag(*own);
+    String, own => Self::Text(own.clone());
+    &'static str, own => Self::Text((*own).to_owned());
+    Subject, own => Self::Text(own.to_string());
+    [String; 2], own => Self::Text(own.join(", "));
+    std::io::Error, own => Self::Text(own.to_string());
+    crate::registry::ParameterError, own => Self::Text(own.to_string());
+}
+
+/// Defines an enumeration of warnings or failures with its entries of the catalogue.
+///
+/// After the values of a variant, by reference: its code, its time and subject if it has them, the message with its arguments,
+/// the remedy, and for the catalogue its meaning and general remedy. A section `wraps` has variants that contain another
+/// diagnostic.
+macro_rules! diagnostics {
+    (
+        $(#[$meta:meta])*
+        $severity:ident $name:ident {
+            $(
+                $(#[$doc:meta])*
+                $variant:ident { $($(#[$field_doc:meta])* $field:ident: $type:ty,)* } => $code:literal {
+                    $(time: $time:expr,)?
+                    $(subject: $subject:expr,)?
+                    cause: ($message:literal $(, $argument:expr)*),
+                    remedy: $remedy:literal,
+                    meaning: $meaning:literal,
+                    advice: $advice:literal,
+                }
+            )*
+        }
+        $(wraps {
+            $(
+                $(#[$wrap_doc:meta])*
+                $wrap:ident $wrapped:tt, $pattern:tt => $made:expr,
+            )*
+        })?
+    ) => {
+        $(#[$meta])*
+        pub enum $name {
+            $($(#[$doc])* $variant { $($(#[$field_doc])* $field: $type,)* },)*
+            $($($(#[$wrap_doc])* $wrap $wrapped,)*)?
+        }
+
+        impl $name {
+            /// Their entries of the catalogue.
+            pub const ENTRIES: &'static [$crate::diagnostics::Entry] = &[
+                $($crate::diagnostics::Entry {
+                    code: $code,
+                    variant: concat!(stringify!($name), "::", stringify!($variant)),
+                    severity: $crate::diagnostics::Severity::$severity,
+                    message: $message,
+                    meaning: $meaning,
+                    advice: $advice,
+                },)*
+            ];
+
+            /// A short name for scripts.
+            pub fn code(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => $code,)*
+                    $($(Self::$wrap { .. } => {
+                        $crate::diagnostics::Diagnose::diagnostic(self).code
+                    })*)?
+                }
+            }
+
+            /// One of each variant that wraps no other diagnostic.
+            #[cfg(test)]
+            pub(crate) fn samples() -> Vec<Self> {
+                vec![$(Self::$variant { $($field: $crate::diagnostics::tests::Sample::sample(),)* },)*]
+            }
+        }
+
+        impl $crate::diagnostics::Diagnose for $name {
+            fn diagnostic(&self) -> $crate::diagnostics::Diagnostic {
+                match self {
+                    $(Self::$variant { $($field),* } => {
+                        let values = [$((stringify!($field), $crate::diagnostics::Value::from($field))),*];
+                        let time = [$($time)?].into_iter().next().filter(|time: &f64| time.is_finite());
+                        let subject = [$($crate::kinematics::Subject::from($subject))?].into_iter().next();
+                        $crate::number::as_written!($($field),*);
+                        $crate::diagnostics::Diagnostic {
+                            code: $code,
+                            severity: $crate::diagnostics::Severity::$severity,
+                            time,
+                            subject,
+                            values: values.into_iter().filter(|(name, _)| *name != "time").collect(),
+                            cause: format!($message $(, $argument)*),
+                            remedy: format!($remedy),
+                        }
+                    })*
+                    $($(Self::$wrap $pattern => $made,)*)?
+                }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                std::fmt::Display::fmt(&$crate::diagnostics::Diagnose::diagnostic(self), f)
+            }
+        }
+
+        impl std::error::Error for $name {}
+    };
+}
+
+pub(crate) use diagnostics;
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::studies::joint_space::JointSpaceError;
+    use num_complex::Complex64;
+
+    use crate::assembly::{AssemblyError, Gap};
+    use crate::errors::Warning;
+    use crate::errors::{InitialError, StepError};
+    use crate::linear::{
+        BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
+    };
+    use crate::path::PathError;
+    use crate::simulation::InputError;
+    use crate::simulation::SnapshotError;
+
+    /// A name with all characters that separate parts of sentences.
+    const NAME: &str = "a`; b` = c: d";
+
+    /// A value for any field.
+    pub(crate) trait Sample {
+        fn sample() -> Self;
+    }
+
+    macro_rules! sample {
+        ($($type:ty => $value:expr;)*) => {
+            $(impl Sample for $type {
+                fn sample() -> Self {
+                    $value
+                }
+            })*
+        };
+    }
+
+    sample! {
+        f64 => 0.25;
+        Complex64 => Complex64::new(0.0, 2.0);
+        StepError => StepError::TurnsTooFar { time: 0.25, node: NAME.to_owned(), angle: 2.0 };
+        Vec<Gap> => vec![Gap { joint: NAME.to_owned(), distance: Some(0.25), angle: None }];
+        usize => 3;
+        u32 => 3;
+        bool => true;
+        String => NAME.to_owned();
+        &'static str => "try this";
+        Subject => Subject::new("node", NAME).component("translation 1");
+        [String; 2] => [NAME.to_owned(), "other".to_owned()];
+    }
+
+    /// Those of assembly, paths and linear models.
+    fn of_analyses() -> impl Iterator<Item = Diagnostic> {
+        fn of<E: Diagnose>(samples: &[E]) -> Vec<Diagnostic> {
+            samples.iter().map(E::diagnostic).collect()
+        }
+        let parts = [
+            of(&AssemblyError::samples()),
+            of(&JointSpaceError::samples()),
+            of(&PathError::samples()),
+            of(&LinearError::samples()),
+            of(&ModeError::samples()),
+            of(&SteadyError::samples()),
+            of(&BucklingError::samples()),
+            of(&ReductionError::samples()),
+            of(&ResponseError::samples()),
+            of(&StateSpaceError::samples()),
+            of(&SnapshotError::samples()),
+        ];
+        parts.into_iter().flatten()
+    }
+
+    /// All diagnostics that wrap no other one.
+    fn all() -> Vec<Diagnostic> {
+        fn of<E: Diagnose>(samples: &[E]) -> impl Iterator<Item = Diagnostic> {
+            samples.iter().map(E::diagnostic)
+        }
+        let signal = crate::signals::SignalError {
+            signal: Subject::new("signal", NAME).called(format!("{NAME} = 1/t")),
+            value: f64::INFINITY,
+            time: 0.25,
+        };
+        of(&Warning::samples())
+            .chain(of(&StepError::samples()))
+            .chain(of(&InitialError::samples()))
+            .chain(of(&InputError::samples()))
+            .chain([signal.diagnostic()])
+            .chain(of_analyses())
+            .collect()
+    }
+
+    #[test]
+    fn every_code_has_an_entry_and_every_entry_a_code() {
+        let codes: Vec<&str> = crate::catalogue::entries().map(|entry| entry.code).collect();
+        let made: Vec<&str> = all().iter().map(|diagnostic| diagnostic.code).collect();
+        assert_eq!(made, codes);
+        let distinct: std::collections::BTreeSet<&str> = codes.iter().copied().collect();
+        assert_eq!(distinct.len(), codes.len(), "{codes:?}");
+        for entry in crate::catalogue::entries() {
+            let is_word = |c: char| c.is_ascii_lowercase() || c == '-';
+            assert!(entry.code.chars().all(is_word), "{}", entry.code);
+            let [meaning, advice] = [entry.meaning, entry.advice];
+            assert!(meaning.ends_with('.') && advice.ends_with('.'), "{}", entry.code);
+            assert!(!meaning.contains(" | ") && !advice.contains(" | "), "{}", entry.code);
+        }
+    }
+
+    #[test]
+    fn every_diagnostic_has_time_subject_and_remedy() {
+        // Diagnostics of the whole model have no subject, those before a motion no time.
+        let without_subject = [
+            "energy-drift",
+            "energy-surplus",
+            "unstable-equilibrium",
+            "relaxed-equilibrium",
+            "jump",
+            "unresolved-rates",
+            "time-not-finite",
+            "interrupted",
+            "normal-forces",
+        ];
+        let without_time =
+            ["velocity-replaced", "starts-with-jolt", "reactions-not-unique", "model", "time-not-finite"];
+        let without_remedy = ["interrupted"];
+        let codes_of_starts: Vec<&str> =
+            InitialError::ENTRIES.iter().chain(InputError::ENTRIES).map(|entry| entry.code).collect();
+        let of_analyses: Vec<&str> = crate::catalogue::of_analyses().map(|entry| entry.code).collect();
+        for diagnostic in all() {
+            let code = diagnostic.code;
+            let text = diagnostic.to_string();
+            assert!(text.starts_with(&diagnostic.cause) && text.ends_with(&diagnostic.remedy), "{code}");
+            // Many analyses concern the whole model, at no time.
+            if of_analyses.contains(&code) {
+                continue;
+            }
+            let part = (!without_subject.contains(&code)).then_some(NAME);
+            assert_eq!(diagnostic.part(), part, "{code}");
+            let has_time = !without_time.contains(&code) && !codes_of_starts.contains(&code);
+            assert_eq!(diagnostic.time, has_time.then_some(0.25), "{code}");
+            assert_eq!(diagnostic.remedy().is_some(), !without_remedy.contains(&code), "{code}");
+            assert!(!diagnostic.values.iter().any(|(name, _)| *name == "time"), "{code}");
+        }
+    }
+
+    #[test]
+    fn what_wraps_a_diagnostic_adds_to_it() {
+        let step = StepError::TurnsTooFar { time: 0.5, node: NAME.to_owned(), angle: 2.0 };
+        let initial = InitialError::Wrapped(Box::new(step.clone()));
+        assert_eq!(initial.to_string(), format!("at the start: {step}"));
+        let again = StepError::Velocities { time: 0.75, error: initial };
+        let diagnostic = again.diagnostic();
+        assert_eq!((again.code(), diagnostic.time), ("rotation-per-step", Some(0.75)));
+        assert_eq!((diagnostic.part(), &diagnostic.remedy), (Some(NAME), &step.diagnostic().remedy));
+        let never = StepError::Interrupted { time: f64::NAN };
+        assert_eq!(never.diagnostic().time, None, "a time that is not finite is none");
+    }
+}

@@ -1,0 +1,249 @@
+//! Direct differentiation: how the state changes with numbers of the model is carried along the steps of a run, as linear
+//! unknowns of equations that have the tangent of the step for their matrix.
+//!
+//! Legend: z increments of a step, μ multipliers, θ a number of the model; η, ν, α variations of places, twists and accelerations
+//! at a stage, which follow linearly from δz and from the variations at the start (`node_maps`); K, D, M derivatives of the
+//! forces by places, twists and accelerations; B gradient, c violations of the constraints; f forces.
+//!
+//! ```text
+//! K η + D ν + M α + Bᵀ δμ + ∂f/∂θ = 0,      B η + ∂c/∂θ = 0
+//! ```
+//!
+//! at each stage. Violations are those of the places themselves, as carried violations add up to. Of one stage the tangent that
+//! is made at the solution is the matrix of these equations; for two stages it stands for both, and corrections are repeated.
+//! Where strains are integrated over a step, the left-hand sides are differences of residuals along the variation
+//! (`integrated`). Numbers of the model go through the solver side by side.
+
+mod integrated;
+mod node_maps;
+mod products;
+mod sensitivity;
+mod stages;
+mod variation;
+
+use std::sync::Arc;
+
+use lissom_motion::{Block, WIDTH};
+
+use super::simulation::Simulation;
+use crate::errors::StepError;
+use crate::kinematics::{Quantity, Subject};
+use crate::round_off;
+use crate::schemes::Tableau;
+use crate::system::{ParameterDifference, State};
+use integrated::Neighbour;
+use stages::{Stages, largest_found};
+use variation::Variation;
+
+/// Corrections of one stage after the first are made where the second is larger than this part of the first.
+const EXACT: f64 = 1e-10;
+/// Corrections still to come, by their contraction, may be this part of the first, and of what they find out.
+const TO_COME: f64 = 1e-10;
+/// A better contraction than this is not believed.
+const CREDIBLE: f64 = 1e-5;
+/// Corrections that shrink by less than this are round-off, if they are small.
+const STALLED: f64 = 0.5;
+/// Increments below this part of how far the state moves are rounded by it.
+const ROUNDED: f64 = 1e-3;
+/// Most corrections.
+const MAX_CORRECTIONS: usize = 40;
+
+/// Derivatives of the state of a simulation by numbers of its model.
+pub struct Sensitivities {
+    numbers: Vec<Number>,
+    variations: Vec<Lanes>,
+    stages: Stages,
+    /// Step size that the scheme's memory belongs to [s].
+    remembered: Option<f64>,
+    /// Steps so far.
+    steps: usize,
+    /// Whether the first correction has been seen to be enough.
+    is_exact: bool,
+    corrections: usize,
+}
+
+/// What a number of the model changes where nothing moves otherwise.
+struct Number {
+    difference: ParameterDifference,
+    /// The neighbouring models themselves.
+    neighbours: Vec<Neighbour>,
+}
+
+/// What is carried for as many numbers as there are lanes.
+struct Lanes {
+    now: Variation,
+    /// Derivatives of increments and multipliers of the last step, by stage.
+    increments: Vec<Vec<Block>>,
+    multipliers: Vec<Vec<Block>>,
+}
+
+impl Sensitivities {
+    /// Of no number yet. None where the steps of `base` cannot be differentiated in this way: with velocities that are projected
+    /// after a step, steps of chosen size, feedback, wheels that roll or creep.
+    pub fn new(base: &Simulation) -> Option<Self> {
+        let settings = base.settings();
+        let layout = base.system.layout();
+        let is_known = settings.scheme.tableau.as_ref().is_none_or(Tableau::is_stiffly_accurate)
+            && settings.control.is_none()
+            && !base.system.has_feedback()
+            && layout.impulses().next().is_none()
+            && !base.system.sees_multipliers();
+        is_known.then(|| Self {
+            numbers: Vec::new(),
+            variations: Vec::new(),
+            stages: Stages::new(base),
+            remembered: base.integrator.history.is_some().then(|| base.integrator.scaled.step_size()),
+            steps: 0,
+            is_exact: true,
+            corrections: 0,
+        })
+    }
+
+    /// Adds a number, from the simulations of neighbouring models with the weights of a difference, all at their start as
+    /// `base`. False where its derivatives cannot be found in this way: fixed places that differ, signals.
+    pub fn add(&mut self, base: &Simulation, neighbours: &[(&Simulation, f64)]) -> bool {
+        let layout = base.system.layout();
+        let lane = self.numbers.len() % WIDTH;
+        let systems = neighbours.iter().map(|(of, weight)| (Arc::clone(&of.system), *weight)).collect();
+        let Some(difference) = ParameterDifference::of(systems) else { return false };
+        let stages = base.settings().scheme.stages.len();
+        if lane == 0 {
+            self.variations.push(Lanes {
+                now: Variation::new(layout),
+                increments: vec![vec![variation::NOTHING; layout.coordinate_count()]; stages],
+                multipliers: vec![vec![variation::NOTHING; layout.multiplier_rows().len()]; stages],
+            });
+        }
+        let Some(last) = self.variations.last_mut() else { return false };
+        let states: Vec<(&State, f64)> = neighbours.iter().map(|(of, weight)| (&of.state, *weight)).collect();
+        if !last.now.enter(lane, layout, &base.state.kinematics, &states) {
+            last.now.clear(lane);
+            if lane == 0 {
+                self.variations.pop();
+            }
+            return false;
+        }
+        let neighbour = |(of, weight): &(&Simulation, f64)| Neighbour {
+            system: Arc::clone(&of.system),
+            weight: *weight,
+            length: of.integrator.representative.length,
+        };
+        self.numbers.push(Number { difference, neighbours: neighbours.iter().map(neighbour).collect() });
+        true
+    }
+
+    /// Corrections so far, of all numbers that stand side by side together.
+    pub fn corrections(&self) -> usize {
+        self.corrections
+    }
+
+    /// How far the state moves with a unit of the number of this index [-, rad]: the largest derivative of a place, or of a rate or
+    /// acceleration over a step.
+    pub fn extent(&self, base: &Simulation, index: usize) -> f64 {
+        self.variations[index / WIDTH]
+            .now
+            .extents(&base.integrator.work.sizes, base.integrator.scaled.step_size())[index % WIDTH]
+    }
+
+    /// Moves a copy of the state of `base` by `share` of its derivative by the number of this index.
+    pub fn displace(&self, base: &Simulation, index: usize, share: f64, out: &mut State) {
+        out.clone_from(&base.state);
+        self.variations[index / WIDTH].now.displace(index % WIDTH, base.system.layout(), share, out);
+    }
+
+    /// Takes the step that `base` has taken last. False if there is no such step, as after one that was taken in parts.
+    ///
+    /// # Errors
+    /// If its tangent has no factors, or corrections do not converge.
+    pub fn advance(&mut self, base: &mut Simulation) -> Result<bool, StepError> {
+        if self.remembered.is_some_and(|size| size != base.integrator.scaled.step_size()) {
+            return Ok(false);
+        }
+        if !base.renew_at_solution()? {
+            return Ok(false);
+        }
+        self.stages.enter(base);
+        self.steps += 1;
+        let is_seen = !self.is_exact || self.steps.is_power_of_two() || base.settings.scheme.stages.len() > 1;
+        for (index, lanes) in self.variations.iter_mut().enumerate() {
+            let first = index * WIDTH;
+            let numbers = &self.numbers[first..self.numbers.len().min(first + WIDTH)];
+            let (made, is_exact) = step(&mut self.stages, base, lanes, numbers, is_seen)?;
+            self.corrections += made;
+            self.is_exact &= is_exact;
+        }
+        Ok(true)
+    }
+}
+
+/// One step of several numbers: corrections made, and whether the first one was enough.
+fn step(
+    stages: &mut Stages,
+    base: &mut Simulation,
+    lanes: &mut Lanes,
+    numbers: &[Number],
+    is_seen: bool,
+) -> Result<(usize, bool), StepError> {
+    let (count, is_integrated) = (base.settings.scheme.stages.len(), base.settings.scheme.tableau.is_some());
+    stages.reach(base, numbers);
+    if count == 1 {
+        lanes.increments[0].fill(variation::NOTHING);
+        lanes.multipliers[0].fill(variation::NOTHING);
+    }
+    let (mut made, mut is_exact) = (0, true);
+    let mut rounding: Option<Block> = None;
+    let (mut first, mut before) = ([0.0_f64; WIDTH], [f64::INFINITY; WIDTH]);
+    loop {
+        stages.evaluate(base, lanes, numbers.len());
+        let sizes = stages.correct(base, lanes);
+        made += 1;
+        if made == 1 {
+            (first, before) = (sizes, sizes);
+            if !is_seen {
+                break;
+            }
+            continue;
+        }
+        let known = largest_found(base, lanes);
+        let rounding = rounding.get_or_insert_with(|| {
+            lanes.now.extents(&base.integrator.work.sizes, base.integrator.scaled.step_size())
+        });
+        let reference: Block =
+            std::array::from_fn(|lane| first[lane].max(known[lane]).max(ROUNDED * rounding[lane]));
+        if made == 2 {
+            is_exact = (0..WIDTH).all(|lane| sizes[lane] <= EXACT * reference[lane]);
+        }
+        let left = |lane| if is_integrated { integrated::round_off(base, lanes, lane) } else { 0.0 };
+        // What is still to come follows from the contraction; what no longer contracts is round-off.
+        let is_done = |lane: usize| {
+            let contraction = sizes[lane] / before[lane].max(f64::MIN_POSITIVE);
+            if contraction > STALLED {
+                return sizes[lane] <= (round_off::DERIVATIVE * reference[lane]).max(left(lane));
+            }
+            contraction.max(CREDIBLE) * sizes[lane] <= TO_COME * reference[lane]
+        };
+        if (0..WIDTH).all(is_done) {
+            break;
+        }
+        if sizes.iter().any(|size| !size.is_finite()) || made >= MAX_CORRECTIONS {
+            return Err(StepError::NotConverged {
+                time: base.state.kinematics.time,
+                iterations: made,
+                correction: sizes.iter().fold(0.0, |most, size| size.max(most)),
+                worst: Subject::nameless("derivatives of the motion"),
+                hint: "the tangent of the step does not serve its derivatives: choose a smaller step",
+            });
+        }
+        before = sizes;
+    }
+    stages.leave(base, lanes);
+    Ok((made, is_exact))
+}
+
+/// What a violation weighs in the augmented term.
+fn relative_weights(base: &Simulation) -> Vec<f64> {
+    let layout = base.system.layout();
+    let augmentation = base.integrator.scaled.augmentation();
+    let of = |quantity: &Quantity| augmentation.weight * augmentation.relative(*quantity);
+    layout.quantities()[layout.multiplier_rows()].iter().map(of).collect()
+}

@@ -1,0 +1,12 @@
+//! What can be wrong: why steps and initial values fail, and warnings about results.
+
+mod initial_error;
+mod reports;
+pub(crate) mod signal_failure;
+pub(crate) mod step_error;
+mod warning;
+
+pub use initial_error::InitialError;
+pub(crate) use reports::{report, warn};
+pub use step_error::StepError;
+pub use warning::Warning;

@@ -1,0 +1,161 @@
+//! Corrections of an iterate: how large they are, and adding them up. Loops over all unknowns for the widest registers
+//! the processor has.
+
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use crate::newton::Correction;
+
+/// Numbers side by side in a sum or a maximum, so that they need not wait for each other.
+pub(crate) const SIDE_BY_SIDE: usize = 8;
+
+/// Systems of fewer unknowns are not worth a call of their own for wide registers.
+const FEW: usize = 24;
+
+/// What to go through `count` unknowns with.
+pub(crate) fn processor(count: usize) -> pulp::Arch {
+    if count < FEW { pulp::Arch::Scalar } else { pulp::Arch::new() }
+}
+
+/// What goes through many unknowns: no part of what is learned, and equal to any other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Processor(pub(crate) pulp::Arch);
+
+impl Default for Processor {
+    fn default() -> Self {
+        Self(pulp::Arch::new())
+    }
+}
+
+impl PartialEq for Processor {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// Sum of numbers side by side, by halves: none waits for more than two others.
+#[inline(always)]
+pub(crate) fn sum(values: &[f64; SIDE_BY_SIDE]) -> f64 {
+    let [a, b, c, d, e, f, g, h] = *values;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
+}
+
+/// Σ aᵢ bᵢ.
+#[inline(always)]
+pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (a_blocks, a_rest) = a.as_chunks::<SIDE_BY_SIDE>();
+    let (b_blocks, b_rest) = b.as_chunks::<SIDE_BY_SIDE>();
+    let mut sums = [0.0; SIDE_BY_SIDE];
+    for (a, b) in a_blocks.iter().zip(b_blocks) {
+        for k in 0..SIDE_BY_SIDE {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sum(&sums) + rest
+}
+
+/// max |wᵢ vᵢ|, and whether all are finite.
+#[inline(always)]
+pub(crate) fn largest(weights: &[f64], values: &[f64]) -> (f64, bool) {
+    let (w_blocks, w_rest) = weights.as_chunks::<SIDE_BY_SIDE>();
+    let (v_blocks, v_rest) = values.as_chunks::<SIDE_BY_SIDE>();
+    let mut most = [0.0_f64; SIDE_BY_SIDE];
+    // 0 · v is 0 or not a number.
+    let mut nothing = [0.0; SIDE_BY_SIDE];
+    for (w, v) in w_blocks.iter().zip(v_blocks) {
+        for k in 0..SIDE_BY_SIDE {
+            let value = (w[k] * v[k]).abs();
+            nothing[k] += 0.0 * value;
+            most[k] = if value > most[k] { value } else { most[k] };
+        }
+    }
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let [a, b, c, d, e, f, g, h] = most;
+    let mut most = larger(larger(larger(a, e), larger(c, g)), larger(larger(b, f), larger(d, h)));
+    let mut nothing = sum(&nothing);
+    for (w, v) in w_rest.iter().zip(v_rest) {
+        let value = (w * v).abs();
+        nothing += 0.0 * value;
+        most = larger(value, most);
+    }
+    (most, nothing == 0.0)
+}
+
+/// Multiplies by factors, one by one.
+pub(crate) struct Multiply<'a> {
+    pub(crate) values: &'a mut [f64],
+    pub(crate) factors: &'a [f64],
+}
+
+impl pulp::WithSimd for Multiply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        for (value, factor) in self.values.iter_mut().zip(self.factors) {
+            *value *= factor;
+        }
+    }
+}
+
+/// Size of the corrections of one stage's places; its reference is what the step has to find out: how far it departs from
+/// going straight on. Not a number where one is not finite.
+pub(crate) struct Measure<'a> {
+    /// Scaled size of one unit.
+    pub(crate) sizes: &'a [f64],
+    pub(crate) corrections: &'a [f64],
+    pub(crate) increments: &'a [f64],
+}
+
+impl pulp::WithSimd for Measure<'_> {
+    type Output = Correction;
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Correction {
+        let (size, is_finite) = largest(self.sizes, self.corrections);
+        let (reference, _) = largest(self.sizes, self.increments);
+        Correction { size: if is_finite { size } else { f64::NAN }, reference }
+    }
+}
+
+/// Adds corrections, times a share.
+pub(crate) struct Add<'a> {
+    pub(crate) share: f64,
+    pub(crate) corrections: &'a [f64],
+    pub(crate) values: &'a mut [f64],
+}
+
+impl pulp::WithSimd for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        for (value, correction) in self.values.iter_mut().zip(self.corrections) {
+            *value += self.share * correction;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_and_maxima_miss_no_number() {
+        for count in 0..20 {
+            let a: Vec<f64> = (0..count).map(|k| f64::from(k) - 5.0).collect();
+            let b: Vec<f64> = (0..count).map(|k| 2.0 + f64::from(k)).collect();
+            let expected: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
+            assert_eq!(product(&a, &b), expected);
+            let most = a.iter().zip(&b).fold(0.0_f64, |most, (a, b)| most.max((a * b).abs()));
+            assert_eq!(largest(&a, &b), (most, true));
+            for wrong in 0..count as usize {
+                for value in [f64::NAN, f64::INFINITY] {
+                    let mut b = b.clone();
+                    b[wrong] = value;
+                    assert!(!largest(&vec![1.0; b.len()], &b).1, "{wrong} of {count}");
+                }
+            }
+        }
+    }
+}

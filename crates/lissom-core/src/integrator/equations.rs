@@ -1,0 +1,518 @@
+//! The equations of one step as Newton's method sees them.
+
+use lissom_motion::Vector6;
+use lissom_solver::FactorError;
+
+use super::corrections::{Add, Measure, Multiply};
+use super::workspace::Workspace;
+use crate::joints::derivatives::IncrementTangent;
+use crate::joints::evaluation_point::{self, Chart, Point};
+use crate::joints::starts::JointStarts;
+use crate::kinematics::step_stages::StepStages;
+use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
+use crate::newton::{Correction, Equations, Failure};
+use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
+use crate::schemes::{Increments, Scheme, Stage, Tableau};
+use crate::settings::{Phase, Stopwatch};
+use crate::solver_features::SolverFeature;
+use crate::system::{State, StepPoint, System, TangentAssembler};
+
+/// Iterates whose last correction is larger than this are far from equilibrium [-].
+pub(crate) const FAR: f64 = 1e-3;
+/// Corrections of rotations larger than this are cut short [rad].
+const MAX_ROTATION: f64 = 1.0;
+/// Departures from going straight on below this are not resolved for their own sake where states are measured beside
+/// positions [-].
+const MIN_DEPARTURE: f64 = 1e-5;
+/// Roundings that add up in a force.
+const ROUNDINGS: f64 = 16.0;
+
+/// One step from `start`.
+pub(crate) struct StepEquations<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) scheme: &'a Scheme,
+    pub(crate) scaled: Scaled,
+    /// What the scaling of a new tangent follows from.
+    pub(crate) scaling: (&'a ScalingChoice, &'a Representative),
+    pub(crate) start: &'a State,
+    pub(crate) work: &'a mut Workspace,
+    pub(crate) watch: &'a mut dyn Stopwatch,
+}
+
+impl StepEquations<'_> {
+    /// First guess from the scheme, improved by the memory of earlier ones if that is asked for.
+    pub(crate) fn predict(&mut self) {
+        let work = &mut *self.work;
+        work.correction = f64::INFINITY;
+        let extrapolates = std::mem::take(&mut work.extrapolates);
+        for (i, stage) in self.scheme.stages.iter().enumerate() {
+            work.unit.predict(&stage.prediction, &mut work.increments[i]);
+            work.multipliers[i].copy_from_slice(&self.start.multipliers);
+        }
+        if extrapolates && work.disabled.allows(SolverFeature::Prediction) {
+            let [of_increments, of_multipliers] = &work.predictors;
+            of_increments.improve(&mut work.increments);
+            of_multipliers.improve(&mut work.multipliers);
+        }
+        self.update_motions();
+    }
+
+    /// Motions at all stages from the increments.
+    pub(crate) fn update_motions(&mut self) {
+        self.watch.begin(Phase::Evaluation);
+        let layout = self.system.layout();
+        for i in 0..self.scheme.stages.len() {
+            let increments = StageIncrements { all: &self.work.increments, stage: i };
+            self.scaled.stage_motion(
+                layout,
+                self.scheme,
+                self.start,
+                &self.work.unit,
+                &increments,
+                &mut self.work.motions[i],
+            );
+        }
+        // Beyond the stages there is the end of the step, which has the multipliers of the last one.
+        let Workspace { motions, multipliers, .. } = &mut *self.work;
+        for (i, motion) in motions.iter_mut().enumerate() {
+            motion.at.show_multipliers(&multipliers[i.min(multipliers.len() - 1)]);
+        }
+        if let Some(tableau) = &self.scheme.tableau {
+            let work = &mut *self.work;
+            self.scaled.integrate_velocities(
+                layout,
+                tableau,
+                self.start,
+                &work.increments,
+                &mut work.motions,
+            );
+        }
+        self.watch.begin(Phase::Rest);
+    }
+
+    /// The step as those see it whose strains and violations are integrated.
+    pub(crate) fn step_point(&self, tableau: &Tableau) -> Option<StepPoint<'_>> {
+        let work = &*self.work;
+        let [first, second, end] = &work.motions[..] else { return None };
+        let (durations, lasting) = self.scaled.durations(tableau);
+        let start = &self.start.kinematics;
+        Some(StepPoint {
+            step: StepStages {
+                start,
+                stages: [&first.at, &second.at],
+                end: &end.at,
+                changes: &end.changes,
+                durations,
+                lasting,
+                reached: tableau.reached,
+                length: work.length,
+            },
+            increments: [first, second, end].map(|motion| joint_changes(start, motion, &work.joint_starts)),
+            multipliers: [&work.multipliers[0], &work.multipliers[1]],
+            violations: &self.start.violations,
+            augmentation: self.scaled.augmentation(),
+        })
+    }
+
+    pub(crate) fn point(&self, stage: usize) -> Point<'_> {
+        let work = &*self.work;
+        let motion = &work.motions[stage];
+        Point {
+            at: &motion.at,
+            stressed: &motion.at,
+            increments: joint_changes(&self.start.kinematics, motion, &work.joint_starts),
+            multipliers: &work.multipliers[stage],
+            violations: &self.start.violations,
+            augmentation: self.scaled.augmentation(),
+        }
+    }
+
+    /// Violations at the end of the step, from the final increments.
+    pub(crate) fn final_violations(&self, out: &mut [f64]) {
+        let last = self.scheme.stages.len() - 1;
+        let mut point = self.point(last);
+        if let Some(end) = self.work.motions.last() {
+            point.at = &end.at;
+            point.increments = joint_changes(&self.start.kinematics, end, &self.work.joint_starts);
+        }
+        self.system.stage_violations(&point, out);
+    }
+
+    /// Residuals of all stages, in SI.
+    pub(crate) fn evaluate(&mut self) {
+        if let Some(tableau) = &self.scheme.tableau {
+            let mut residuals = std::mem::take(&mut self.work.residuals);
+            if let Some(point) = self.step_point(tableau) {
+                self.system.step_residuals(&point, &mut residuals);
+            }
+            self.work.residuals = residuals;
+            return;
+        }
+        for stage in 0..self.scheme.stages.len() {
+            let mut residual = std::mem::take(&mut self.work.residuals[stage]);
+            let mut threads = self.work.threads.take();
+            match &mut threads {
+                Some(threads) => {
+                    self.system.residual_side_by_side(&self.point(stage), threads, &mut residual);
+                }
+                None => self.system.residual(&self.point(stage), &mut residual),
+            }
+            self.work.threads = threads;
+            self.work.residuals[stage] = residual;
+        }
+    }
+
+    /// Round-off of forces: strains come from places, which are rounded, times the largest stiffness.
+    fn force_round_off(&self) -> f64 {
+        let layout = self.system.layout();
+        let stiffness = (0..layout.coordinate_count())
+            .filter(|&row| layout.quantities()[row] == Quantity::Length)
+            .fold(0.0_f64, |most, row| most.max(self.work.stiffness[row].abs()));
+        let nodes = &self.start.kinematics.nodes;
+        let far = nodes.iter().fold(0.0_f64, |most, node| most.max(node.frame.position.amax()));
+        ROUNDINGS * f64::EPSILON * far * stiffness
+    }
+
+    /// Linearises at the last stage: the values of the tangents of all decoupled systems before equilibration.
+    pub(crate) fn linearize(&mut self) {
+        let mut stiffness = std::mem::take(&mut self.work.stiffness);
+        for (index, system) in self.scheme.coupling.systems.iter().enumerate() {
+            let mut values = self.work.tangent.matrices.take_values(index);
+            self.assemble_tangent(&mut values.receiver(&self.scaled, system, &mut stiffness));
+            self.work.tangent.matrices.set_values(index, values);
+        }
+        self.work.stiffness = stiffness;
+    }
+
+    /// Hands the derivatives at the last stage to `out`.
+    pub(crate) fn assemble_tangent(&mut self, out: &mut TangentAssembler<'_>) {
+        let last = self.scheme.stages.len() - 1;
+        let mut scratch = self.work.scratch.take().unwrap_or_default();
+        let mut tangents = std::mem::take(&mut self.work.node_tangents);
+        let chart = match self.scheme.increments {
+            Increments::FromStart => {
+                self.whole_increments(last, &mut tangents);
+                Chart::Increments(&tangents)
+            }
+            Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
+        };
+        let mut point = self.point(last);
+        if self.is_far() {
+            point.stressed = &self.start.kinematics;
+        }
+        self.system.assemble_tangent(&point, chart, &mut scratch, out);
+        self.work.node_tangents = tangents;
+        self.work.scratch = Some(scratch);
+    }
+
+    /// Whether the iterate is far from equilibrium.
+    pub(crate) fn is_far(&self) -> bool {
+        self.work.correction > FAR && self.work.disabled.allows(SolverFeature::StartStresses)
+    }
+
+    /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
+    fn whole_increments(&self, stage: usize, nodes: &mut [IncrementTangent]) {
+        let work = &*self.work;
+        let straight = if self.scheme.dynamic { self.scheme.stages[stage].abscissa } else { 0.0 };
+        for (rows, tangent) in self.system.layout().node_rows.iter().zip(nodes) {
+            let mut psi = Vector6::zeros();
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                let row = row as usize;
+                psi[k] = straight * work.unit.rate[row] + work.increments[stage][row];
+            }
+            *tangent = IncrementTangent::new(&psi);
+        }
+    }
+
+    /// Applies the corrections. Places are measured by the largest scaled correction; multipliers by
+    /// their largest correction relative to the largest multiplier, in the same units: they may still
+    /// change where the places are found already.
+    fn add_corrections(&mut self) -> Correction {
+        let places = self.measure_places();
+        self.work.correction = places.size;
+        if !places.size.is_finite() {
+            return places;
+        }
+        let largest = MAX_ROTATION;
+        if places.size > largest {
+            self.work.anderson.interrupt();
+            let cut = largest / places.size;
+            self.work.residuals.iter_mut().flatten().for_each(|value| *value *= cut);
+        }
+        let corrections = std::mem::take(&mut self.work.residuals);
+        self.apply(&corrections, -1.0);
+        self.work.residuals = corrections;
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        let work = &*self.work;
+        for (corrections, multipliers) in work.residuals.iter().zip(&work.multipliers) {
+            let Correction { size, reference } = work.processor.dispatch(Measure {
+                sizes: &work.multiplier_sizes,
+                corrections: &corrections[work.sizes.len()..],
+                increments: multipliers,
+            });
+            change = change.max(self.scaled.multiplier_factor() * size);
+            largest = largest.max(reference);
+        }
+        let (of_impulses, most) = self.measure_impulses();
+        (change, largest) = (change.max(of_impulses), largest.max(most));
+        let Correction { size, reference } = places;
+        // Where nothing bears a load yet, as before the first wave arrives, or bears it no longer, as in free flight,
+        // multipliers are nothing but round-off: of strains, and of the forces that accelerate the masses.
+        let inertial = self.scaled.multiplier_factor() * reference * self.scaling.1.length;
+        let round_off = work.force_round_off.max(self.roundings() * f64::EPSILON * inertial);
+        let is_known = largest > 0.0 && change > round_off;
+        let multipliers = if is_known { change / largest * reference } else { 0.0 };
+        // What a joint sees change is rounded as the whole way that parts go in the step, of which accelerations are a part.
+        let is_travel = multipliers > size && change <= self.travel_round_off();
+        let multipliers = if is_travel { 0.0 } else { multipliers };
+        self.with_states(Correction { size: size.max(multipliers), reference })
+    }
+
+    /// Round-off of multipliers from how far parts go straight on in the step.
+    fn travel_round_off(&mut self) -> f64 {
+        let round_off = self.work.travel_round_off.unwrap_or_else(|| self.round_off_of_travel());
+        self.work.travel_round_off = Some(round_off);
+        round_off * self.scaled.multiplier_factor() * self.scaling.1.length
+    }
+
+    /// Round-off of displacements from how far parts go straight on in the step, scaled.
+    fn round_off_of_travel(&self) -> f64 {
+        let work = &*self.work;
+        let travel = work
+            .sizes
+            .iter()
+            .zip(&work.unit.rate)
+            .fold(0.0_f64, |most, (size, rate)| most.max((size * rate).abs()));
+        self.roundings() * f64::EPSILON * travel
+    }
+
+    /// Roundings that add up in an acceleration: those of the increments, times their weights.
+    fn roundings(&self) -> f64 {
+        let weights =
+            |stage: &Stage| stage.curvature.increments.iter().map(|weight| weight.abs()).sum::<f64>();
+        self.scheme.stages.iter().map(weights).fold(ROUNDINGS, f64::max)
+    }
+
+    /// The largest correction of a force of a constraint between velocities, and the largest such force [N].
+    fn measure_impulses(&self) -> (f64, f64) {
+        let layout = self.system.layout();
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        for (row, impulse) in layout.impulses() {
+            for (stage, motion) in self.work.motions.iter().enumerate().take(self.scheme.stages.len()) {
+                let increments = &self.scheme.stages[stage].rate.increments;
+                let by_correction = increments.iter().zip(&self.work.residuals);
+                let rate: f64 = by_correction.map(|(weight, corrections)| weight * corrections[row]).sum();
+                change = change.max((rate / self.scaled.step_size()).abs());
+                largest = largest.max(motion.at.coordinates[impulse].rate.abs());
+            }
+        }
+        (change, largest)
+    }
+
+    /// The same with first-order states: corrections of each relative to what the step has to find out about it, as if
+    /// they were corrections of places.
+    fn with_states(&self, places: Correction) -> Correction {
+        let layout = self.system.layout();
+        if layout.state_count() == 0 {
+            return places;
+        }
+        let least = MIN_DEPARTURE;
+        let reference = places.reference.max(least);
+        let mut size = places.size;
+        for (row, coordinate, magnitude) in layout.states() {
+            let magnitude = magnitude.max(self.start.kinematics.coordinates[coordinate].value.abs());
+            let of = |stages: &[Vec<f64>]| {
+                stages.iter().fold(0.0_f64, |most, values| most.max(values[row].abs())) / magnitude
+            };
+            let departure = of(&self.work.increments).max(least);
+            size = size.max(of(&self.work.residuals) / departure * reference);
+        }
+        Correction { size, reference }
+    }
+
+    /// Adds corrections of all stages, times `share`.
+    fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
+        let factor = self.scaled.multiplier_factor();
+        let Workspace { increments, multipliers, processor, sizes, .. } = &mut *self.work;
+        for (stage, corrections) in corrections.iter().enumerate() {
+            let (motion, constraints) = corrections.split_at(sizes.len());
+            processor.dispatch(Add { share, corrections: motion, values: &mut increments[stage] });
+            processor.dispatch(Add {
+                share: share * factor,
+                corrections: constraints,
+                values: &mut multipliers[stage],
+            });
+        }
+    }
+
+    fn measure_places(&self) -> Correction {
+        let work = &*self.work;
+        let mut largest = Correction { size: 0.0, reference: 0.0 };
+        for (corrections, increments) in work.residuals.iter().zip(&work.increments) {
+            let sizes = &work.sizes;
+            let corrections = &corrections[..sizes.len()];
+            let found = work.processor.dispatch(Measure { sizes, corrections, increments });
+            if found.size.is_nan() {
+                return found;
+            }
+            largest.size = largest.size.max(found.size);
+            largest.reference = largest.reference.max(found.reference);
+        }
+        largest
+    }
+
+    /// Records how the tangent in use is scaled.
+    fn note_scales(&mut self) {
+        self.work.note_scales(self.system.layout(), &self.scaled);
+    }
+
+    /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
+    pub(crate) fn unforgiven(&self, failure: Failure) -> Failure {
+        match self.work.tangent.fell_back() {
+            Some((unknown, pivot)) if failure != Failure::Interrupted => {
+                Failure::Factor(FactorError::ZeroPivot { unknown, pivot, largest: f64::NAN })
+            }
+            _ => failure,
+        }
+    }
+
+    /// The first signal that is not finite at the last iterate, if there is one.
+    pub(crate) fn signal_error(&self) -> Option<crate::signals::SignalError> {
+        self.work.motions.iter().find_map(|motion| self.system.signals().check(&motion.at).err())
+    }
+
+    /// Name of the unknown with the largest entry in the last corrections, or the first that is not
+    /// finite.
+    pub(crate) fn worst_unknown(&self) -> Subject {
+        let layout = self.system.layout();
+        let corrections = self.work.residuals.iter().flat_map(|residual| {
+            residual[..layout.coordinate_count()]
+                .iter()
+                .enumerate()
+                .map(|(row, value)| (row, self.work.sizes[row] * value.abs()))
+        });
+        let mut worst = (0, -1.0);
+        // States are measured apart, as in `with_states`.
+        let least = MIN_DEPARTURE;
+        let states: Vec<(usize, f64)> = layout
+            .states()
+            .map(|(row, coordinate, magnitude)| {
+                let magnitude = magnitude.max(self.start.kinematics.coordinates[coordinate].value.abs());
+                let of = |stages: &[Vec<f64>]| {
+                    stages.iter().fold(0.0_f64, |most, values| most.max(values[row].abs())) / magnitude
+                };
+                (row, of(&self.work.residuals) / of(&self.work.increments).max(least))
+            })
+            .collect();
+        let is_state = |row: usize| states.iter().any(|(state, _)| *state == row);
+        let corrections = corrections.filter(|(row, _)| !is_state(*row)).chain(states.iter().copied());
+        for (row, size) in corrections {
+            if !size.is_finite() {
+                return layout.subject_of(row);
+            }
+            if size > worst.1 {
+                worst = (row, size);
+            }
+        }
+        layout.subject_of(worst.0)
+    }
+}
+
+impl Equations for StepEquations<'_> {
+    fn correct(&mut self) -> Correction {
+        self.work.effort.iterations += 1;
+        if !std::mem::take(&mut self.work.backed_off) {
+            std::mem::swap(&mut self.work.residuals, &mut self.work.before);
+        }
+        self.watch.begin(Phase::Evaluation);
+        self.evaluate();
+        self.watch.begin(Phase::Rest);
+        let layout = self.system.layout();
+        let work = &mut *self.work;
+        if let Some(compliance) = work.tangent.compliance() {
+            let factor = self.scaled.multiplier_factor() * self.scaled.scale();
+            for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
+                compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
+            }
+        }
+        for values in &mut work.residuals {
+            work.processor.dispatch(Multiply { values, factors: &work.row_factors });
+        }
+        self.watch.begin(Phase::Solve);
+        work.tangent.matrices.solve(&self.scheme.coupling, &mut work.residuals);
+        self.watch.begin(Phase::Rest);
+        if let Some(factors) = work.tangent.row_factors() {
+            for values in &mut work.residuals {
+                work.processor.dispatch(Multiply { values, factors });
+            }
+        }
+        if work.disabled.allows(SolverFeature::Secants) {
+            work.anderson.improve(&mut work.residuals, &work.tuning);
+        }
+        self.watch.begin(Phase::Rest);
+        let correction = self.add_corrections();
+        self.update_motions();
+        correction
+    }
+
+    fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        self.work.effort.factorizations += 1;
+        let (choice, representative) = self.scaling;
+        self.scaled = Scaled::new(choice, representative, self.scaled.step_size());
+        self.watch.begin(Phase::Linearisation);
+        self.work.anderson.forget();
+        self.linearize();
+        self.work.force_round_off = self.force_round_off();
+        self.watch.begin(Phase::Factorisation);
+        self.work.tangent.factor(self.system.structure(), self.scaled.scale())?;
+        self.note_scales();
+        self.watch.begin(Phase::Rest);
+        Ok(())
+    }
+
+    fn restart(&mut self) {
+        self.work.anderson.interrupt();
+        self.predict();
+    }
+
+    fn is_wanted_exactly(&self) -> bool {
+        self.scheme.tableau.is_some()
+    }
+
+    fn round_off(&self) -> f64 {
+        self.round_off_of_travel()
+    }
+
+    fn back_off(&mut self) {
+        self.work.anderson.forget();
+        let last = std::mem::take(&mut self.work.residuals);
+        let mut before = std::mem::take(&mut self.work.before);
+        // A correction that is not finite was not applied.
+        if last.iter().flatten().all(|value| value.is_finite()) {
+            self.apply(&last, 1.0);
+        }
+        self.apply(&before, 0.5);
+        for value in before.iter_mut().flatten() {
+            *value *= 0.5;
+        }
+        self.work.residuals = last;
+        self.work.before = before;
+        self.work.backed_off = true;
+        self.update_motions();
+    }
+}
+
+/// What joints see of a stage.
+pub(crate) fn joint_changes<'a>(
+    start: &'a Kinematics,
+    motion: &'a StageMotion,
+    joints: &'a JointStarts,
+) -> evaluation_point::Increments<'a> {
+    let StageMotion { changes, coordinate_changes, .. } = motion;
+    evaluation_point::Increments {
+        start,
+        nodes: changes,
+        coordinates: coordinate_changes,
+        joints: Some(joints),
+    }
+}

@@ -1,0 +1,572 @@
+//! The equations of a step along an equilibrium path as Newton's method sees them: equilibrium, constraints, and one equation
+//! for the load factor. The bordered matrix is solved with the factors of the stiffness and two right-hand sides.
+
+use std::sync::Arc;
+
+use lissom_motion::{Motion, Vector6};
+use lissom_solver::{FactorError, Pattern};
+
+use super::systems::PathSystems;
+use super::{PathSettings, Solution, Tangent};
+use crate::errors::StepError;
+use crate::errors::step_error::{NO_STEP_HELPS, pivot_hint};
+use crate::integrator::equations::FAR;
+use crate::integrator::workspace::sizes;
+use crate::joints::evaluation_point::{Chart, Increments, Point};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
+use crate::newton::{Correction, Equations, Failure};
+use crate::round_off;
+use crate::saddle_point::{Matrix, SaddlePoint};
+use crate::scaling::{Representative, Scaled};
+use crate::schemes::Weights;
+use crate::system::{Scratch, State, Sum, System, TangentAssembler};
+
+/// Corrections larger than this are cut short [-, rad].
+const MAX_CORRECTION: f64 = 0.5;
+/// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
+const INVERSE_ITERATIONS: usize = 4;
+
+/// Entries of the equilibrated tangent that differ from their mirror images by more have no energy.
+const UNEQUAL: f64 = 1e-7;
+
+/// The equation for the load factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Condition {
+    /// The distance from the start of the step.
+    Arc(f64),
+    /// The load factor itself.
+    Load(f64),
+    /// The part of the way from the start of the step that lies along its tangent.
+    Along(f64),
+}
+
+/// Displacements and multipliers in units of the scaled equations, by row, and the load factor.
+#[derive(Clone, Debug)]
+struct Change {
+    rows: Vec<f64>,
+    load: f64,
+}
+
+/// What a step works with, allocated once.
+pub(super) struct PathWork {
+    scaled: Scaled,
+    saddle: SaddlePoint<Matrix<f64>>,
+    /// Whether the tangent factored last is symmetric: without that its negative pivots count nothing but the sign of its determinant.
+    is_symmetric: bool,
+    other_values: Vec<f64>,
+    scratch: Scratch,
+    at: Kinematics,
+    changes: Vec<MotionChange>,
+    coordinate_changes: Vec<f64>,
+    multipliers: Vec<f64>,
+    load_factor: f64,
+    /// Sum of all changes since the start of the step.
+    total: Vec<f64>,
+    /// Displacements per unit of the load factor, at the last tangent.
+    response: Vec<f64>,
+    load: Vec<f64>,
+    residual: Vec<f64>,
+    /// That of another system.
+    other: Vec<f64>,
+    /// Violations at the start of the step, of the system at hand.
+    violations: Vec<f64>,
+    last: Change,
+    before: Change,
+    correction: f64,
+    /// Root of the weight of each row in the distance along the path.
+    weights: Vec<f64>,
+    /// Scaled size of a unit of each row.
+    sizes: Vec<f64>,
+    /// Scaled size of a unit of each violation.
+    violation_sizes: Vec<f64>,
+    /// A right-hand side in no particular direction.
+    probe: Vec<f64>,
+}
+
+impl PathWork {
+    pub(super) fn new(systems: &PathSystems, state: &State, settings: &PathSettings) -> Self {
+        let (unloaded, loaded) = (systems.unloaded(), systems.any());
+        let layout = loaded.layout();
+        let (size, count) = (layout.size(), layout.coordinate_count());
+        let entries = loaded.structure().pattern.entries();
+        let linearization = unloaded.linearization_at(&state.kinematics);
+        let representative = Representative::of(unloaded, &state.kinematics, &linearization);
+        let sizes = sizes(layout, &representative);
+        let violation_size = |quantity: &Quantity| match quantity {
+            Quantity::Length => 1.0 / representative.length,
+            Quantity::Angle | Quantity::State => 1.0,
+        };
+        let matrix = Matrix::new((settings.solver.real)(loaded.structure()), loaded.structure());
+        let mut noise = 1.0_f64;
+        let zeros = vec![0.0; size];
+        let nothing = Change { rows: zeros.clone(), load: 0.0 };
+        Self {
+            scaled: Scaled::new(&settings.scaling, &representative, 1.0),
+            saddle: SaddlePoint::new(matrix, count).equilibrated(size),
+            is_symmetric: true,
+            other_values: vec![0.0; entries],
+            scratch: Scratch::default(),
+            at: state.kinematics.clone(),
+            changes: vec![MotionChange::none(); state.kinematics.nodes.len()],
+            coordinate_changes: vec![0.0; state.kinematics.coordinates.len()],
+            multipliers: state.multipliers.clone(),
+            load_factor: 0.0,
+            total: vec![0.0; size],
+            response: zeros.clone(),
+            load: zeros.clone(),
+            residual: zeros.clone(),
+            other: zeros,
+            violations: state.violations.clone(),
+            last: nothing.clone(),
+            before: nothing,
+            correction: 0.0,
+            violation_sizes: layout.quantities()[count..].iter().map(violation_size).collect(),
+            weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
+            probe: (0..count)
+                .map(|_| {
+                    // Numbers without a pattern [logistic map].
+                    noise = (3.9 * 0.5 * noise * (1.0 - 0.5 * noise)).abs().max(1e-3) * 2.0;
+                    noise - 1.0
+                })
+                .collect(),
+            sizes,
+        }
+    }
+
+    /// Product of two displacements in the metric of the path.
+    pub(super) fn inner(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.weights.iter().zip(a).zip(b).map(|((weight, a), b)| (weight * a) * (weight * b)).sum()
+    }
+
+    /// Distance from the start of the last solution.
+    pub(super) fn length_of_last(&self) -> f64 {
+        self.inner(&self.total, &self.total).sqrt()
+    }
+
+    /// All changes since the start of the last solution, by row.
+    pub(super) fn total(&self) -> &[f64] {
+        &self.total
+    }
+
+    /// The sign of the displacement or rotation that is largest in scaled size.
+    pub(super) fn sense_of_largest(&self, values: &[f64]) -> f64 {
+        let scaled = self.sizes.iter().zip(values).map(|(size, value)| size * value);
+        let largest = scaled.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most });
+        largest.signum()
+    }
+
+    /// Whether the load moves nothing.
+    pub(super) fn load_is_zero(&self) -> bool {
+        self.response.iter().all(|&value| value == 0.0)
+    }
+
+    fn largest(&self, values: &[f64]) -> f64 {
+        self.sizes.iter().zip(values).fold(0.0_f64, |most, (size, value)| {
+            let scaled = (size * value).abs();
+            if scaled <= most { most } else { scaled }
+        })
+    }
+}
+
+/// Whether the rows and columns of the coordinates, those before `count`, of equilibrated values on `pattern` are symmetric: loads that
+/// follow the motion have no energy, and their tangent is not.
+fn is_symmetric(pattern: &Pattern, values: &[f64], count: usize) -> bool {
+    (0..count).all(|column| {
+        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        let entries = pattern.row_indices()[range.clone()].iter().zip(&values[range]);
+        entries.filter(|&(&row, _)| row > column && row < count).all(|(&row, &value)| {
+            let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
+            (value - mirror).abs() <= UNEQUAL
+        })
+    })
+}
+
+/// One step from `start`.
+pub(super) struct PathEquations<'a> {
+    pub(super) systems: &'a mut PathSystems,
+    pub(super) settings: &'a PathSettings,
+    pub(super) start: &'a State,
+    pub(super) start_factor: f64,
+    /// The direction at the start; none for the first equilibrium.
+    pub(super) tangent: Option<&'a Tangent>,
+    pub(super) condition: Condition,
+    pub(super) work: &'a mut PathWork,
+}
+
+impl PathEquations<'_> {
+    /// Goes to the first guess.
+    pub(super) fn begin(&mut self) {
+        let work = &mut *self.work;
+        work.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
+        work.at.coordinates.copy_from_slice(&self.start.kinematics.coordinates);
+        (work.at.time, work.at.elapsed) = (self.start.kinematics.time, 0.0);
+        work.changes.fill(MotionChange::none());
+        work.coordinate_changes.fill(0.0);
+        work.multipliers.copy_from_slice(&self.start.multipliers);
+        work.load_factor = self.start_factor;
+        work.total.fill(0.0);
+        work.correction = 0.0;
+        let Some(tangent) = self.tangent else { return };
+        let length = match self.condition {
+            Condition::Arc(length) | Condition::Along(length) => length,
+            Condition::Load(load) => (load - self.start_factor) / tangent.load_rate,
+        };
+        let guess = Change {
+            rows: tangent.direction.iter().map(|value| length * value).collect(),
+            load: length * tangent.load_rate,
+        };
+        self.apply(&guess, 1.0);
+        self.work.correction = self.work.largest(&guess.rows);
+    }
+
+    fn apply(&mut self, change: &Change, share: f64) {
+        let layout = self.systems.any().layout();
+        let work = &mut *self.work;
+        for (node, rows) in layout.node_rows.iter().enumerate() {
+            let mut psi = Vector6::zeros();
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                psi[k] = share * change.rows[row as usize];
+            }
+            if psi == Vector6::zeros() {
+                continue;
+            }
+            let motion = Motion::exponential(&psi);
+            work.changes[node] = work.changes[node].then(&MotionChange::of(&motion));
+            work.at.nodes[node].frame = work.at.nodes[node].frame * motion;
+        }
+        for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
+            let value = share * change.rows[row as usize];
+            work.coordinate_changes[coordinate] += value;
+            work.at.coordinates[coordinate].value += value;
+        }
+        let factor = share * work.scaled.multiplier_factor();
+        let count = layout.coordinate_count();
+        for (multiplier, value) in work.multipliers.iter_mut().zip(&change.rows[count..]) {
+            *multiplier += factor * value;
+        }
+        for (sum, value) in work.total.iter_mut().zip(&change.rows) {
+            *sum += share * value;
+        }
+        work.load_factor += share * change.load;
+    }
+
+    fn point(&self, stressed_at_start: bool) -> Point<'_> {
+        let work = &*self.work;
+        Point {
+            at: &work.at,
+            stressed: if stressed_at_start { &self.start.kinematics } else { &work.at },
+            increments: Increments {
+                start: &self.start.kinematics,
+                nodes: &work.changes,
+                coordinates: &work.coordinate_changes,
+                joints: None,
+            },
+            multipliers: &work.multipliers,
+            violations: &work.violations,
+            augmentation: work.scaled.augmentation(),
+        }
+    }
+
+    /// The residual. Under loads also its derivative by their factor. False if there is no system for the value at hand.
+    fn evaluate(&mut self) -> bool {
+        let value = self.work.load_factor;
+        let system = match &mut *self.systems {
+            PathSystems::Loads([_, loaded]) => {
+                self.work.violations.copy_from_slice(&self.start.violations);
+                Arc::clone(loaded)
+            }
+            PathSystems::Number(number) => {
+                let Some(system) = number.at(value) else { return false };
+                system.violations(&self.start.kinematics, &mut self.work.violations);
+                system
+            }
+        };
+        let mut residual = std::mem::take(&mut self.work.residual);
+        system.residual(&self.point(false), &mut residual);
+        if let PathSystems::Loads([unloaded, _]) = &*self.systems {
+            let mut other = std::mem::take(&mut self.work.other);
+            unloaded.residual(&self.point(false), &mut other);
+            let work = &mut *self.work;
+            for ((load, residual), unloaded) in work.load.iter_mut().zip(&mut residual).zip(&other) {
+                *load = *residual - unloaded;
+                *residual = unloaded + value * *load;
+            }
+            work.other = other;
+        }
+        self.work.residual = residual;
+        true
+    }
+
+    /// The derivative of the residual by a number on which the system depends, by differences. False if there are no systems
+    /// beside the one at hand.
+    fn differentiate(&mut self) -> bool {
+        let PathSystems::Number(number) = &mut *self.systems else { return true };
+        let Some([below, above]) = number.around(self.work.load_factor) else { return false };
+        let own = self.work.violations.clone();
+        let mut other = std::mem::take(&mut self.work.other);
+        let mut load = std::mem::take(&mut self.work.load);
+        for ((_, system), out) in [&below, &above].into_iter().zip([&mut other, &mut load]) {
+            system.violations(&self.start.kinematics, &mut self.work.violations);
+            system.residual(&self.point(false), out);
+        }
+        for (load, other) in load.iter_mut().zip(&other) {
+            *load = (*load - other) / (above.0 - below.0);
+        }
+        (self.work.other, self.work.load, self.work.violations) = (other, load, own);
+        true
+    }
+
+    /// Linearises at the iterate and factors; then solves for the response to the load.
+    fn factor(&mut self, stressed_at_start: bool) -> Result<(), FactorError> {
+        if !(self.evaluate() && self.differentiate()) {
+            return Err(FactorError::NotFinite { unknown: 0 });
+        }
+        let mut values = std::mem::take(&mut self.work.saddle.matrices.values);
+        let mut other = std::mem::take(&mut self.work.other_values);
+        let mut scratch = std::mem::take(&mut self.work.scratch);
+        let blend = self.work.scaled.blend(Weights { rate: 0.0, curvature: 0.0 });
+        let system = match &mut *self.systems {
+            PathSystems::Loads([_, loaded]) => Some(Arc::clone(loaded)),
+            PathSystems::Number(number) => number.at(self.work.load_factor),
+        };
+        let Some(system) = system else { return Err(FactorError::NotFinite { unknown: 0 }) };
+        let point = self.point(stressed_at_start);
+        let mut hand = |system: &System, values: &mut [f64]| {
+            let mut receiver = TangentAssembler::Real(Sum { blend, values, stiffness: &mut [] });
+            system.assemble_tangent(&point, Chart::Body, &mut scratch, &mut receiver);
+        };
+        hand(&system, &mut values);
+        let has_loads = if let PathSystems::Loads([unloaded, _]) = &*self.systems {
+            hand(unloaded, &mut other);
+            true
+        } else {
+            false
+        };
+        let count = system.layout().coordinate_count();
+        let work = &mut *self.work;
+        if has_loads {
+            for (value, unloaded) in values.iter_mut().zip(&other) {
+                *value = unloaded + work.load_factor * (*value - unloaded);
+            }
+        }
+        (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
+        let structure = system.structure();
+        work.saddle.factor(structure, work.scaled.scale())?;
+        work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
+        let mut response = std::mem::take(&mut work.response);
+        for (value, load) in response.iter_mut().zip(&work.load) {
+            *value = -load;
+        }
+        self.solve(&mut response);
+        self.work.response = response;
+        Ok(())
+    }
+
+    /// Solves with the factored tangent, for a residual in SI.
+    fn solve(&mut self, right: &mut [f64]) {
+        let work = &mut *self.work;
+        work.scaled.scale_residual(self.systems.any().layout(), right);
+        work.saddle.solve(self.systems.any().structure(), right);
+    }
+
+    /// The state reached, and the direction of the path there.
+    pub(super) fn finish(&mut self, iterations: usize) -> Result<Solution, StepError> {
+        self.factor(false).map_err(|error| self.describe(&Failure::Factor(error)))?;
+        let count = self.systems.any().layout().coordinate_count();
+        let multiplier_count = self.work.multipliers.len();
+        let mut probe = vec![0.0; count + multiplier_count];
+        probe[..count].copy_from_slice(&self.work.probe);
+        // Forces in units of the scaled equations: a length of the model counts like an angle.
+        for (value, size) in probe.iter_mut().zip(&self.work.sizes) {
+            *value *= size;
+        }
+        let right = probe.clone();
+        self.solve(&mut probe);
+        let flexibility: f64 = probe[..count].iter().zip(&right).map(|(a, b)| a * b).sum();
+        let work = &*self.work;
+        let norm = work.inner(&work.response, &work.response).sqrt();
+        let mut tangent = Tangent {
+            direction: work.response.iter().map(|value| value / norm).collect(),
+            load_rate: norm.recip(),
+            turn: 0.0,
+            unstable: 0,
+            signature: flexibility.recip(),
+        };
+        tangent.turn = work.largest(&tangent.direction[..count]);
+        let negative =
+            work.saddle.report().and_then(|report| report.negative_pivots).unwrap_or(multiplier_count);
+        tangent.unstable = negative.saturating_sub(multiplier_count);
+        if !work.is_symmetric {
+            tangent.unstable = (negative + multiplier_count) % 2;
+        }
+        if let Some(before) = self.tangent
+            && work.inner(&before.direction, &tangent.direction) < 0.0
+        {
+            tangent.reverse();
+        }
+        let mut state = self.start.clone();
+        state.kinematics.clone_from(&work.at);
+        state.kinematics.elapsed = 0.0;
+        for node in &mut state.kinematics.nodes {
+            node.frame.rotation = node.frame.rotation.normalized();
+        }
+        state.multipliers.copy_from_slice(&work.multipliers);
+        let mut violations = vec![0.0; multiplier_count];
+        // The system of this value was used last: it was linearised here.
+        self.systems.any().stage_violations(&self.point(false), &mut violations);
+        state.violations = violations;
+        Ok(Solution { state, load_factor: self.work.load_factor, tangent, iterations })
+    }
+
+    /// The direction of length 1 in which the stiffness factored last is softest, by inverse iteration.
+    pub(super) fn softest_direction(&mut self) -> Vec<f64> {
+        let count = self.systems.any().layout().coordinate_count();
+        let mut direction = vec![0.0; count + self.work.multipliers.len()];
+        for ((value, probe), size) in direction.iter_mut().zip(&self.work.probe).zip(&self.work.sizes) {
+            *value = probe * size;
+        }
+        for _ in 0..INVERSE_ITERATIONS {
+            direction[count..].fill(0.0);
+            self.solve(&mut direction);
+            let norm = self.work.inner(&direction, &direction).sqrt();
+            for value in &mut direction {
+                *value /= norm;
+            }
+        }
+        direction
+    }
+
+    /// Nothing was applied: the last correction is the one before.
+    fn note_nothing(&mut self) {
+        let work = &mut *self.work;
+        std::mem::swap(&mut work.before, &mut work.last);
+        work.last.rows.fill(0.0);
+        work.last.load = 0.0;
+    }
+
+    /// A failure with names.
+    pub(super) fn describe(&self, failure: &Failure) -> StepError {
+        let layout = self.systems.any().layout();
+        let time = self.start.kinematics.time;
+        let work = &*self.work;
+        let scaled = |row: usize| (work.sizes[row] * work.last.rows[row]).abs();
+        let worst = || {
+            let largest = (0..work.sizes.len()).max_by(|&a, &b| scaled(a).total_cmp(&scaled(b)));
+            layout.subject_of(largest.unwrap_or(0))
+        };
+        let hint = NO_STEP_HELPS;
+        match *failure {
+            Failure::NotConverged { iterations, correction } => {
+                StepError::NotConverged { time, iterations, correction, worst: worst(), hint }
+            }
+            Failure::NotFinite { iterations } => {
+                StepError::NotFinite { time, iterations, worst: worst(), hint }
+            }
+            Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
+                time,
+                pivot,
+                unknown: layout.subject_of(unknown),
+                hint: pivot_hint(unknown, layout, self.settings.scaling.augmented),
+                after_pivoting: false,
+            },
+            Failure::Factor(FactorError::NotFinite { unknown }) => {
+                StepError::NotFinite { time, iterations: 0, worst: layout.subject_of(unknown), hint }
+            }
+            Failure::Interrupted => StepError::Interrupted { time },
+        }
+    }
+}
+
+impl Equations for PathEquations<'_> {
+    fn correct(&mut self) -> Correction {
+        if !self.evaluate() {
+            self.note_nothing();
+            return Correction { size: f64::NAN, reference: 0.0 };
+        }
+        let mut rows = std::mem::take(&mut self.work.before.rows);
+        rows.copy_from_slice(&self.work.residual);
+        let count = self.systems.any().layout().coordinate_count();
+        let work = &mut *self.work;
+        if let Some(compliance) = work.saddle.compliance() {
+            // The compliance is in the factors alone, and violations are corrected whole. What cannot be corrected, because
+            // constraints repeat each other, is round-off, and would accumulate in the multipliers.
+            let factor = work.scaled.multiplier_factor() * work.scaled.scale();
+            let allowances = compliance.allowances(factor, &work.multipliers);
+            for ((value, unit), allowance) in
+                rows[count..].iter_mut().zip(&work.violation_sizes).zip(allowances)
+            {
+                if (*value * unit).abs() <= round_off::VIOLATION && value.abs() <= allowance {
+                    *value = 0.0;
+                }
+            }
+        }
+        self.solve(&mut rows);
+        for value in &mut rows {
+            *value = -*value;
+        }
+        let work = &mut *self.work;
+        let load = match self.condition {
+            Condition::Load(load) => load - work.load_factor,
+            Condition::Arc(length) => {
+                let excess = 0.5 * (work.inner(&work.total, &work.total) - length * length);
+                -(excess + work.inner(&work.total, &rows)) / work.inner(&work.total, &work.response)
+            }
+            Condition::Along(length) => {
+                let direction = self.tangent.map_or(&[][..], |tangent| &tangent.direction);
+                let way = work.inner(direction, &work.total) + work.inner(direction, &rows);
+                (length - way) / work.inner(direction, &work.response)
+            }
+        };
+        for (value, response) in rows.iter_mut().zip(&work.response) {
+            *value += load * response;
+        }
+        let size = work.largest(&rows[..count]);
+        let mut change = Change { rows, load };
+        if !(size.is_finite() && load.is_finite()) {
+            work.before.rows = change.rows;
+            self.note_nothing();
+            return Correction { size: f64::NAN, reference: 0.0 };
+        }
+        if size > MAX_CORRECTION {
+            let cut = MAX_CORRECTION / size;
+            for value in &mut change.rows {
+                *value *= cut;
+            }
+            change.load *= cut;
+        }
+        self.apply(&change, 1.0);
+        let work = &mut *self.work;
+        work.correction = size;
+        work.before = std::mem::replace(&mut work.last, change);
+        let reference = work.largest(&work.total[..count]);
+        // The load factor counts like a displacement, relative to its size.
+        let of_load = work.load_factor.abs().max((work.load_factor - self.start_factor).abs());
+        let load = if of_load > 0.0 { work.last.load.abs() / of_load * reference } else { 0.0 };
+        Correction { size: size.max(load), reference }
+    }
+
+    fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        // The stresses of an iterate far from equilibrium are no guide.
+        let is_far = self.work.correction > FAR;
+        self.factor(is_far)
+    }
+
+    fn restart(&mut self) {
+        self.begin();
+    }
+
+    fn back_off(&mut self) {
+        let last = self.work.last.clone();
+        let mut before = self.work.before.clone();
+        if last.rows.iter().all(|value| value.is_finite()) {
+            self.apply(&last, -1.0);
+        }
+        self.apply(&before, -0.5);
+        for value in &mut before.rows {
+            *value *= 0.5;
+        }
+        before.load *= 0.5;
+        // Half of it stands, and is what may be halved again.
+        self.work.last = before;
+    }
+}

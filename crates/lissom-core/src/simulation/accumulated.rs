@@ -1,0 +1,174 @@
+//! Numbers that depend on the whole way of a model and not on where it is: work, angles that go on beyond half a turn.
+//! They are carried in the state, so that snapshots and steps in parts have them, and change nothing of the motion.
+
+use std::sync::Arc;
+
+use crate::elements::quadrature::gauss_legendre;
+use crate::errors::Warning;
+use crate::errors::warn;
+use crate::integrator::dense::DenseOutput;
+use crate::integrator::{Attempt, Integrator};
+use crate::joints::Constraint as _;
+use crate::settings::Problem;
+use crate::simulation::Simulation;
+use crate::simulation::{Need, Recovery};
+use crate::system::{ElementId, State, System};
+
+/// A number that grows from step to step; zero at the start.
+pub trait Accumulated: Send + Sync {
+    /// Its name in the model.
+    fn name(&self) -> &str;
+
+    /// Whether it depends on multipliers. Default: it does not.
+    fn depends_on_multipliers(&self) -> bool {
+        false
+    }
+
+    /// Its value at the end of a step, from the one at its start; not finite where that cannot be determined.
+    fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64;
+}
+
+/// A step that was accepted.
+pub struct AcceptedStep<'s> {
+    /// The model.
+    pub system: &'s System,
+    /// Its start.
+    pub start: &'s State,
+    /// Its Gauss points, of a motion in time; none of a load step.
+    pub within: Option<&'s [State]>,
+    /// Its end.
+    pub end: &'s State,
+    /// Whether velocities, accelerations and multipliers at the Gauss points follow from the positions there.
+    pub has_consistent_rates: bool,
+}
+
+impl AcceptedStep<'_> {
+    /// Work of an element's forces on the rest of the model [J]. In motion by Gauss's rule over the power, in load steps by the
+    /// trapezoidal rule along the way:
+    ///
+    /// ```text
+    /// W = h/2 Σ wᵢ P(τᵢ)
+    /// ```
+    ///
+    /// Steps end where forces jump. There a force has two values, and the rule asks for neither.
+    pub fn work_of_element(&self, element: ElementId) -> f64 {
+        let (start, end) = (&self.start.kinematics, &self.end.kinematics);
+        let Some(within) = self.within else { return self.system.work_of(element, start, end) };
+        self.integral(within, |state| self.system.power(element, &state.kinematics))
+    }
+
+    /// Work of a drive of a coordinate [J]: by Gauss's rule as above if multipliers within the step are known, otherwise as if its force
+    /// changed linearly in time.
+    pub fn work_of_drive(&self, drive: usize) -> f64 {
+        let drive = &self.system.drives()[drive];
+        if let Some(within) = self.within.filter(|_| self.has_consistent_rates) {
+            let rate = |state: &State| state.kinematics.coordinates[drive.prescribed.coordinate].rate;
+            return self.integral(within, |state| -state.multipliers[drive.multiplier] * rate(state));
+        }
+        let [start, end] = [self.start, self.end].map(|state| (&state.kinematics, &state.multipliers[..]));
+        drive.work(start, end)
+    }
+
+    fn integral(&self, within: &[State], power: impl Fn(&State) -> f64) -> f64 {
+        let weights = gauss_legendre(within.len());
+        let sum: f64 = within.iter().zip(weights).map(|(state, (_, weight))| weight * power(state)).sum();
+        0.5 * self.duration() * sum
+    }
+
+    /// How long it is [s].
+    pub fn duration(&self) -> f64 {
+        self.end.kinematics.time - self.start.kinematics.time
+    }
+}
+
+/// What a simulation accumulates.
+#[derive(Default)]
+pub(crate) struct Accumulation {
+    pub(crate) numbers: Vec<Arc<dyn Accumulated>>,
+    /// Room for the Gauss points of a step, where there are any.
+    within: Vec<State>,
+    /// Makes velocities, accelerations and multipliers there consistent with the positions, if numbers depend on them.
+    rates: Option<Box<Recovery>>,
+    /// Room for the values after a step.
+    after: Vec<f64>,
+}
+
+impl Accumulation {
+    /// Of these numbers, from zero, from the present state of a simulation on.
+    pub(crate) fn new(numbers: Vec<Arc<dyn Accumulated>>, simulation: &Simulation) -> Self {
+        let state = simulation.state();
+        let points = gauss_legendre(simulation.settings().scheme.stages.len().max(2)).len();
+        let within = if numbers.is_empty() { Vec::new() } else { vec![state.clone(); points] };
+        let depends = numbers.iter().any(|number| number.depends_on_multipliers());
+        let rates = depends.then(|| Recovery::of(simulation)).flatten();
+        Self { within, rates, after: Vec::with_capacity(numbers.len()), numbers }
+    }
+
+    /// Takes a step into account that is being accepted.
+    pub(crate) fn follow(
+        &mut self,
+        problem: Problem<'_>,
+        integrator: &Integrator,
+        attempt: &mut Attempt,
+        state: &State,
+        warnings: &mut Vec<Warning>,
+    ) {
+        if self.numbers.is_empty() {
+            return;
+        }
+        let (start, end) = (attempt.start(state), &attempt.end);
+        self.integrate(problem, &integrator.dense(problem, (start, end)), end);
+        for ((number, before), value) in self.numbers.iter().zip(&start.accumulated).zip(&self.after) {
+            if before.is_finite() && !value.is_finite() {
+                let (time, output) = (end.kinematics.time, number.name().to_owned());
+                warn(warnings, Warning::AccumulationLost { time, output });
+            }
+        }
+        attempt.end.accumulated.copy_from_slice(&self.after);
+    }
+
+    /// The numbers at `end`, an instant of a `step`, go to `after`.
+    fn integrate(&mut self, problem: Problem<'_>, step: &DenseOutput<'_>, end: &State) {
+        let Problem { system, settings } = problem;
+        let Self { numbers, within, rates, after } = self;
+        let start = step.from;
+        let duration = end.kinematics.time - start.kinematics.time;
+        let is_motion = settings.scheme.dynamic;
+        let mut has_consistent_rates = is_motion && rates.is_some();
+        if is_motion {
+            let points = gauss_legendre(within.len());
+            for (state, (xi, _)) in within.iter_mut().zip(points) {
+                step.interpolate(start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
+                let whole = step.to.kinematics.time - start.kinematics.time;
+                let recovered =
+                    rates.as_mut().and_then(|rates| rates.recover(Need::Forces, (system, state), whole));
+                match recovered {
+                    Some(recovered) => state.clone_from(&recovered.rates),
+                    None => has_consistent_rates = false,
+                }
+            }
+        }
+        let within = is_motion.then_some(&within[..]);
+        let step = AcceptedStep { system, start, within, end, has_consistent_rates };
+        after.clear();
+        after.extend(
+            numbers.iter().zip(&start.accumulated).map(|(number, &before)| number.after(&step, before)),
+        );
+    }
+}
+
+impl Simulation {
+    /// The state at `time` [s] within the last step, as [`interpolate`](Self::interpolate) does, with the accumulated numbers
+    /// there; `out` must be a state of this system.
+    pub fn state_within(&mut self, time: f64, out: &mut State) {
+        self.interpolate(time, out);
+        if self.accumulation.numbers.is_empty() {
+            return;
+        }
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let ends = (&self.previous, &self.state);
+        let step = self.integrator.dense(problem, ends).known(self.is_last_step_known);
+        self.accumulation.integrate(problem, &step, out);
+        out.accumulated.copy_from_slice(&self.accumulation.after);
+    }
+}

@@ -1,0 +1,91 @@
+//! Why a step has no solution however short: what can be seen of it where the motion stands.
+
+use crate::errors::StepError;
+use crate::errors::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE};
+use crate::judge::{MAX_TURN, degenerate_joint};
+use crate::kinematics::{NodeId, Subject};
+use crate::settings::Problem;
+use crate::simulation::Simulation;
+
+impl Simulation {
+    /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
+    /// force that switches. `no_part` is true if the shortest parts of the step were tried too.
+    pub(crate) fn with_cause(&mut self, error: StepError, no_part: bool) -> StepError {
+        let time = match &error {
+            StepError::NotConverged { time, .. }
+            | StepError::NotFinite { time, .. }
+            | StepError::ZeroPivot { time, after_pivoting: true, .. } => *time,
+            _ => return error,
+        };
+        let (at, length) = (&self.state.kinematics, self.integrator.representative.length);
+        if let Some((node, angle)) = self.turns_in_a_part() {
+            return StepError::TurnsTooFar { time, node, angle };
+        }
+        if let Some(found) = degenerate_joint::rank_loss(&self.system, &self.origin.kinematics, at, length) {
+            let degenerate_joint::RankLoss { joint, kind, equation, angle } = found;
+            return StepError::JointLosesHold { time, joint, kind, equation, angle: angle.to_degrees() };
+        }
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        if let Some(cause) = self.monitors.cause(problem, at, time) {
+            return cause;
+        }
+        if !self.settings.scheme.dynamic {
+            return error;
+        }
+        if no_part && let Some(what) = self.switching() {
+            return StepError::Switches { time, what };
+        }
+        match error {
+            StepError::NotConverged { time, iterations, correction, worst, .. } if no_part => {
+                StepError::NotConverged { time, iterations, correction, worst, hint: NO_PART_CONVERGES }
+            }
+            StepError::NotFinite { time, iterations, worst, .. } if no_part => {
+                StepError::NotFinite { time, iterations, worst, hint: NO_PART_IS_FINITE }
+            }
+            other => other,
+        }
+    }
+
+    /// What changes its side between the state and the last iterate, in words: steps of planned size look for no
+    /// side that can stay.
+    fn switching(&self) -> Option<Subject> {
+        let reached = &self.integrator.work.motions.last()?.at;
+        let [before, after] = [&self.state.kinematics, reached].map(|at| {
+            let mut values = Vec::new();
+            self.system.signals().switches(at, &mut values);
+            self.system.switches(at, &mut values);
+            values
+        });
+        let has_switched = |which: &usize| {
+            let [before, after] = [before[*which], after[*which]];
+            before.number * after.number != 0.0 && before.side() != after.side()
+        };
+        let which = (0..before.len().min(after.len())).find(has_switched)?;
+        Some(self.system.name_of_switch(which))
+    }
+
+    /// The node that turns further in a part of a step, as short as the last one tried, than any step resolves; with the
+    /// angle [rad].
+    fn turns_in_a_part(&self) -> Option<(String, f64)> {
+        if !self.settings.scheme.dynamic {
+            return None;
+        }
+        let turning = |node: NodeId| self.state.kinematics.nodes[node].twist.fixed_rows::<3>(3).norm();
+        let nodes = self.system.layout().nodes();
+        let fastest = nodes.max_by(|&a, &b| turning(a).total_cmp(&turning(b)))?;
+        let angle = turning(fastest) * self.integrator.scaled.step_size();
+        let name = || self.system.layout().name_of_node(fastest).to_owned();
+        (angle > MAX_TURN).then(|| (name(), angle))
+    }
+}
+
+/// Of the failures of a step and of its parts the more specific one: the first, unless it states only that numbers did not
+/// converge and a later one states why.
+pub(crate) fn more_specific(first: Option<StepError>, later: StepError) -> StepError {
+    let is_generic =
+        |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });
+    match first {
+        Some(first) if !is_generic(&first) || is_generic(&later) => first,
+        _ => later,
+    }
+}

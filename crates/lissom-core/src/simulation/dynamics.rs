@@ -1,0 +1,272 @@
+//! Starts a simulation, tries steps and accepts them: `control` decides about their length.
+
+use crate::kinematics::Subject;
+use std::sync::Arc;
+
+use lissom_solver::FactorError;
+
+use super::accumulated::Accumulation;
+use super::equilibrium;
+use super::held_values::settle;
+use crate::consistent::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::singular_positions::SingularPositions;
+use crate::control;
+use crate::energy_balance::{EnergyBalance, StepWork};
+use crate::errors::InitialError;
+use crate::errors::StepError;
+use crate::errors::Warning;
+use crate::errors::step_error::describe;
+use crate::integrator::workspace::Workspace;
+use crate::integrator::{Attempt, Integrator, Start, pivoting_unless_augmented};
+use crate::judge::{self, Judge};
+use crate::monitors::{Accepted, Beginning, Monitors};
+use crate::newton::Failure;
+use crate::saddle_point::TangentValues;
+use crate::scaling::{Representative, Scaled};
+use crate::schemes::StageSystem;
+use crate::settings::Problem;
+use crate::settings::Settings;
+use crate::settings::{Phase, Stopwatch};
+use crate::settings::{StepReport, Totals};
+use crate::simulation::{EventDetector, Stops};
+use crate::simulation::{Origin, Simulation};
+use crate::system::{State, System};
+
+impl Simulation {
+    /// Prepares a simulation: representative values, consistent initial velocities, accelerations and
+    /// multipliers.
+    ///
+    /// # Errors
+    /// If consistent initial values do not exist.
+    pub fn new(
+        system: impl Into<Arc<System>>,
+        state: State,
+        settings: Settings,
+    ) -> Result<Self, InitialError> {
+        let mut simulation = Self::start(system.into(), state, settings, None)?;
+        simulation.begin_behind_jumps()?;
+        Ok(simulation)
+    }
+
+    /// As [`new`](Self::new); with `known` representative values, where they are not those of `state`. The multipliers of `state` stay
+    /// then.
+    pub(crate) fn start(
+        system: Arc<System>,
+        state: State,
+        settings: Settings,
+        known: Option<&Representative>,
+    ) -> Result<Self, InitialError> {
+        let mut warnings = Vec::new();
+        let (system, mut state) = equilibrium::start_at_rest(system, state, &settings, &mut warnings)?;
+        if !settings.scheme.dynamic {
+            refuse_rates(&system)?;
+        }
+        let representative = known.copied().unwrap_or_else(|| {
+            let at_start = system.linearization_at(&state.kinematics);
+            Representative::of(&system, &state.kinematics, &at_start)
+        });
+        let mut velocity_correction = 0.0;
+        let mut held_values = None;
+        let mut released = 0.0;
+        if settings.scheme.dynamic {
+            (velocity_correction, held_values) =
+                begin_motion(&system, &mut state, &representative, &settings, &mut warnings)?;
+        } else if known.is_none() {
+            released = equilibrium::hold_start(&system, &mut state, settings.solver);
+        }
+        state.violations = vec![0.0; system.layout().multiplier_count];
+        system.violations(&state.kinematics, &mut state.violations);
+        let problem = Problem { system: &system, settings: &settings };
+        let beginning = Beginning { problem, state: &state, representative: &representative, released };
+        let monitors = Monitors::new(&beginning);
+        let repeating = monitors.get::<SingularPositions>().and_then(SingularPositions::first_repeating);
+        let integrator = Integrator::new(problem, &state, representative, repeating);
+        judge::relative_turns(&system, &state.kinematics)
+            .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
+        let interval = settings.scheme.dynamic.then_some(settings.step_size);
+        let energy_balance = EnergyBalance::new(&system, &state.kinematics, &representative, interval);
+        let events = event_detector(&system, &state, &settings);
+        events.freeze_switches(&system, &mut state.kinematics);
+        Ok(Self {
+            integrator,
+            monitors,
+            stops: Stops::new(&system, &settings, &state),
+            control: control::of(&settings),
+            origin: Origin { kinematics: state.kinematics.clone(), velocity_correction, may_relax: true },
+            previous: state.clone(),
+            attempt: Attempt::new(&state, energy_balance),
+            system,
+            state,
+            settings,
+            held_values,
+            totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
+            energy_balance,
+            warnings,
+            events,
+            accumulation: Accumulation::default(),
+            is_last_step_known: false,
+        })
+    }
+
+    /// The tangent at the solution of the last step; none before the first step and after one that failed.
+    pub(crate) fn last_tangent(&mut self, scaled: Scaled, of: &StageSystem) -> Option<TangentValues> {
+        let Self { system, settings, integrator, previous, .. } = self;
+        let problem = Problem { system, settings };
+        self.is_last_step_known.then(|| integrator.tangent_at_solution(problem, previous, scaled, of))
+    }
+
+    /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
+    pub(crate) fn factored_condition(&mut self) -> Option<f64> {
+        let pattern = &self.system.structure().pattern;
+        let Integrator { jacobian_state, work, .. } = &mut self.integrator;
+        let value = jacobian_state.has_tangent.then(|| work.tangent.matrices.condition_estimate(pattern));
+        value.map(|value| value.max(1.0))
+    }
+
+    /// A failed factorisation, with names.
+    pub(crate) fn describe_factor(&self, error: &FactorError, time: f64) -> StepError {
+        describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, &Subject::nameless(""))
+    }
+
+    /// Solves a step of `size` [s] from the state, and judges what it has led to.
+    ///
+    /// # Errors
+    /// If it has no solution, or one that cannot be believed.
+    pub(crate) fn attempt(&mut self, size: f64, watch: &mut dyn Stopwatch) -> Result<(), StepError> {
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let from = Start { previous: &self.previous, state: &self.state };
+        self.integrator.attempt(problem, from, size, watch, &mut self.attempt)?;
+        watch.begin(Phase::Rest);
+        self.judge_attempt()
+    }
+
+    /// Judges what the last attempt has led to.
+    ///
+    /// # Errors
+    /// If it cannot be believed.
+    pub(crate) fn judge_attempt(&mut self) -> Result<(), StepError> {
+        let judge = Judge::new(self.problem(), &self.integrator.representative);
+        let start = self.attempt.start(&self.state);
+        let (scheme, end) = (&self.settings.scheme, &self.attempt.end);
+        let Workspace { motions, multipliers, .. } = &*self.integrator.work;
+        let work = match scheme.quadrature[..] {
+            [] => StepWork::between(&self.system, start, end),
+            ref weights => {
+                let size = end.kinematics.time - start.kinematics.time;
+                StepWork::of_stages(&self.system, (weights, size), motions, multipliers)
+            }
+        };
+        let (after, violation) = judge.examine((start, end), work, &self.energy_balance)?;
+        (self.attempt.energy_balance, self.attempt.violation) = (after, violation);
+        Ok(())
+    }
+
+    /// Accepts the last attempt: monitors look at it, and its end becomes the state.
+    pub(crate) fn accept_attempt(&mut self) {
+        let mut step = Accepted {
+            problem: Problem { system: &self.system, settings: &self.settings },
+            integrator: &mut self.integrator,
+            origin: &self.origin.kinematics,
+            start: self.attempt.start(&self.state),
+            end: &self.attempt.end,
+            energy_balance: [&self.energy_balance, &self.attempt.energy_balance],
+            violation: self.attempt.violation,
+            prediction_error: self.attempt.outcome.first_correction,
+            fraction: self.control.fraction(&self.attempt),
+            has_switched: self.events.known.has_switched,
+        };
+        self.monitors.accept(&mut step, &mut self.warnings);
+        self.commit_attempt();
+    }
+
+    /// Makes the end of the last attempt the state.
+    pub(crate) fn commit_attempt(&mut self) {
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        self.accumulation.follow(
+            problem,
+            &self.integrator,
+            &mut self.attempt,
+            &self.state,
+            &mut self.warnings,
+        );
+        self.energy_balance = self.attempt.energy_balance;
+        let multipliers = &self.attempt.start(&self.state).multipliers;
+        self.integrator.learn(&self.settings, multipliers);
+        self.attempt.accept(&mut self.previous, &mut self.state);
+    }
+
+    /// Counts a step that was completed.
+    pub(crate) fn count(&mut self, report: &StepReport) {
+        let (totals, work) = (&mut self.totals, &self.integrator.work);
+        totals.steps += report.parts;
+        totals.stagnated_steps += usize::from(report.stagnated);
+        totals.fell_back_at = work.tangent.fell_back().map(|(unknown, _)| unknown);
+        totals.regularized_at = work.tangent.redundant();
+        if let Some(factor) = work.tangent.report() {
+            totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
+        }
+        for violation in &self.state.violations {
+            totals.max_constraint_violation = totals.max_constraint_violation.max(violation.abs());
+        }
+    }
+}
+
+/// Motions watch events; where steps are chosen, also switches of forces.
+fn event_detector(system: &System, state: &State, settings: &Settings) -> EventDetector {
+    if settings.scheme.dynamic {
+        EventDetector::new(system, state, settings.control.is_some())
+    } else {
+        EventDetector::of_nothing(state)
+    }
+}
+
+/// Fails where equations hold rates, of which statics know nothing.
+fn refuse_rates(system: &System) -> Result<(), InitialError> {
+    let of_row = system.layout().rate_rows().next().map(|row| system.layout().subject_of(row));
+    let of_creep = || system.sees_multipliers().then(|| Subject::nameless("the creep of a wheel on a rail"));
+    of_row.or_else(of_creep).map_or(Ok(()), |state| Err(InitialError::StateInStatics { state }))
+}
+
+/// Makes velocities, accelerations and multipliers of a motion's start consistent. Gives the largest change of a velocity, and what finds
+/// accelerations where they may jump.
+fn begin_motion(
+    system: &System,
+    state: &mut State,
+    representative: &Representative,
+    settings: &Settings,
+    warnings: &mut Vec<Warning>,
+) -> Result<(f64, Option<ConsistentInitialConditions>), InitialError> {
+    let mut initial =
+        ConsistentInitialConditions::new(system, state, representative, pivoting_unless_augmented(settings));
+    let given = state.clone();
+    let mut velocity_correction = initial.given_velocities(system, state)?;
+    let deformation = |of: &State| {
+        judge::start::sudden_deformation(system, representative, [&given, of].map(|at| &at.kinematics))
+    };
+    if settings.follow_drives
+        && let Some((rate, _)) = deformation(state)
+        && let Some(driven) = initial.least_deforming(system, &given)
+        && deformation(&driven).is_none_or(|(own, _)| own < rate)
+    {
+        *state = driven;
+        let changes = given.kinematics.nodes.iter().zip(&state.kinematics.nodes);
+        velocity_correction =
+            changes.map(|(given, used)| (used.twist - given.twist).amax()).fold(0.0, f64::max);
+    }
+    let given = given.kinematics;
+    let rates = initial.constraint_rates(system, state);
+    // Beside given velocities of which nothing remains, what remains is round-off of theirs.
+    let [specified, used] = [&given, &state.kinematics].map(|at| representative.largest_speed(system, at));
+    let negligible = judge::start::negligible(representative, settings.step_size);
+    judge::start::rates(system, representative, (&rates, specified.max(used), negligible))?;
+    warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
+    settle(system, state, &mut initial, settings)?;
+    let held_values = may_jump(system, state).then_some(initial);
+    Ok((velocity_correction, held_values))
+}
+
+/// Whether accelerations may jump: with values that are held, and where functions of time do.
+fn may_jump(system: &System, state: &State) -> bool {
+    let changes = system.functions.iter().any(|(_, function)| !function.is_constant());
+    changes || !state.kinematics.held.is_empty() || !system.breakpoints().is_empty()
+}

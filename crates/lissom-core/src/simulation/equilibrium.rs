@@ -1,0 +1,122 @@
+//! Start from static equilibrium: places at which the model would stay at rest under its loads at the first instant.
+//! Velocities that were given stay.
+
+use crate::kinematics::Subject;
+use std::sync::Arc;
+
+use lissom_solver::SolverKind;
+
+use super::relaxation::{may_help, relax};
+use crate::errors::InitialError;
+use crate::errors::Warning;
+use crate::linear::LinearModel;
+use crate::schemes::statics;
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::system::{State, System};
+
+/// A state whose unbalanced forces would move it by less than this part of the model's length is held by its constraints.
+const HELD: f64 = 1e-9;
+
+/// Gives the start of load steps the multipliers that hold it, where loads act at once and constraints alone bear them: it is an
+/// equilibrium then, whose reactions are reported and whose work begins with them. Otherwise gives the energy that the unbalanced forces
+/// release on the way to equilibrium, by the linear model [J].
+pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) -> f64 {
+    let mut still = state.clone();
+    for node in &mut still.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    let Ok(model) = LinearModel::of_positions(system, &still, solver) else { return 0.0 };
+    if model.imbalance() > HELD || !model.multipliers().iter().all(|value| value.is_finite()) {
+        return model.released_energy();
+    }
+    state.multipliers.copy_from_slice(model.multipliers());
+    0.0
+}
+
+/// Moves a motion's start into equilibrium, where that is asked for.
+///
+/// # Errors
+/// As [`at_rest`], and if what was found is free to rest elsewhere.
+pub(crate) fn start_at_rest(
+    system: Arc<System>,
+    state: State,
+    settings: &Settings,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Arc<System>, State), InitialError> {
+    if !(settings.from_equilibrium && settings.scheme.dynamic) {
+        return Ok((system, state));
+    }
+    let (system, state, doubts) = at_rest(system, state, settings)?;
+    // Round-off has decided where it rests, and whether it seems to be unstable.
+    if let Some(free) = free_motion(&system, &state, settings.solver) {
+        return Err(InitialError::Free { free });
+    }
+    warnings.extend(doubts);
+    Ok((system, state))
+}
+
+/// What nothing holds at the places of `state`, in words.
+fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Subject> {
+    let mut still = state.clone();
+    for node in &mut still.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    for coordinate in &mut still.kinematics.coordinates {
+        coordinate.rate = 0.0;
+    }
+    LinearModel::of_positions(system, &still, solver).ok()?.free_motion()
+}
+
+/// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Reports if it is
+/// unstable, and if it was found by relaxation.
+///
+/// # Errors
+/// If neither finds one, as where a part is not held.
+pub fn at_rest(
+    system: Arc<System>,
+    state: State,
+    settings: &Settings,
+) -> Result<(Arc<System>, State, Vec<Warning>), InitialError> {
+    let time = state.kinematics.time;
+    let mut moved = state.clone();
+    // Loads act as they are at the end of the load step, which is the start of the motion.
+    let step_size = 1.0;
+    moved.kinematics.time -= step_size;
+    for node in &mut moved.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    let settings = Settings {
+        scheme: statics::statics(),
+        step_size,
+        control: None,
+        from_equilibrium: false,
+        ..settings.clone()
+    };
+    let mut simulation = Simulation::new(system, moved, settings.clone())?;
+    simulation.origin.may_relax = false;
+    let stepped = simulation.step();
+    let doubts =
+        simulation.warnings().iter().filter(|warning| matches!(warning, Warning::Unstable { .. })).cloned();
+    let doubts = doubts.collect();
+    let (system, reached) = simulation.into_parts();
+    let (reached, doubts) = match stepped {
+        Ok(_) => (reached, doubts),
+        Err(error) => {
+            let relaxed = may_help(&error).then(|| relax(&system, &state, &settings, time, &mut 0)).flatten();
+            relaxed.ok_or_else(|| match free_motion(&system, &state, settings.solver) {
+                Some(free) => InitialError::Free { free },
+                None => InitialError::NoEquilibrium(Box::new(error)),
+            })?
+        }
+    };
+    let mut state = state;
+    for (node, reached) in state.kinematics.nodes.iter_mut().zip(&reached.kinematics.nodes) {
+        node.frame = reached.frame;
+    }
+    for (own, reached) in state.kinematics.coordinates.iter_mut().zip(&reached.kinematics.coordinates) {
+        own.value = reached.value;
+    }
+    state.position_remainders = reached.position_remainders;
+    Ok((system, state, doubts))
+}

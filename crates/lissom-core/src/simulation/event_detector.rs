@@ -1,0 +1,476 @@
+//! Monitors switching functions, which may change their sign within a step: those of events, and of forces with kinks
+//! or jumps. A step across such an instant is repeated, to end there.
+//!
+//! ```text
+//! g(t*) = 0:    t* on the cubics between the ends of the step by bisection, then
+//!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
+//! ```
+//!
+//! A function that jumps, such as sign(x), has no slope there. Bisection on the cubics of the step to t*, extrapolated
+//! beyond its end, then checks whether the jump is at its end.
+//!
+//! A root at the end of a step shows no change of sign there, or one that is lost in round-off. It is found where the tangent at
+//! the end crosses zero, if the step started at a clearly nonzero value. The next step could detect it only after its first
+//! millionth.
+//!
+//! Between two steps each function has a side, 1 or -1. Functions and forces are continued from their side over the whole
+//! step, so that it is smooth; results beyond the root are not used. At the root the side changes regardless of round-off, so
+//! that the same root is not found again.
+
+use serde::{Deserialize, Serialize};
+
+use crate::integrator::dense::DenseOutput;
+use crate::kinematics::{Kinematics, Switch};
+use crate::law::hull;
+use crate::round_off;
+use crate::signals::event::{Event, Occurrence};
+use crate::system::{State, System};
+
+/// Step fractions at which signs are checked. Functions that cross zero and return between two of them are detected from the
+/// polynomial through their values there.
+const INSTANTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+/// Number of intervals of a step in which the minimum of this polynomial is searched for.
+const GRID: usize = 32;
+/// The last of them before the end.
+const BEFORE_END: f64 = 0.75;
+/// Values smaller than this fraction of the largest so far have no sign.
+const NOISE: f64 = 1e-9;
+/// Accuracy of a root, as a step fraction.
+const ACCURACY: f64 = 1e-10;
+/// Roots closer than this to an end of the step, as a step fraction, are at that end: the accelerations of a shorter step
+/// would be round-off.
+const CLOSE: f64 = 1e-6;
+/// Distance from the end of a step at which the rate of a switching function is evaluated, as a step fraction.
+const BESIDE: f64 = 1e-3;
+/// Maximum number of repeated steps for one root: three are usual.
+const MAX_REFINEMENTS: usize = 6;
+/// Changes of sign within a longest step above which the motion slides along the switching surface.
+const MAX_CROSSINGS: usize = 1000;
+
+/// Maximum number of sides that are corrected at the start of one step: beyond it, the motion slides along a switch.
+const MAX_SWITCHES_AT_START: usize = 8;
+
+/// State of the switching functions between two steps.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct EventState {
+    /// 1 above zero, -1 below, those of levels, 0 where it is not known yet.
+    sides: Vec<f64>,
+    /// The sides before these.
+    before: Vec<f64>,
+    /// The largest magnitude seen.
+    largest: Vec<f64>,
+    /// Events that happened.
+    pub(crate) occurrences: Vec<Occurrence>,
+    /// The event that ends the run at the state, if one does.
+    pub(crate) stopped_by: Option<usize>,
+    /// Whether a force has switched at the state: the motion may then be much faster than before.
+    pub(crate) has_switched: bool,
+    /// Time since which crossings are counted [s], and their number.
+    recent: (f64, usize),
+}
+
+/// An instant within a step at which switching functions cross zero.
+#[derive(Clone, Debug)]
+pub(crate) struct LocatedRoot {
+    /// Size of the step that ends there [s]; zero if the step begins there.
+    pub(crate) size: f64,
+    /// Size of the step in which it was found [s].
+    whole: f64,
+    /// Indices of the functions that cross zero.
+    pub(crate) indices: Vec<usize>,
+    /// Whether they jump there instead.
+    is_jump: bool,
+    refinements: usize,
+}
+
+/// The switching functions of one simulation: those of events, then those of signals, then those of elements.
+pub(crate) struct EventDetector {
+    pub(crate) known: EventState,
+    /// Whether kinks and jumps of forces are monitored in addition to events.
+    has_switches: bool,
+    /// Number of sides changed at the start of the present step.
+    switched_at_start: usize,
+    values: Vec<Switch>,
+    /// The values at each of the [`INSTANTS`].
+    samples: [Vec<Switch>; INSTANTS.len()],
+    /// Step fractions at which signs are checked, with the index of the sample there if there is one.
+    instants: Vec<(f64, Option<usize>)>,
+    between: State,
+}
+
+impl EventDetector {
+    /// At the start of a motion; kinks and jumps of forces are monitored if `has_switches`.
+    pub(crate) fn new(system: &System, start: &State, has_switches: bool) -> Self {
+        let mut detector = Self::of_nothing(start);
+        detector.has_switches = has_switches;
+        values_at(system, start, has_switches, &mut detector.values);
+        detector.known.sides = vec![0.0; detector.values.len()];
+        detector.known.before = vec![0.0; detector.values.len()];
+        detector.known.largest = vec![0.0; detector.values.len()];
+        detector.known.recent.0 = start.kinematics.time;
+        detector.note(0..0, &[]);
+        detector
+    }
+
+    /// Without motion.
+    pub(crate) fn of_nothing(start: &State) -> Self {
+        Self {
+            known: EventState::default(),
+            has_switches: false,
+            switched_at_start: 0,
+            values: Vec::new(),
+            samples: Default::default(),
+            instants: Vec::new(),
+            between: start.clone(),
+        }
+    }
+
+    /// Whether there are switching functions.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.known.sides.is_empty()
+    }
+
+    /// The switching functions of forces.
+    fn of_switches(&self, system: &System, at: &Kinematics) -> std::ops::Range<usize> {
+        let events = system.signals().events().len();
+        let count = if self.has_switches { at.held.len() - system.signals().first_side() } else { 0 };
+        events..events + count
+    }
+
+    /// Whether all switches are frozen on their known sides.
+    pub(crate) fn has_frozen_switches(&self, system: &System, at: &Kinematics) -> bool {
+        let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
+        let held = &at.held[system.signals().first_side()..];
+        sides == held
+    }
+
+    /// Freezes all switches on their known sides.
+    pub(crate) fn freeze_switches(&self, system: &System, at: &mut Kinematics) {
+        let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
+        let held = &mut at.held[system.signals().first_side()..];
+        held.iter_mut().zip(sides).for_each(|(held, side)| *held = *side);
+    }
+
+    /// Records the sides of all values that have none yet, or are neither among those `kept` nor `but`.
+    fn note(&mut self, kept: std::ops::Range<usize>, but: &[usize]) {
+        let known = &mut self.known;
+        for (k, value) in self.values.iter().enumerate() {
+            known.largest[k] = known.largest[k].max(value.number.abs());
+            let is_free = known.sides[k] == 0.0 || !(kept.contains(&k) || but.contains(&k));
+            if is_free && value.number.abs() > NOISE * known.largest[k] {
+                known.sides[k] = value.side();
+            }
+        }
+    }
+
+    /// Whether value `k` has crossed zero in a direction that counts.
+    fn has_passed(&self, events: &[Event], k: usize) -> bool {
+        let (value, side) = (self.values[k].number, self.known.sides[k]);
+        let is_clear = value.abs() > NOISE * self.known.largest[k];
+        is_clear
+            && side != 0.0
+            && (value > 0.0) != (side > 0.0)
+            && events.get(k).is_none_or(|event| event.direction.allows(value > 0.0))
+    }
+
+    /// Changes to the side beyond the zero of value `k`.
+    fn cross(&mut self, k: usize) {
+        let side = self.known.sides[k];
+        self.known.before[k] = std::mem::replace(&mut self.known.sides[k], self.values[k].beyond(side));
+    }
+
+    fn any_has_passed(&self, events: &[Event]) -> bool {
+        (0..self.values.len()).any(|k| self.has_passed(events, k))
+    }
+
+    fn at(&mut self, system: &System, step: DenseOutput<'_>, share: f64) {
+        let (start, end) = (step.from.kinematics.time, step.to.kinematics.time);
+        if share == 0.0 || share == 1.0 {
+            let end = if share == 0.0 { step.from } else { step.to };
+            return values_at(system, end, self.has_switches, &mut self.values);
+        } else if share < 1.0 {
+            step.interpolate(start + share * (end - start), &mut self.between);
+        } else {
+            step.at(share, &mut self.between);
+        }
+        values_at(system, &self.between, self.has_switches, &mut self.values);
+    }
+
+    /// The first instant of the step of `size` [s] at which a function crosses zero.
+    pub(crate) fn crossing(
+        &mut self,
+        system: &System,
+        step: DenseOutput<'_>,
+        size: f64,
+    ) -> Option<LocatedRoot> {
+        let events = system.signals().events();
+        for (index, instant) in INSTANTS.into_iter().enumerate() {
+            self.at(system, step, instant);
+            self.samples[index].clone_from(&self.values);
+        }
+        let mut before = 0.0;
+        self.find_instants(events);
+        for index in 0..self.instants.len() {
+            let (instant, sample) = self.instants[index];
+            match sample {
+                Some(index) => self.values.clone_from(&self.samples[index]),
+                None => self.at(system, step, instant),
+            }
+            if !self.any_has_passed(events) {
+                before = instant;
+                continue;
+            }
+            let mut after = instant;
+            while after - before > 0.5 * ACCURACY {
+                let middle = 0.5 * (before + after);
+                self.at(system, step, middle);
+                if self.any_has_passed(events) { after = middle } else { before = middle }
+            }
+            self.at(system, step, after);
+            let indices: Vec<usize> =
+                (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
+            let are_switches = indices.iter().all(|k| *k >= events.len());
+            let share = match after {
+                // The step begins where the force switches: another of zero length would add nothing.
+                after if after < CLOSE && are_switches => 0.0,
+                after if after > 1.0 - ACCURACY => 1.0,
+                after => after.max(CLOSE),
+            };
+            // A smooth number is not beyond its noise yet.
+            let is_jump = self.values[indices[0]].number.abs() > CLOSE * self.known.largest[indices[0]];
+            return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
+        }
+        self.root_at_end(system, step, size)
+    }
+
+    /// Stores the step fractions at which signs are checked: those of samples after the start, and for each function that keeps
+    /// its side at all of them the minimum beyond zero of the polynomial through its samples, if it has one.
+    fn find_instants(&mut self, events: &[Event]) {
+        let mut instants = std::mem::take(&mut self.instants);
+        instants.clear();
+        instants.extend(INSTANTS.into_iter().enumerate().skip(1).map(|(index, at)| (at, Some(index))));
+        for k in 0..self.values.len() {
+            let side = self.known.sides[k];
+            if side == 0.0 || events.get(k).is_some_and(|event| !event.direction.allows(side < 0.0)) {
+                continue;
+            }
+            let samples: [f64; INSTANTS.len()] =
+                std::array::from_fn(|index| side.signum() * self.samples[index][k].number);
+            let [low, high] = hull(&samples);
+            // It would have to change by more between two samples than over the step.
+            if low < -NOISE * self.known.largest[k] || low > high - low {
+                continue;
+            }
+            let polynomial = |cell: usize| quartic(&samples, cell as f64 / GRID as f64);
+            let lowest = (1..GRID).min_by(|&a, &b| polynomial(a).total_cmp(&polynomial(b)));
+            if let Some(cell) = lowest.filter(|&cell| polynomial(cell) < 0.0) {
+                instants.push((cell as f64 / GRID as f64, None));
+            }
+        }
+        instants.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        self.instants = instants;
+    }
+
+    /// An event whose root is at the end of the step of `size` [s], or so shortly before it that its sign is not clear
+    /// there. The values at the end are those known.
+    fn root_at_end(&mut self, system: &System, step: DenseOutput<'_>, size: f64) -> Option<LocatedRoot> {
+        let events = system.signals().events();
+        let is_doubtful = |detector: &Self, k: usize| {
+            let side = detector.known.sides[k];
+            detector.values[k].number.abs() <= CLOSE * detector.known.largest[k]
+                && side != 0.0
+                && events[k].direction.allows(side < 0.0)
+        };
+        let doubtful: Vec<(usize, f64)> =
+            (0..events.len()).filter(|&k| is_doubtful(self, k)).map(|k| (k, self.values[k].number)).collect();
+        if doubtful.is_empty() {
+            return None;
+        }
+        self.at(system, step, 1.0 - BESIDE);
+        let beside = self.values.clone();
+        self.at(system, step, BEFORE_END);
+        let mut roots = Vec::new();
+        for (k, end) in doubtful {
+            let (side, noise) = (self.known.sides[k], NOISE * self.known.largest[k]);
+            let rate = (end - beside[k].number) / BESIDE;
+            // From the side that is known, clearly, towards zero.
+            if side * self.values[k].number <= noise || side * rate >= 0.0 {
+                continue;
+            }
+            let beyond = -end / rate;
+            if end.abs() <= round_off::OPERATIONS * self.known.largest[k] || beyond.abs() <= ACCURACY {
+                roots.push((k, 1.0));
+            } else if beyond < 0.0 && beyond > BEFORE_END - 1.0 {
+                roots.push((k, 1.0 + beyond));
+            }
+        }
+        let share = roots.iter().map(|root| root.1).reduce(f64::min)?;
+        let indices = roots.iter().filter(|root| root.1 <= share + ACCURACY).map(|root| root.0).collect();
+        Some(LocatedRoot { size: share * size, whole: size, indices, is_jump: false, refinements: 0 })
+    }
+
+    /// Changes the sides of forces that switch at the start of the step. Returns false if they switch repeatedly: the
+    /// motion slides along the switch.
+    pub(crate) fn switch_at_start(&mut self, indices: &[usize]) -> bool {
+        for &k in indices {
+            self.cross(k);
+        }
+        self.known.has_switched = true;
+        self.switched_at_start += 1;
+        self.switched_at_start <= MAX_SWITCHES_AT_START
+    }
+
+    /// Whether the step that was solved to end at the root ends there; otherwise the root has moved.
+    pub(crate) fn is_met(
+        &mut self,
+        system: &System,
+        step: DenseOutput<'_>,
+        located: &mut LocatedRoot,
+    ) -> bool {
+        let first = located.indices[0];
+        located.refinements += 1;
+        if located.is_jump {
+            let size = located.size * self.jump(system, step, first, located);
+            let is_there = size == located.size || located.refinements > MAX_REFINEMENTS;
+            if !is_there {
+                located.size = size.clamp(CLOSE * located.whole, located.whole);
+            }
+            return is_there;
+        }
+        self.at(system, step, 1.0 - 1e-3);
+        let earlier = self.values[first].number;
+        self.at(system, step, 1.0);
+        let value = self.values[first].number;
+        let change = -value * 1e-3 * located.size / (value - earlier);
+        let is_there = change.abs() <= ACCURACY * located.whole || change.is_nan();
+        if is_there || located.refinements > MAX_REFINEMENTS {
+            return true;
+        }
+        let size = (located.size + change).clamp(CLOSE * located.whole, located.whole);
+        let is_moved = size != located.size;
+        located.size = size;
+        !is_moved
+    }
+
+    /// Step fraction at which function `which` jumps near the end of a step: 1 if it does so within the accuracy before the
+    /// end.
+    fn jump(&mut self, system: &System, step: DenseOutput<'_>, which: usize, located: &LocatedRoot) -> f64 {
+        let events = system.signals().events();
+        let unit = located.whole / located.size;
+        let (accuracy, most) = (2.0 * ACCURACY * unit, unit - 1.0);
+        let passes = |detector: &mut Self, share: f64| {
+            detector.at(system, step, share);
+            detector.has_passed(events, which)
+        };
+        let is_early = !passes(self, 1.0);
+        // Doubles the distance from the end until it contains the jump.
+        let (mut near, mut far) = (0.0, accuracy);
+        let share = |distance: f64| if is_early { 1.0 + distance } else { 1.0 - distance };
+        let bound = if is_early { most } else { 1.0 };
+        while far < bound && passes(self, share(far)) != is_early {
+            (near, far) = (far, 2.0 * far);
+        }
+        if !is_early && near == 0.0 {
+            return 1.0;
+        }
+        let mut far = far.min(bound);
+        while far - near > 0.25 * accuracy {
+            let middle = 0.5 * (near + far);
+            if passes(self, share(middle)) == is_early { far = middle } else { near = middle }
+        }
+        // On the far side of the jump.
+        share(if is_early { far } else { near })
+    }
+
+    /// Records the end of an accepted step, and the functions that crossed zero there. Returns the events that
+    /// happened.
+    ///
+    /// # Errors
+    /// If a function crosses zero again and again, its index.
+    pub(crate) fn accept(
+        &mut self,
+        system: &System,
+        state: &State,
+        located: Option<&LocatedRoot>,
+        longest: f64,
+    ) -> Result<Vec<usize>, usize> {
+        self.switched_at_start = 0;
+        let events = system.signals().events();
+        let indices: &[usize] = located.map_or(&[], |located| &located.indices);
+        values_at(system, state, self.has_switches, &mut self.values);
+        self.note(self.of_switches(system, &state.kinematics), indices);
+        let time = state.kinematics.time;
+        // A law that goes from level to level does not slide, however often those beside it switch.
+        let mut has_progressed = false;
+        for &k in indices {
+            let before = self.known.before[k];
+            self.cross(k);
+            has_progressed |= self.values[k].levels.is_some() && self.known.sides[k] != before;
+        }
+        let known = &mut self.known;
+        known.stopped_by = None;
+        known.has_switched = indices.iter().any(|&k| k >= events.len() || !events[k].sets.is_empty());
+        let mut happened = Vec::new();
+        for &k in indices {
+            if let Some(event) = events.get(k) {
+                happened.push(k);
+                known.occurrences.push(Occurrence { event: k, time });
+                if event.stops {
+                    known.stopped_by.get_or_insert(k);
+                }
+            }
+        }
+        if time - known.recent.0 > longest || has_progressed {
+            known.recent = (time, 0);
+        }
+        known.recent.1 += indices.len();
+        if known.recent.1 > MAX_CROSSINGS { Err(indices[0]) } else { Ok(happened) }
+    }
+
+    /// After a law has gone to another level at the state: what depends on it may have jumped to its other side. Whether it has.
+    pub(crate) fn follow_levels(&mut self, system: &System, state: &State) -> bool {
+        values_at(system, state, self.has_switches, &mut self.values);
+        let mut has_jumped = false;
+        for k in self.of_switches(system, &state.kinematics) {
+            if self.has_passed(&[], k) {
+                self.known.before[k] = self.known.sides[k];
+                self.known.sides[k] = self.values[k].side();
+                has_jumped = true;
+            }
+        }
+        has_jumped
+    }
+
+    /// Whether one of these values is of a law with levels.
+    pub(crate) fn have_levels(&self, indices: &[usize]) -> bool {
+        indices.iter().any(|&k| self.values[k].levels.is_some())
+    }
+
+    /// After inputs have changed at the state: sides of events change with them, and nothing happens.
+    pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
+        values_at(system, state, self.has_switches, &mut self.values);
+        self.note(self.of_switches(system, &state.kinematics), happened);
+    }
+}
+
+/// The polynomial through values at the [`INSTANTS`], by Neville's scheme.
+fn quartic(values: &[f64; INSTANTS.len()], at: f64) -> f64 {
+    let mut values = *values;
+    for order in 1..INSTANTS.len() {
+        for k in 0..INSTANTS.len() - order {
+            let (from, to) = (INSTANTS[k], INSTANTS[k + order]);
+            values[k] += (at - from) / (to - from) * (values[k + 1] - values[k]);
+        }
+    }
+    values[0]
+}
+
+/// What is watched, at a state.
+fn values_at(system: &System, state: &State, has_switches: bool, out: &mut Vec<Switch>) {
+    out.clear();
+    system.signals().event_values(&state.kinematics, |value| out.push(value.into()));
+    if has_switches {
+        system.signals().switches(&state.kinematics, out);
+        system.switches(&state.kinematics, out);
+    }
+}

@@ -1,0 +1,156 @@
+//! Steps that end at events and where forces switch.
+
+use super::event_detector::LocatedRoot;
+use crate::errors::StepError;
+use crate::kinematics::Subject;
+use crate::settings::{Problem, StepReport, Stopwatch};
+use crate::signals::event::Occurrence;
+use crate::simulation::Simulation;
+
+/// Laws with levels whose arguments have levels themselves, so many within each other.
+const MAX_NESTED_LEVELS: usize = 8;
+
+/// What becomes of an attempt that has a solution.
+pub(crate) enum Verdict {
+    /// It can be accepted, and ends at the root if there is one.
+    Accept(Option<LocatedRoot>),
+    /// A force switched at the start of the step: the attempt is repeated.
+    Repeat,
+    /// A shorter one is required.
+    Shorten,
+}
+
+impl Simulation {
+    /// The events that happened since the start, in their order.
+    pub fn occurrences(&self) -> &[Occurrence] {
+        &self.events.known.occurrences
+    }
+
+    /// Name of the event that ends the run, if the last step ended at one.
+    pub fn stopped_by(&self) -> Option<&str> {
+        let event = self.events.known.stopped_by?;
+        Some(&self.system.signals().events()[event].name)
+    }
+
+    /// Checks an attempt of `size` [s] that was solved and can be accepted for zeros of switching functions. If one is within the
+    /// step, the step is solved anew to end there. If a force switches at the start of the step, its side is changed. The attempt
+    /// and its error estimate then have to be repeated, because the force had the wrong side.
+    ///
+    /// # Errors
+    /// If the shorter step has no solution, or the motion slides along a switch.
+    pub(crate) fn end_at_event(
+        &mut self,
+        size: f64,
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<Verdict, StepError> {
+        if self.events.is_empty() {
+            return Ok(Verdict::Accept(None));
+        }
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        let step = self.integrator.dense(problem, (&self.state, &self.attempt.end));
+        let Some(mut located) = self.events.crossing(&self.system, step, size) else {
+            return Ok(Verdict::Accept(None));
+        };
+        if located.size == 0.0 {
+            if !self.events.switch_at_start(&located.indices) {
+                return Err(self.chatters(located.indices[0]));
+            }
+            self.freeze_levels(&located.indices)?;
+            self.integrator.work.forget_predictions();
+            report.rejected += 1;
+            return Ok(Verdict::Repeat);
+        }
+        let mut solved = size;
+        while located.size != solved {
+            report.rejected += 1;
+            solved = located.size;
+            self.attempt(solved, watch)?;
+            let problem = Problem { system: &self.system, settings: &self.settings };
+            let step = self.integrator.dense(problem, (&self.state, &self.attempt.end));
+            if self.events.is_met(&self.system, step, &mut located) {
+                break;
+            }
+        }
+        Ok(Verdict::Accept(Some(located)))
+    }
+
+    /// Records which events happened at the end of an accepted step, and executes their actions.
+    ///
+    /// # Errors
+    /// If signals switch repeatedly, or there are no consistent accelerations with the values that events set.
+    pub(crate) fn after_events(
+        &mut self,
+        located: Option<&LocatedRoot>,
+        longest: f64,
+    ) -> Result<(), StepError> {
+        if self.events.is_empty() {
+            return Ok(());
+        }
+        let happened = self
+            .events
+            .accept(&self.system, &self.state, located, longest)
+            .map_err(|which| self.chatters(which))?;
+        self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
+        if happened.is_empty() {
+            return Ok(());
+        }
+        let graph = self.system.signals();
+        let mut at = self.state.kinematics.clone();
+        for &event in &happened {
+            // All of them are evaluated before any is set.
+            for &(held, signal) in &graph.events()[event].sets {
+                at.held[held.index()] = graph.value(signal, &self.state.kinematics);
+            }
+        }
+        if at.held == self.state.kinematics.held {
+            return Ok(());
+        }
+        graph.check(&at).map_err(StepError::Signal)?;
+        let time = at.time;
+        self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })?;
+        self.events.renew(&self.system, &self.state, &happened);
+        self.freeze_switches()
+    }
+
+    /// Freezes signals on the known sides of their switches: forces may jump with them.
+    pub(crate) fn freeze_switches(&mut self) -> Result<(), StepError> {
+        if self.events.has_frozen_switches(&self.system, &self.state.kinematics) {
+            return Ok(());
+        }
+        let first = self.system.signals().first_side();
+        let mut at = self.state.kinematics.clone();
+        self.events.freeze_switches(&self.system, &mut at);
+        let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
+        if pairs().all(|(side, held)| side == held || *held == 0.0) {
+            // Sides that become known change nothing else.
+            self.state.kinematics = at;
+            return Ok(());
+        }
+        let time = at.time;
+        self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
+    }
+
+    /// The same where switches have passed zero: what depends on a law that is on another level now is followed.
+    fn freeze_levels(&mut self, passed: &[usize]) -> Result<(), StepError> {
+        let mut has_jumped = self.events.have_levels(passed);
+        self.freeze_switches()?;
+        for _ in 0..MAX_NESTED_LEVELS {
+            if !has_jumped {
+                break;
+            }
+            has_jumped = self.events.follow_levels(&self.system, &self.state);
+            self.freeze_switches()?;
+        }
+        Ok(())
+    }
+
+    fn chatters(&self, which: usize) -> StepError {
+        let events = self.system.signals().events();
+        let what = events.get(which).map_or_else(
+            || self.system.name_of_switch(which - events.len()),
+            |event| Subject::new("event", &event.name),
+        );
+        StepError::Chatters { time: self.state.kinematics.time, what }
+    }
+}

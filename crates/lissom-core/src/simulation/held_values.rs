@@ -1,0 +1,246 @@
+//! Held values at the start, and when they change between two steps: inputs that are set, samples that are taken.
+//!
+//! Forces jump with them, and accelerations by M⁻¹ ΔF. What a scheme remembers of accelerations jumps as well, or it
+//! would see the change late by a part of a step: an error of first order in every velocity.
+
+use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
+use crate::diagnostics::diagnostics;
+use crate::elements::latch::holds;
+use crate::errors::InitialError;
+use crate::kinematics::{HeldId, Kinematics, LOCKED, Quantity, Subject};
+use crate::settings::Settings;
+use crate::signals::SignalError;
+use crate::simulation::Simulation;
+use crate::system::{State, System};
+
+diagnostics! {
+    /// An input that cannot be set.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure InputError {
+        /// The model has no such input.
+        Unknown {
+            /// The name that was given.
+            name: String,
+            /// Names of all inputs.
+            known: String,
+        } => "unknown-input" {
+            subject: Subject::new("input", name),
+            cause: ("the model has no input `{name}`"),
+            remedy: "its inputs are: {known}",
+            meaning: "An input was set that the model does not have.",
+            advice: "Use a name of the section `[inputs]`.",
+        }
+        /// The value is not finite.
+        NotFinite {
+            /// The input.
+            name: String,
+            /// The value that was given.
+            value: f64,
+        } => "input-not-finite" {
+            subject: Subject::new("input", name),
+            cause: ("input `{name}` cannot be {value}"),
+            remedy: "specify a finite number",
+            meaning: "An input was set to a value that is not finite.",
+            advice: "Use a finite number.",
+        }
+    }
+    wraps {
+        /// A signal is not finite with this value.
+        Signal(SignalError), (error) => error.diagnostic().within("with this input"),
+        /// There are no consistent accelerations with it.
+        Initial(InitialError), (error) => error.diagnostic(),
+    }
+}
+
+impl From<InitialError> for InputError {
+    fn from(error: InitialError) -> Self {
+        Self::Initial(error)
+    }
+}
+
+/// Takes the first samples, and makes the rates of states, accelerations and multipliers fit places and velocities.
+pub(crate) fn settle(
+    system: &System,
+    state: &mut State,
+    initial: &mut ConsistentInitialConditions,
+    settings: &Settings,
+) -> Result<(), InitialError> {
+    if system.has_readings() {
+        // Accelerations and multipliers that the first samples read are those without these samples.
+        system.signals().set_values_before_first_sample(&mut state.kinematics);
+        initial.set_state_rates(system, &mut state.kinematics);
+        initial.accelerations(system, state)?;
+        let readings: Vec<_> = system.take_readings(state).collect();
+        for (held, value) in readings {
+            state.kinematics.held[held.index()] = value;
+        }
+    }
+    system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
+    initial.set_state_rates(system, &mut state.kinematics);
+    initial.accelerations(system, state)?;
+    initial.accelerate_states(system, state, settings.step_size);
+    let delay = settings.scheme.memory_delay * settings.step_size;
+    state.algorithmic = initial.delayed_accelerations(system, state, delay)?;
+    Ok(())
+}
+
+impl Simulation {
+    /// Sets inputs, all at once, from now on [SI]. Before the first step samples and initial accelerations are made to fit.
+    ///
+    /// # Errors
+    /// If there is no such input, if a value is not finite, or if there are no consistent accelerations with them. The
+    /// simulation is then as it was.
+    pub fn set_inputs<'n>(
+        &mut self,
+        inputs: impl IntoIterator<Item = (&'n str, f64)>,
+    ) -> Result<(), InputError> {
+        let graph = self.system.signals();
+        let mut changed: Vec<(HeldId, f64)> = Vec::new();
+        for (name, value) in inputs {
+            let Some(held) = graph.input(name) else {
+                let names: Vec<&str> = graph.input_names().collect();
+                let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+                return Err(InputError::Unknown { name: name.to_owned(), known });
+            };
+            if !value.is_finite() {
+                return Err(InputError::NotFinite { name: name.to_owned(), value });
+            }
+            changed.push((held, value));
+        }
+        changed.retain(|(held, value)| self.state.kinematics.held[held.index()] != *value);
+        if changed.is_empty() {
+            return Ok(());
+        }
+        let mut at = self.state.kinematics.clone();
+        for (held, value) in changed {
+            at.held[held.index()] = value;
+        }
+        graph.check(&at).map_err(InputError::Signal)?;
+        if self.totals.steps > 0 {
+            return Ok(self.change_held_values(at)?);
+        }
+        let mut state = self.state.clone();
+        let engages = self.engages(&at);
+        state.kinematics = at;
+        if let Some(initial) = &mut self.held_values {
+            if engages {
+                initial.velocities(&self.system, &mut state)?;
+                self.energy_balance.record_impact(&self.system, &self.state.kinematics, &state.kinematics);
+            }
+            settle(&self.system, &mut state, initial, &self.settings)?;
+        }
+        self.previous.clone_from(&state);
+        self.state = state;
+        Ok(())
+    }
+
+    /// Whether a latch that was free holds with the held values of `at`.
+    fn engages(&self, at: &Kinematics) -> bool {
+        let is_new = |input: &HeldId| {
+            holds(at.held[input.index()]) && !holds(self.state.kinematics.held[input.index()])
+        };
+        self.system.latches.iter().any(is_new)
+    }
+
+    /// Whether a latch engages or lets go with the held values of `at`.
+    fn switches_latch(&self, at: &Kinematics) -> bool {
+        let is_other = |input: &HeldId| {
+            holds(at.held[input.index()]) != holds(self.state.kinematics.held[input.index()])
+        };
+        self.system.latches.iter().any(is_other)
+    }
+
+    /// Goes over to the held values of `at`, which is the present state otherwise: accelerations, multipliers, and the
+    /// rates of states jump, and where a latch engages velocities, by an impact without rebound.
+    ///
+    /// # Errors
+    /// If there are no consistent accelerations; the state is then as it was.
+    pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
+        let engages = self.engages(&at);
+        let switches = self.switches_latch(&at);
+        if switches {
+            // The tangent of the equation that the latch had would solve the one it has to the tolerance alone, and leave that
+            // much of a force where there is none.
+            self.integrator.jacobian_state.has_tangent = false;
+        }
+        let Some(initial) = &mut self.held_values else {
+            self.state.kinematics = at;
+            return Ok(());
+        };
+        if !switches {
+            // Held values change forces, and the matrix only where a latch switches.
+            initial.factor(&self.system, &self.state, Inertias::All)?;
+            let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
+            self.state.kinematics.held = at.held;
+            self.add_jump(jump);
+            return Ok(());
+        }
+        let kept = self.state.clone();
+        let before = initial.acceleration_at(&self.system, &self.state)?;
+        self.state.kinematics.held = at.held;
+        let after =
+            if engages { initial.velocities(&self.system, &mut self.state).map(|_| ()) } else { Ok(()) }
+                .and_then(|()| initial.acceleration_at(&self.system, &self.state));
+        let mut jump = match after {
+            Ok(after) => after,
+            Err(error) => {
+                self.state = kept;
+                return Err(error);
+            }
+        };
+        if engages {
+            self.energy_balance.record_impact(&self.system, &kept.kinematics, &self.state.kinematics);
+        }
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        self.add_jump(jump);
+        Ok(())
+    }
+
+    /// Lets accelerations, multipliers and the rates of states jump by what forces change between two instants close to
+    /// each other, of functions of time that jump there.
+    ///
+    /// # Errors
+    /// If there are no consistent accelerations.
+    pub(crate) fn jump_between(&mut self, earlier: f64, later: f64) -> Result<(), InitialError> {
+        let Some(initial) = &mut self.held_values else { return Ok(()) };
+        let time = self.state.kinematics.time;
+        let mut at = |instant: f64| {
+            self.state.kinematics.time = instant;
+            initial.acceleration_at(&self.system, &self.state)
+        };
+        let found = at(earlier).and_then(|before| Ok((before, at(later)?)));
+        self.state.kinematics.time = time;
+        let (before, mut jump) = found?;
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        self.add_jump(jump);
+        Ok(())
+    }
+
+    /// Adds the jump of accelerations, multipliers and rates of states.
+    fn add_jump(&mut self, mut jump: Vec<f64>) {
+        let layout = self.system.layout();
+        let kinematics = &mut self.state.kinematics;
+        for (rows, node) in layout.node_rows.iter().zip(&mut kinematics.nodes) {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                node.acceleration[k] += jump[row as usize];
+            }
+        }
+        for (&row, own) in layout.coordinate_rows.iter().zip(&mut kinematics.coordinates) {
+            let jump = &mut jump[row as usize];
+            if layout.quantities[row as usize] == Quantity::State {
+                // In the place of an acceleration stands what the rate lacks.
+                own.rate += std::mem::take(jump);
+            } else {
+                own.acceleration += *jump;
+            }
+        }
+        let (motion, constraints) = jump.split_at(layout.coordinate_count());
+        // The one before as well: their difference shows how accelerations change between jumps.
+        for memory in [&mut self.previous.algorithmic, &mut self.state.algorithmic] {
+            memory.iter_mut().zip(motion).for_each(|(value, jump)| *value += jump);
+        }
+        self.state.multipliers.iter_mut().zip(constraints).for_each(|(value, jump)| *value += jump);
+        self.state.kinematics.show_multipliers(&self.state.multipliers);
+    }
+}

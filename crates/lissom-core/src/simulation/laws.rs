@@ -1,0 +1,651 @@
+//! Whether steps resolve scalar laws. A pulse between the stages of a step, or an oscillation with the step as its period,
+//! appears in no residual and in no error estimate: it would be ignored or misinterpreted without notice. The same applies to
+//! jumps that are neither known in advance nor switches.
+//!
+//! Legend: f law, t time, x its arguments, σ = 0 … 1 step fraction, H cubic through values and slopes at both ends.
+//!
+//! ```text
+//! f(σ) = f(t(σ), x(σ)),      x(σ) cubic on the dense output,      |f - H| ≤ part · max |f|
+//! ```
+//!
+//! The law is sampled by bisection of the step, as long as the bounds of its values over the range of its arguments, and those of
+//! its second derivative, allow more than the samples show:
+//!
+//! ```text
+//! |f - line through its ends| ≤ max |f''(σ)| (σ₁ - σ₀)²/8
+//! ```
+//!
+//! A feature that the ends of no interval determine, however short, is a jump. Functions of time are laws without arguments: they
+//! are examined before a step, which ends at their jumps; laws of the motion afterwards. The second derivative of a function of time
+//! is bounded over many steps at once.
+
+use serde::{Deserialize, Serialize};
+
+use crate::integrator::dense;
+use crate::law::{EVERYTHING, Enclosure, Interval, ScalarLaw, hull};
+use crate::registry::{Function, TimeFunction};
+use crate::round_off;
+use crate::signals::MAX_ARGUMENTS;
+use crate::system::{State, System};
+
+/// A law that deviates by more than this fraction of its largest value from the interpolation of a step's ends is not
+/// resolved: a sine with 4.4 steps a period.
+pub(crate) const DEPARTURE: f64 = 0.01;
+/// If bounds are narrower than this fraction of the largest value, nothing is missed between the samples.
+const NARROW: f64 = 0.1;
+/// Maximum number of intervals within one step.
+pub(crate) const MAX_INTERVALS: usize = 256;
+/// Bisections of an interval after which the remaining feature is a jump.
+const MAX_HALVINGS: usize = 30;
+/// Values at the ends of an interval are evaluated by this fraction inside: a jump at an end belongs to the neighbour.
+const INSIDE: f64 = 1e-6;
+/// Distance of the values that determine the slope at an end, as a fraction of the interval.
+const BESIDE: f64 = 1e-3;
+/// Values beyond those at the ends of a planned step by more than this fraction of the law's magnitude are reported: a sine with
+/// five steps a period.
+const EXCESS: f64 = 0.2;
+/// A jump before this step fraction in a step that was to end at its switch has been passed over.
+const NEAR_END: f64 = 0.9;
+/// Arguments that depart by more than this fraction of their range from a cubic are not smooth.
+const ARGUMENT_DEPARTURE: f64 = 0.05;
+/// Number of steps over which the second derivative of a function of time is bounded at once.
+const SPAN: f64 = 32.0;
+/// Number of steps ahead whose times count for the magnitude of a law that is not bounded.
+const STEPS_AHEAD: u32 = 64;
+/// Step fractions at which arguments are evaluated.
+const SAMPLES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
+
+/// Coefficients of a polynomial of the step fraction, the constant one first.
+type Cubic = [f64; 4];
+
+/// A function of time is a law without arguments.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OfTime<'f>(pub(crate) &'f dyn TimeFunction);
+
+impl ScalarLaw for OfTime<'_> {
+    fn value(&self, time: f64, _: &[f64]) -> f64 {
+        self.0.value(time)
+    }
+
+    fn bounds(&self, [from, to]: Interval, _: &[Interval]) -> Option<Interval> {
+        self.0.bounds(from, to)
+    }
+
+    fn enclosure(&self, time: &Enclosure, _: &[Enclosure]) -> Option<Enclosure> {
+        let [from, to] = time.value;
+        // The parameter is the time.
+        let second = self.0.curvature(from, to)?;
+        Some(Enclosure { value: EVERYTHING, first: EVERYTHING, second })
+    }
+}
+
+/// A law over an interval of a parameter σ.
+#[derive(Clone, Copy)]
+pub(crate) struct Course<'l> {
+    law: &'l dyn ScalarLaw,
+    /// Time at σ = 0, and duration over a unit of σ [s].
+    time: [f64; 2],
+    arguments: &'l [Cubic],
+}
+
+/// Result for an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Found {
+    /// No feature except those that its ends determine.
+    Nothing,
+    /// A feature that the ends of shorter intervals determine.
+    Hidden,
+    /// A jump, at the first number after it.
+    Jump(f64),
+}
+
+impl<'l> Course<'l> {
+    /// A function of time; the parameter is the time [s].
+    pub(crate) fn of_time(law: &'l OfTime<'l>) -> Self {
+        Self { law, time: [0.0, 1.0], arguments: &[] }
+    }
+
+    fn time(&self, share: f64) -> f64 {
+        self.time[0] + share * self.time[1]
+    }
+
+    /// Value at a parameter.
+    pub(crate) fn value(&self, share: f64) -> f64 {
+        let mut arguments = [0.0; MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = at(cubic, share);
+        }
+        self.law.value(self.time(share), &arguments[..self.arguments.len()])
+    }
+
+    /// Bounds over an interval.
+    fn bounds(&self, [from, to]: Interval) -> Option<Interval> {
+        let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = range(cubic, [from, to]);
+        }
+        self.law.bounds([self.time(from), self.time(to)], &arguments[..self.arguments.len()])
+    }
+
+    /// The largest magnitude for all times and arguments, or that at the ends.
+    fn everywhere(&self) -> Magnitude {
+        let count = self.arguments.len();
+        let bounds = self.law.bounds(EVERYTHING, &[EVERYTHING; MAX_ARGUMENTS][..count]);
+        let everywhere = bounds.map_or(0.0, largest);
+        let ends = largest([self.value(0.0), self.value(1.0)]);
+        Magnitude { value: ends.max(everywhere), is_bounded: everywhere > 0.0 }
+    }
+
+    /// The largest magnitude of a law that is not bounded, where the time or one argument takes all values and the others those of
+    /// the interval. Times of the next steps are included: the values of a law that starts smoothly may be round-off.
+    fn magnitude(&self) -> f64 {
+        let count = self.arguments.len();
+        let of =
+            |time: Interval, arguments: &[Interval]| self.law.bounds(time, arguments).map_or(0.0, largest);
+        let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = range(cubic, [0.0, 1.0]);
+        }
+        let time = [self.time(0.0), self.time(1.0)];
+        let ahead = [time[0], self.time(f64::from(STEPS_AHEAD))];
+        let mut magnitude = 0.0_f64;
+        for times in [EVERYTHING, ahead] {
+            magnitude = magnitude.max(of(times, &arguments[..count]));
+        }
+        for k in 0..count {
+            let own = std::mem::replace(&mut arguments[k], EVERYTHING);
+            magnitude = magnitude.max(of(time, &arguments[..count]));
+            arguments[k] = own;
+        }
+        magnitude
+    }
+
+    /// Width of the bounds within an interval, if any are known.
+    fn width(&self, [from, to]: Interval) -> Option<f64> {
+        let inside = INSIDE * (to - from);
+        self.bounds([from + inside, to - inside]).map(|[low, high]| high - low)
+    }
+
+    /// Largest distance within an interval from the straight line between its ends, if a bound is known.
+    fn bend(&self, [from, to]: Interval) -> Option<f64> {
+        let inside = INSIDE * (to - from);
+        let [from, to] = [from + inside, to - inside];
+        let mut arguments = [Enclosure::of_constant([0.0; 2]); MAX_ARGUMENTS];
+        for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
+            *argument = enclosure(cubic, [from, to]);
+        }
+        let time = Enclosure::of_line([self.time(from), self.time(to)], self.time[1]);
+        let enclosure = self.law.enclosure(&time, &arguments[..self.arguments.len()])?;
+        Some(bend(enclosure.second, to - from))
+    }
+
+    /// Whether values within an interval may differ from those at its ends and between them by more than `least`.
+    fn may_hide(&self, within: Interval, least: f64) -> bool {
+        let is_wide = |width: f64| width > least;
+        self.width(within).is_some_and(is_wide) && self.bend(within).is_none_or(is_wide)
+    }
+
+    /// Whether values within an interval are beyond those at its ends by more than [`EXCESS`] of the `magnitude`, as far as bounds
+    /// and samples show.
+    fn exceeds_its_ends(&self, whole: Interval, magnitude: f64) -> bool {
+        let inside = INSIDE * (whole[1] - whole[0]);
+        let [low, high] = hull(&[whole[0] + inside, whole[1] - inside].map(|share| self.value(share)));
+        let is_beyond = |value: f64| value < low - EXCESS * magnitude || value > high + EXCESS * magnitude;
+        let is_found = |[from, to]: Interval| {
+            let value = self.value(0.5 * (from + to));
+            value.is_finite() && is_beyond(value)
+        };
+        let may_be = |within: Interval| {
+            let [from, to] = within.map(|share| share.clamp(whole[0] + inside, whole[1] - inside));
+            self.bounds([from, to]).is_some_and(|bounds| bounds.into_iter().any(is_beyond))
+                && self.may_hide(within, NARROW * magnitude)
+        };
+        search(whole, is_found, may_be)
+    }
+
+    /// Features within an interval that its values and slopes there do not determine to `part` of its `magnitude`.
+    pub(crate) fn found(&self, whole: Interval, magnitude: f64, part: f64) -> Found {
+        let is_flat = || self.width(whole).is_some_and(|width| width <= part * magnitude);
+        if magnitude == 0.0 || is_flat() {
+            return Found::Nothing;
+        }
+        let expected = self.interpolated(whole);
+        let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
+        // A law with kinks may act between two samples only, in a contact for example.
+        let least = if self.law.is_smooth() { NARROW } else { part } * magnitude;
+        let may_be = |within: Interval| self.may_hide(within, least);
+        if search(whole, is_found, may_be) {
+            self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump)
+        } else {
+            Found::Nothing
+        }
+    }
+
+    /// The first number after a jump: where part of an interval is determined by the ends of no interval, however short.
+    fn jump(&self, [mut from, mut to]: Interval, magnitude: f64) -> Option<f64> {
+        for _ in 0..MAX_HALVINGS {
+            let middle = 0.5 * (from + to);
+            let is_resolved =
+                |half: Interval| self.departure(&self.interpolated(half), half) <= DEPARTURE * magnitude;
+            if !is_resolved([from, middle]) {
+                to = middle;
+            } else if !is_resolved([middle, to]) {
+                from = middle;
+            } else {
+                return None;
+            }
+        }
+        while from.next_up() < to {
+            let middle = 0.5 * (from + to);
+            if (self.value(middle) - self.value(from)).abs() > (self.value(to) - self.value(middle)).abs() {
+                to = middle;
+            } else {
+                from = middle;
+            }
+        }
+        Some(to)
+    }
+
+    /// The interval, and the cubic over it through values and slopes at its ends.
+    fn interpolated(&self, [from, to]: Interval) -> (Interval, Cubic) {
+        let inside = INSIDE * (to - from);
+        let [from, to] = [from + inside, to - inside];
+        // The slope of the parabola through three values, times the length.
+        let end = |at: f64, towards: f64| {
+            let [value, near, next] =
+                [0.0, BESIDE, 2.0 * BESIDE].map(|share| self.value(at + towards * share * (to - from)));
+            (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * BESIDE))
+        };
+        let ((start, first), (end, last)) = (end(from, 1.0), end(to, -1.0));
+        let change = end - start;
+        ([from, to], [start, first, 3.0 * change - 2.0 * first - last, first + last - 2.0 * change])
+    }
+
+    /// Largest deviation from a cubic at three points of an interval.
+    fn departure(&self, ([from, to], cubic): &(Interval, Cubic), [start, end]: Interval) -> f64 {
+        let departure = |share: f64| {
+            let parameter = start + share * (end - start);
+            let expected = at(cubic, ((parameter - from) / (to - from)).clamp(0.0, 1.0));
+            (self.value(parameter) - expected).abs()
+        };
+        // A value that is not finite is reported elsewhere.
+        [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
+    }
+
+    /// The longest interval from `from` on of `size` or, obtained by halving, less, that is resolved, except for jumps.
+    pub(crate) fn longest(&self, [from, mut size]: [f64; 2], magnitude: f64, part: f64) -> f64 {
+        for _ in 0..MAX_HALVINGS {
+            if self.found([from, from + size], magnitude, part) != Found::Hidden {
+                break;
+            }
+            size *= 0.5;
+        }
+        size
+    }
+}
+
+/// Whether `is_found` in one of the parts of an interval, which is bisected where there `may_be` more.
+fn search(whole: Interval, is_found: impl Fn(Interval) -> bool, may_be: impl Fn(Interval) -> bool) -> bool {
+    // As many as pending halves of an interval that is bisected so often.
+    let mut open = [whole; MAX_HALVINGS + 2];
+    let (mut last, mut looks) = (1, 0);
+    while last > 0 {
+        last -= 1;
+        looks += 1;
+        let [from, to] = open[last];
+        if is_found([from, to]) {
+            return true;
+        }
+        if looks < MAX_INTERVALS && last + 2 <= open.len() && may_be([from, to]) {
+            let middle = 0.5 * (from + to);
+            (open[last], open[last + 1]) = ([middle, to], [from, middle]);
+            last += 2;
+        }
+    }
+    false
+}
+
+/// What is known of laws from the steps so far.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Magnitudes {
+    functions: Vec<FunctionMagnitude>,
+    laws: Vec<Magnitude>,
+}
+
+/// Largest magnitude so far, or the possible one if it is bounded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Magnitude {
+    value: f64,
+    is_bounded: bool,
+}
+
+/// A function of time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct FunctionMagnitude {
+    magnitude: f64,
+    /// Times between which its second derivative is bounded [s], and the largest one there; infinite if it is not known.
+    span: Interval,
+    curvature: f64,
+}
+
+/// The scalar laws of a system along its steps.
+pub(crate) struct Laws {
+    pub(crate) magnitudes: Magnitudes,
+    between: State,
+    /// Arguments of all laws at each of the samples, one sample after the other, and at the middle of the step.
+    arguments: Vec<f64>,
+    middle: Vec<f64>,
+    cubics: Vec<Cubic>,
+}
+
+impl Laws {
+    /// At the start, with steps of up to `longest` [s]. Functions of time that are not bounded are evaluated over the first steps:
+    /// the first values of a function that starts smoothly may be round-off.
+    pub(crate) fn new(system: &System, start: &State, longest: f64) -> Self {
+        let now = start.kinematics.time;
+        let magnitude = |function: &Function| {
+            if function.is_constant() {
+                return 0.0;
+            }
+            let everywhere = function.bounds(now, f64::INFINITY).map_or(0.0, largest);
+            let ahead = (0..=STEPS_AHEAD).map(|k| function.value(now + f64::from(k) * longest));
+            if everywhere > 0.0 {
+                everywhere
+            } else {
+                ahead.map(|value| largest([value; 2])).fold(0.0, f64::max)
+            }
+        };
+        let functions = system.functions.iter().map(|(_, function)| FunctionMagnitude {
+            magnitude: magnitude(function),
+            span: [f64::INFINITY; 2],
+            curvature: f64::INFINITY,
+        });
+        let magnitudes = Magnitudes { functions: functions.collect(), laws: Vec::new() };
+        let (between, arguments, middle, cubics) = (start.clone(), Vec::new(), Vec::new(), Vec::new());
+        Self { magnitudes, between, arguments, middle, cubics }
+    }
+
+    /// The magnitude of a function of time, including its values at the ends of a step [s].
+    pub(crate) fn magnitude_of_function(&mut self, index: usize, function: &Function, ends: Interval) -> f64 {
+        let magnitude = &mut self.magnitudes.functions[index].magnitude;
+        *magnitude = magnitude.max(largest(ends.map(|time| function.value(time))));
+        *magnitude
+    }
+
+    /// Whether a function of time is a straight line over a step [s], to `part` of its magnitude.
+    pub(crate) fn is_straight(
+        &mut self,
+        index: usize,
+        function: &Function,
+        step @ [from, to]: Interval,
+        part: f64,
+    ) -> bool {
+        let bound = |[from, to]: Interval| {
+            function.curvature(from, to).map_or(f64::INFINITY, |bounds| bend(bounds, 1.0))
+        };
+        let known = self.magnitudes.functions[index];
+        if !(known.span[0] <= from && to <= known.span[1]) {
+            let span = [from, from + SPAN * (to - from)];
+            self.magnitude_of_function(index, function, span);
+            let known = &mut self.magnitudes.functions[index];
+            (known.span, known.curvature) = (span, bound(span));
+        }
+        let FunctionMagnitude { magnitude, curvature, .. } = self.magnitudes.functions[index];
+        let is_small = |bend: f64| bend * (to - from) * (to - from) <= part * magnitude;
+        is_small(curvature) || is_small(bound(step))
+    }
+
+    /// The longest part of a solved step in which its ends determine all laws of the motion, as a step fraction: 1, or less by
+    /// halving, or up to a jump. A jump at its start may belong to a switch there if one `has_switched`.
+    pub(crate) fn longest_resolved(
+        &mut self,
+        system: &System,
+        step: (&State, &State),
+        part: f64,
+        has_switched: bool,
+    ) -> f64 {
+        let begin = if has_switched { BESIDE } else { 0.0 };
+        let find = |course: &Course<'_>, magnitude| {
+            let longest = match course.found([begin, 1.0], magnitude, part) {
+                Found::Hidden => begin + course.longest([begin, 0.5], magnitude, part),
+                // Switches before it were passed and returned to. Close to the end the next attempt will find it.
+                Found::Jump(share) if share < NEAR_END && !course.law.is_smooth() => share / NEAR_END,
+                Found::Nothing | Found::Jump(_) => 1.0,
+            };
+            (longest < 1.0).then_some(longest)
+        };
+        self.examine(system, step, find).map_or(1.0, |(_, longest)| longest)
+    }
+
+    /// The index of a law of the motion that a solved step of planned size does not resolve: a smooth one that its ends do not
+    /// determine, or another one with values far beyond those at the ends.
+    pub(crate) fn unresolved(&mut self, system: &System, step: (&State, &State)) -> Option<usize> {
+        let find = |course: &Course<'_>, magnitude| {
+            let is_found = if course.law.is_smooth() {
+                course.found([0.0, 1.0], magnitude, DEPARTURE) == Found::Hidden
+            } else {
+                // A kink or a jump alone is an error of the order of a planned step.
+                course.exceeds_its_ends([0.0, 1.0], magnitude)
+            };
+            is_found.then_some(0.0)
+        };
+        self.examine(system, step, find).map(|(index, _)| index)
+    }
+
+    /// Determines the cubics of all arguments of laws of the motion over a solved step. Whether there are any laws.
+    fn sample(&mut self, system: &System, (from, to): (&State, &State)) -> bool {
+        self.arguments.clear();
+        self.cubics.clear();
+        let mut laws = 0;
+        for share in SAMPLES {
+            let arguments = &mut self.arguments;
+            let mut gather = |_: &dyn ScalarLaw, values: &[f64]| {
+                laws += 1;
+                arguments.extend_from_slice(values);
+            };
+            if share == 0.0 || share == 1.0 {
+                system.laws(if share == 0.0 { &from.kinematics } else { &to.kinematics }, &mut gather);
+            } else {
+                dense::at_share(from, to, share, &mut self.between);
+                system.laws(&self.between.kinematics, &mut gather);
+            }
+            if arguments.is_empty() {
+                // There may be laws of time alone, such as signals.
+                return laws > 0;
+            }
+        }
+        let count = self.arguments.len() / SAMPLES.len();
+        for k in 0..count {
+            let values: [f64; SAMPLES.len()] =
+                std::array::from_fn(|sample| self.arguments[sample * count + k]);
+            self.cubics.push(through(values));
+        }
+        true
+    }
+
+    /// The law of the motion with the smallest step fraction that `find` returns for its course and its magnitude, with its index.
+    /// Where it returns one, arguments are verified: those that jump, such as angles at half a turn, are no cubics, and their laws
+    /// are not examined.
+    fn examine(
+        &mut self,
+        system: &System,
+        (from, to): (&State, &State),
+        find: impl Fn(&Course<'_>, f64) -> Option<f64>,
+    ) -> Option<(usize, f64)> {
+        if !self.sample(system, (from, to)) {
+            return None;
+        }
+        let Self { magnitudes, between, middle, cubics, .. } = self;
+        let time = [from.kinematics.time, to.kinematics.time - from.kinematics.time];
+        let (mut next, mut index, mut first) = (0, 0, None);
+        middle.clear();
+        system.laws(&to.kinematics, &mut |law, values| {
+            let own = next..next + values.len();
+            let course = Course { law, time, arguments: &cubics[own.clone()] };
+            (next, index) = (own.end, index + 1);
+            if magnitudes.laws.len() < index {
+                magnitudes.laws.push(course.everywhere());
+            }
+            let magnitude = &mut magnitudes.laws[index - 1];
+            let is_bounded = magnitude.is_bounded;
+            if !is_bounded {
+                magnitude.value = magnitude.value.max(largest([course.value(1.0); 2]));
+            }
+            let mut found = None;
+            if magnitude.value > 0.0 {
+                found = find(&course, magnitude.value);
+            }
+            if !is_bounded && (found.is_some() || magnitude.value == 0.0) {
+                magnitude.value = magnitude.value.max(course.magnitude());
+                found = find(&course, magnitude.value);
+            }
+            let Some(share) = found else { return };
+            if middle.is_empty() {
+                dense::at_share(from, to, 0.5, between);
+                system.laws(&between.kinematics, &mut |_, values| middle.extend_from_slice(values));
+            }
+            let are_smooth = cubics[own.clone()]
+                .iter()
+                .zip(&middle[own])
+                .all(|(cubic, value)| passes_through(cubic, *value));
+            if are_smooth && first.is_none_or(|(_, known)| share < known) {
+                first = Some((index - 1, share));
+            }
+        });
+        first
+    }
+}
+
+/// Whether a cubic has about this value in its middle.
+fn passes_through(cubic: &Cubic, value: f64) -> bool {
+    let [low, high] = range(cubic, [0.0, 1.0]);
+    let allowed = ARGUMENT_DEPARTURE * (high - low) + round_off::FUNCTION * high.abs().max(low.abs());
+    (at(cubic, 0.5) - value).abs() <= allowed
+}
+
+/// The largest magnitude within an interval; zero if it is infinite.
+fn largest(interval: Interval) -> f64 {
+    let largest = interval[0].abs().max(interval[1].abs());
+    if largest.is_finite() { largest } else { 0.0 }
+}
+
+fn at([a, b, c, d]: &Cubic, share: f64) -> f64 {
+    a + share * (b + share * (c + share * d))
+}
+
+/// Range of a cubic over an interval: that of its Bézier points.
+fn range(cubic: &Cubic, [from, to]: Interval) -> Interval {
+    let [_, b, c, d] = cubic;
+    let third = |x: f64| (b + x * (2.0 * c + x * 3.0 * d)) * (to - from) / 3.0;
+    let (start, end) = (at(cubic, from), at(cubic, to));
+    hull(&[start, start + third(from), end - third(to), end])
+}
+
+/// Bounds of a cubic and of its derivatives over an interval.
+fn enclosure(cubic: &Cubic, [from, to]: Interval) -> Enclosure {
+    let [_, b, c, d] = cubic;
+    let slope = |x: f64| b + x * (2.0 * c + x * 3.0 * d);
+    let bend = |x: f64| 2.0 * c + 6.0 * d * x;
+    let (start, end) = (slope(from), slope(to));
+    Enclosure {
+        value: range(cubic, [from, to]),
+        // The Bézier points of a parabola.
+        first: hull(&[start, start + 0.5 * (to - from) * bend(from), end]),
+        second: hull(&[bend(from), bend(to)]),
+    }
+}
+
+/// Largest distance of a function from the straight line between its ends over a length, given bounds of its second derivative.
+fn bend(second: Interval, length: f64) -> f64 {
+    second[0].abs().max(second[1].abs()) * length * length / 8.0
+}
+
+/// The cubic through values at the [`SAMPLES`].
+fn through(values: [f64; 4]) -> Cubic {
+    let first: [f64; 3] =
+        std::array::from_fn(|k| (values[k + 1] - values[k]) / (SAMPLES[k + 1] - SAMPLES[k]));
+    let second: [f64; 2] = std::array::from_fn(|k| (first[k + 1] - first[k]) / (SAMPLES[k + 2] - SAMPLES[k]));
+    let third = (second[1] - second[0]) / (SAMPLES[3] - SAMPLES[0]);
+    let [x, y] = [SAMPLES[1], SAMPLES[2]];
+    [values[0], first[0] - x * second[0] + x * y * third, second[0] - (x + y) * third, third]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A law of time and one argument, with bounds.
+    struct Law(fn(f64, f64) -> f64, fn(Interval, Interval) -> Interval);
+
+    impl ScalarLaw for Law {
+        fn value(&self, time: f64, arguments: &[f64]) -> f64 {
+            (self.0)(time, arguments[0])
+        }
+
+        fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval> {
+            Some((self.1)(time, arguments[0]))
+        }
+    }
+
+    fn peak(distance: f64) -> f64 {
+        (-(distance / 1e-4).powi(2)).exp()
+    }
+
+    fn peak_over([from, to]: Interval) -> Interval {
+        let [one, other] = [from, to].map(peak);
+        [one.min(other), if from < 0.0 && to > 0.0 { 1.0 } else { one.max(other) }]
+    }
+
+    /// exp(-((x - 1)/1e-4)²), and the same over time.
+    const BY_MOTION: Law = Law(|_, x| peak(x - 1.0), |_, x| peak_over(x.map(|x| x - 1.0)));
+    const BY_TIME: Law = Law(|t, _| peak(t - 1.0), |t, _| peak_over(t.map(|t| t - 1.0)));
+    const JUMP: Law =
+        Law(|_, x| f64::from(u8::from(x > 0.3)), |_, x| x.map(|x| f64::from(u8::from(x > 0.3))));
+
+    fn course<'l>(law: &'l Law, cubic: &'l [Cubic; 1]) -> Course<'l> {
+        Course { law, time: [0.0, 1.0], arguments: cubic }
+    }
+
+    #[test]
+    fn peaks_in_time_or_motion_are_found() {
+        // x = 2 σ: the peak is at σ = 0.5.
+        let moving = [[0.0, 2.0, 0.0, 0.0]];
+        let by_motion = course(&BY_MOTION, &moving);
+        assert_eq!(by_motion.everywhere().value, 1.0);
+        assert_eq!(by_motion.found([0.0, 1.0], 1.0, DEPARTURE), Found::Hidden);
+        assert_eq!(by_motion.found([0.0, 0.4995], 1.0, DEPARTURE), Found::Nothing);
+        assert_eq!(by_motion.found([0.499_99, 0.500_005], 1.0, DEPARTURE), Found::Nothing);
+        assert_eq!(by_motion.longest([0.0, 1.0], 1.0, DEPARTURE), 0.25);
+        assert!(by_motion.exceeds_its_ends([0.0, 1.0], 1.0) && !by_motion.exceeds_its_ends([0.0, 0.5], 1.0));
+        let by_time = course(&BY_TIME, &moving);
+        assert_eq!(by_time.found([0.0, 1.7], 1.0, DEPARTURE), Found::Hidden);
+        assert_eq!(by_time.found([0.0, 0.999], 1.0, DEPARTURE), Found::Nothing);
+        // At rest there is nothing to be found.
+        assert_eq!(
+            course(&BY_MOTION, &[[0.2, 0.0, 0.0, 0.0]]).found([0.0, 1.0], 1.0, DEPARTURE),
+            Found::Nothing
+        );
+    }
+
+    #[test]
+    fn jumps_are_found_to_the_last_bit() {
+        let unit = [[0.0, 1.0, 0.0, 0.0]];
+        assert_eq!(course(&JUMP, &unit).found([0.0, 1.0], 1.0, DEPARTURE), Found::Jump(0.3_f64.next_up()));
+    }
+
+    #[test]
+    fn cubics_pass_through_their_samples_within_their_range() {
+        let cubic = through(SAMPLES.map(|x| 1.0 - 2.0 * x + 5.0 * x * x - 4.0 * x * x * x));
+        for (found, wanted) in cubic.iter().zip([1.0, -2.0, 5.0, -4.0]) {
+            assert!((found - wanted).abs() < 1e-13, "{cubic:?}");
+        }
+        for [from, to] in [[0.0, 1.0], [0.2, 0.3], [0.6, 0.61]] {
+            let [low, high] = range(&cubic, [from, to]);
+            for k in 0..=20 {
+                let value = at(&cubic, from + f64::from(k) / 20.0 * (to - from));
+                assert!((low - 1e-12..=high + 1e-12).contains(&value));
+            }
+            assert!(high - low < 4.0 * (to - from), "{low} {high}");
+        }
+    }
+}

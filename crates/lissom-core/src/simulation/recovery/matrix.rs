@@ -1,0 +1,313 @@
+//! The saddle-point matrix of a recovery, M + τ D + τ² K with the constraints, assembled and factored at a recorded instant; D and K are
+//! those of elements that may be stiff.
+//!
+//! ```text
+//! [M + τ D + τ² K + s BᵀWB, s Bᵀ; s B, 0] [x; λ/s] = [b + s BᵀW c; s c]
+//! ```
+//!
+//! s is a mass and W turns radians into lengths. A solution is not refined: right-hand sides are residuals evaluated at the present state,
+//! and so its error is a fraction of a correction.
+
+use lissom_solver::{Pattern, SolverKind};
+
+use crate::consistent::singular_positions::SingularPositions;
+use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
+use crate::joints::starts::JointStarts;
+use crate::kinematics::{Kinematics, Layout, MotionChange};
+use crate::saddle_point::{Matrix, SaddlePoint};
+use crate::scaling::Representative;
+use crate::system::{Blend, Linearization, Scratch, State, Sum, System, TangentAssembler};
+
+/// Pivots that are smaller fractions of the terms they are made of leave solutions with fewer digits.
+const WELL_CONDITIONED: f64 = 1e-6;
+
+/// Consecutive entries of a column in consecutive rows.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    column: usize,
+    row: usize,
+    position: usize,
+    length: usize,
+}
+
+/// The matrix, its factors, and what its residuals are evaluated from.
+pub(super) struct RecoveryMatrix {
+    saddle: SaddlePoint<Matrix<f64>>,
+    is_equilibrated: bool,
+    kind: &'static SolverKind,
+    /// Derivatives of the forces of elements that may be stiff, if there are any.
+    stiff: Option<Linearization>,
+    has_damping: bool,
+    /// Memory for the assembly, lent to it.
+    scratch: Option<Box<Scratch>>,
+    /// s.
+    scale: f64,
+    augmentation: Augmentation,
+    /// W by multiplier.
+    weights: Vec<f64>,
+    still: Vec<MotionChange>,
+    unchanged: Vec<f64>,
+    zero: Vec<f64>,
+    starts: JointStarts,
+    /// Rows of equations of rates.
+    is_of_rates: Vec<bool>,
+    /// The entries between motions, and those of Bᵀ.
+    between_motions: Vec<Run>,
+    of_constraints: Vec<Run>,
+}
+
+impl RecoveryMatrix {
+    /// Storage for the matrices of `system`.
+    pub(super) fn new(
+        system: &System,
+        state: &State,
+        representative: &Representative,
+        kind: &'static SolverKind,
+    ) -> Self {
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let count = layout.coordinate_count();
+        let augmentation = Augmentation { weight: 0.0, radian: representative.length };
+        let mut is_of_rates = vec![false; layout.size()];
+        layout.rate_rows().for_each(|row| is_of_rates[row] = true);
+        let is_motion = |row: usize| row < count && !is_of_rates[row];
+        let mut made = Self {
+            saddle: Self::saddle(system, kind),
+            is_equilibrated: false,
+            kind,
+            stiff: system.has_stiff_elements().then(|| system.empty_linearization()),
+            has_damping: false,
+            scratch: None,
+            scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
+            augmentation,
+            weights: layout.quantities()[count..].iter().map(|own| augmentation.relative(*own)).collect(),
+            still: vec![MotionChange::none(); state.kinematics.nodes.len()],
+            unchanged: vec![0.0; state.kinematics.coordinates.len()],
+            zero: vec![0.0; layout.multiplier_count],
+            starts: JointStarts::default(),
+            between_motions: runs(pattern, (0..count).filter(|&column| is_motion(column)), is_motion),
+            of_constraints: runs(pattern, count..pattern.size(), |row| row < count),
+            is_of_rates,
+        };
+        // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
+        let repeating =
+            SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
+        if repeating.is_some() || made.saddle.matrices.solver.exchanges_rows() {
+            made.equilibrate(system, repeating.map(|multiplier| count + multiplier));
+        }
+        made
+    }
+
+    fn saddle(system: &System, kind: &'static SolverKind) -> SaddlePoint<Matrix<f64>> {
+        let structure = system.structure();
+        SaddlePoint::new(Matrix::new((kind.real)(structure), structure), system.layout().coordinate_count())
+    }
+
+    /// Brings rows and columns to one size from now on. Elimination without exchanges of rows does not need that unless the
+    /// constraint of a multiplier repeats others.
+    fn equilibrate(&mut self, system: &System, repeating: Option<usize>) {
+        let structure = system.structure();
+        let saddle = Self::saddle(system, self.kind).equilibrated(structure.pattern.size());
+        self.saddle = saddle.with_redundancy(structure, repeating);
+        self.is_equilibrated = true;
+    }
+
+    /// Assembles and factors the matrix at these positions; none if it is singular.
+    pub(super) fn factor(&mut self, system: &System, at: &Kinematics, time: f64) -> Option<()> {
+        system.begin_step(at, &mut self.starts);
+        if let Some(stiff) = &mut self.stiff {
+            // The other derivatives are not read.
+            for values in [&mut stiff.mass, &mut stiff.damping, &mut stiff.stiffness] {
+                values.fill(0.0);
+            }
+            let out = &mut TangentAssembler::Separate(stiff);
+            system.linearize_elements(true, at, self.scratch.get_or_insert_default(), out);
+            self.has_damping = stiff.damping.iter().any(|value| *value != 0.0);
+        }
+        self.assemble(system, at, time);
+        self.saddle.factor(system.structure(), self.scale).ok()?;
+        if self.is_redundant() && !self.is_equilibrated {
+            self.equilibrate(system, self.saddle.redundant());
+            self.assemble(system, at, time);
+            self.saddle.factor(system.structure(), self.scale).ok()?;
+        }
+        Some(())
+    }
+
+    fn assemble(&mut self, system: &System, at: &Kinematics, time: f64) {
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let mut values = std::mem::take(&mut self.saddle.matrices.values);
+        let mut scratch = self.scratch.take().unwrap_or_default();
+        values.fill(0.0);
+        let blend =
+            Blend { place: 0.0, rate: 0.0, acceleration: 1.0, augmented: self.scale, constraint: self.scale };
+        let mut out = TangentAssembler::Real(Sum { blend, values: &mut values, stiffness: &mut [] });
+        system.linearize_elements(false, at, &mut scratch, &mut out);
+        let point = self.point(at, &self.zero);
+        system.linearize_constraints(&point, Chart::Body, &mut scratch.joint, &mut out);
+        if let Some(stiff) = &self.stiff {
+            values.iter_mut().zip(&stiff.mass).for_each(|(value, mass)| *value += mass);
+            for run in &self.between_motions {
+                let own = run.position..run.position + run.length;
+                let derivatives = stiff.damping[own.clone()].iter().zip(&stiff.stiffness[own.clone()]);
+                for (value, (damping, stiffness)) in values[own].iter_mut().zip(derivatives) {
+                    *value += time * (damping + time * stiffness);
+                }
+            }
+            // Constraints between velocities stand where those between positions do: [M Bᵀ; B 0].
+            for (row, _) in layout.impulses() {
+                for &other in pattern.column(row) {
+                    for (row, column) in [(row, other), (other, row)] {
+                        if let Some(position) = pattern.position(row, column) {
+                            values[position] = stiff.damping[position];
+                        }
+                    }
+                }
+            }
+        }
+        // States have no inertia: a unit in its place keeps them apart from the rest.
+        for (row, ..) in layout.states() {
+            if let Some(diagonal) = pattern.position(row, row) {
+                values[diagonal] += 1.0;
+            }
+        }
+        self.saddle.matrices.values = values;
+        self.scratch = Some(scratch);
+    }
+
+    /// Solves in place for motions and multipliers.
+    pub(super) fn solve(&mut self, system: &System, right: &mut [f64]) {
+        let count = system.layout().coordinate_count();
+        right[count..].iter_mut().for_each(|value| *value *= self.scale);
+        self.saddle.scale(right);
+        let (motions, constraints) = right.split_at_mut(count);
+        // What the matrix contains of B is scaled like the right-hand side.
+        let factors = self.saddle.row_factors();
+        for run in &self.of_constraints {
+            let k = run.column - count;
+            let factor = factors.map_or(1.0, |factors| factors[run.column]);
+            let weighted = self.weights[k] * constraints[k] / (self.scale * factor * factor);
+            let entries = &self.saddle.matrices.values[run.position..run.position + run.length];
+            for (value, entry) in motions[run.row..run.row + run.length].iter_mut().zip(entries) {
+                *value += entry * weighted;
+            }
+        }
+        self.saddle.solve_equilibrated(system.structure(), right);
+        self.saddle.scale(right);
+        right[count..].iter_mut().for_each(|value| *value *= self.scale);
+    }
+
+    /// Whether there are elements that may be stiff.
+    pub(super) fn is_stiff(&self) -> bool {
+        self.stiff.is_some()
+    }
+
+    /// Whether constraints repeat each other.
+    pub(super) fn is_redundant(&self) -> bool {
+        self.saddle.redundant().is_some()
+    }
+
+    /// Whether a solution leaves round-off of a correction only: the equations of motion have no damping that the matrix has, and no
+    /// pivot has lost digits.
+    pub(super) fn is_exact(&self) -> bool {
+        let report = self.saddle.report();
+        !self.has_damping && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
+    }
+
+    /// out += factor · K x over motions; equations of rates have no stiffness.
+    pub(super) fn add_stiffness_product(&self, factor: f64, x: &[f64], out: &mut [f64]) {
+        let Some(stiff) = &self.stiff else { return };
+        for run in &self.between_motions {
+            let value = factor * x[run.column];
+            let entries = &stiff.stiffness[run.position..run.position + run.length];
+            for (out, entry) in out[run.row..run.row + run.length].iter_mut().zip(entries) {
+                *out += value * entry;
+            }
+        }
+    }
+
+    /// Puts -B x in the rows of constraints between velocities.
+    pub(super) fn subtract_slides(&self, system: &System, x: &[f64], out: &mut [f64]) {
+        self.each_slide(system, |stiff, position| stiff.damping[position], x, out);
+    }
+
+    /// Puts -Ḃ v there: the derivative of B v by positions, along the motion.
+    pub(super) fn subtract_turning_slides(&self, system: &System, speeds: &[f64], out: &mut [f64]) {
+        self.each_slide(system, |stiff, position| stiff.stiffness[position], speeds, out);
+    }
+
+    fn each_slide(
+        &self,
+        system: &System,
+        entry: impl Fn(&Linearization, usize) -> f64,
+        x: &[f64],
+        out: &mut [f64],
+    ) {
+        let (Some(stiff), pattern) = (&self.stiff, &system.structure().pattern) else { return };
+        for (row, _) in system.layout().impulses() {
+            for &column in pattern.column(row) {
+                if let Some(position) = pattern.position(row, column) {
+                    out[row] -= entry(stiff, position) * x[column];
+                }
+            }
+        }
+    }
+
+    /// Rates and accelerations of the constraints' violations at the motion `at`, at the positions of the matrix.
+    pub(super) fn violation_rates(&self, system: &System, at: &Kinematics, out: [&mut [f64]; 2]) {
+        system.violation_rates(at, &self.starts, out);
+    }
+
+    /// Left-hand sides of the equations of motion at the positions of the matrix; zero in all other rows.
+    pub(super) fn residual(&self, system: &System, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+        system.residual(&self.point(at, multipliers), out);
+        out[system.layout().coordinate_count()..].fill(0.0);
+        self.clear_rates(system.layout(), out);
+    }
+
+    /// Sets the rows of equations of rates to zero.
+    pub(super) fn clear_rates(&self, layout: &Layout, out: &mut [f64]) {
+        if layout.state_count() > 0 || !layout.impulses.is_empty() {
+            out.iter_mut().zip(&self.is_of_rates).filter(|(_, is)| **is).for_each(|(value, _)| *value = 0.0);
+        }
+    }
+
+    fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
+        Point {
+            at,
+            stressed: at,
+            increments: Increments {
+                start: at,
+                nodes: &self.still,
+                coordinates: &self.unchanged,
+                joints: Some(&self.starts),
+            },
+            multipliers,
+            violations: &self.zero,
+            augmentation: self.augmentation,
+        }
+    }
+}
+
+/// Entries of these columns in the rows that are wanted.
+fn runs(
+    pattern: &Pattern,
+    columns: impl Iterator<Item = usize>,
+    is_wanted: impl Fn(usize) -> bool,
+) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for column in columns {
+        let first = pattern.column_starts()[column];
+        let mut last: Option<Run> = None;
+        for (k, &row) in pattern.column(column).iter().enumerate().filter(|(_, row)| is_wanted(**row)) {
+            let position = first + k;
+            match &mut last {
+                Some(run) if run.row + run.length == row && run.position + run.length == position => {
+                    run.length += 1;
+                }
+                _ => runs.extend(last.replace(Run { column, row, position, length: 1 })),
+            }
+        }
+        runs.extend(last);
+    }
+    runs
+}

@@ -1,0 +1,446 @@
+//! Recovery of velocities, accelerations, multipliers and internal forces from the positions at an instant.
+//!
+//! A scheme satisfies the constraints at the end of a step; it satisfies their derivatives to a lower order, and multipliers
+//! of Radau IIA with two stages are of first order only [Hairer and Wanner 1996, VII.4]. Forces of stiff elements have the
+//! same error, for a constraint is the limit of a stiff spring. Both follow from the positions:
+//!
+//! Legend: τ = h/2 with the step h, or less with more than two stages, S saddle-point matrix of M + τ D + τ² K and the constraints G, f forces, a
+//! accelerations of the scheme, c second derivative of the forces along the motion with constant twists.
+//!
+//! ```text
+//! S (δ, ·) = (-τ² K v, -(G v + ∂g/∂t)),                S (z, ·) = (τ² K δ, -(G v + ∂g/∂t))            v̂ = v + z
+//! S (x, ·) = (-r - τ² (K a + c), -(G a + Ġ v̂ + …)),    r = M a + f(q, v̂) + Gᵀ λ
+//! S (y, λ) = (-M a - f(q, v̂) + τ² K x, -(G a + Ġ v̂ + …))
+//! accelerations a + y,   internal forces at q + τ² (y - x)
+//! ```
+//!
+//! Stiff parts are treated like constraints: their rates vanish except for what the motion around them asks for. The second solution
+//! of each pair changes vibrations that the step resolves by (h ω/2)⁴ instead of (h ω/2)² only. The last one is repeated
+//! until the forces are in equilibrium, also where friction depends on multipliers. Without elements that may be stiff there is
+//! nothing to filter, and K, c and x are zero. Derivation: docs/theory/recovery.md.
+
+mod matrix;
+
+use crate::consistent::initial_conditions::{gather_accelerations, gather_rates, scatter_accelerations};
+use crate::integrator::pivoting_unless_augmented;
+use crate::kinematics::{Kinematics, LOCKED, Layout, Switch};
+use crate::simulation::Simulation;
+use crate::system::{State, System};
+use lissom_motion::Motion;
+use matrix::RecoveryMatrix;
+
+/// Repetitions after which equilibrium counts as not found.
+const MAX_REPETITIONS: usize = 30;
+
+/// Changes of multipliers below are round-off.
+const REPEATED: f64 = 1e-10;
+
+/// Changes that the next repetition would make and that are smaller are not worth it.
+const NEGLIGIBLE: f64 = 1e-14;
+
+/// A solution that changes multipliers by no more leaves errors of round-off, if it is one of the whole equations.
+const SMALL_CHANGE: f64 = 1e-2;
+
+/// Recovers velocities, accelerations, multipliers and internal forces, for what is recorded. The motion itself does not
+/// change.
+pub struct Recovery {
+    matrix: RecoveryMatrix,
+    /// Number of stages of the scheme: vibrations that are resolved change by (h ω/2) to twice this power, or four.
+    stages: usize,
+    found: Recovered,
+    work: Workspace,
+}
+
+/// What recorded quantities depend on, and what has to be recovered for them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Need {
+    /// Positions only: nothing is recovered.
+    #[default]
+    Positions,
+    /// Velocities.
+    Velocities,
+    /// Accelerations, multipliers or internal forces.
+    Forces,
+}
+
+/// What is recorded of an instant.
+pub struct Recovered {
+    /// The state with velocities that satisfy the constraints and, if forces are needed, with accelerations and multipliers that
+    /// follow from the positions.
+    pub rates: State,
+    /// The same with positions whose internal forces are in equilibrium with them, if forces are needed.
+    pub forces: State,
+}
+
+/// Vectors by row, and motions.
+struct Workspace {
+    speeds: Vec<f64>,
+    accelerations: Vec<f64>,
+    /// What constraints lack.
+    lacking: Vec<f64>,
+    /// Left-hand sides of the equations of motion.
+    unbalanced: Vec<f64>,
+    /// Solution for which stiff parts are like constraints, δ or x.
+    stiff: Vec<f64>,
+    /// y.
+    change: Vec<f64>,
+    right: Vec<f64>,
+    /// Rates and accelerations of violations, by multiplier.
+    violation_rates: [Vec<f64>; 2],
+    switches: Vec<Switch>,
+    /// The motion at rest, and moved along itself.
+    still: Kinematics,
+    moved: Kinematics,
+}
+
+impl Recovery {
+    /// For the states of a simulation; none for statics.
+    pub fn of(simulation: &Simulation) -> Option<Box<Self>> {
+        let (settings, system, state) = (simulation.settings(), simulation.system(), simulation.state());
+        if !settings.scheme.dynamic {
+            return None;
+        }
+        let kind = pivoting_unless_augmented(settings);
+        let by_row = || vec![0.0; system.layout().size()];
+        let by_multiplier = || vec![0.0; system.layout().multiplier_count];
+        Some(Box::new(Self {
+            matrix: RecoveryMatrix::new(system, state, simulation.representative(), kind),
+            stages: settings.scheme.stages.len(),
+            found: Recovered { rates: state.clone(), forces: state.clone() },
+            work: Workspace {
+                speeds: by_row(),
+                accelerations: by_row(),
+                lacking: by_row(),
+                unbalanced: by_row(),
+                stiff: by_row(),
+                change: by_row(),
+                right: by_row(),
+                violation_rates: [by_multiplier(), by_multiplier()],
+                switches: Vec::new(),
+                still: state.kinematics.clone(),
+                moved: state.kinematics.clone(),
+            },
+        }))
+    }
+
+    /// What is recorded of a state to which a step of `step` [s] led. None at the start, and where nothing is found, as in a
+    /// singular position.
+    pub fn recover(
+        &mut self,
+        need: Need,
+        (system, state): (&System, &State),
+        step: f64,
+    ) -> Option<&Recovered> {
+        if step <= 0.0 || need == Need::Positions {
+            return None;
+        }
+        // More stages resolve faster motion.
+        let time = 0.5 * step / self.stages.saturating_sub(1).max(1) as f64;
+        self.found.rates.clone_from(state);
+        hold_sides(system, &mut self.work.switches, &mut self.found.rates.kinematics);
+        self.matrix.factor(system, &self.found.rates.kinematics, time)?;
+        self.find_lacking_velocities(system);
+        if need == Need::Forces {
+            self.found.forces.clone_from(&self.found.rates);
+            self.filter_velocities(system, time);
+        }
+        self.recover_velocities(system)?;
+        if need == Need::Velocities {
+            return Some(&self.found);
+        }
+        let Recovered { rates, forces } = &mut self.found;
+        if !self.matrix.is_stiff() {
+            forces.kinematics.nodes.clone_from(&rates.kinematics.nodes);
+            forces.kinematics.coordinates.clone_from(&rates.kinematics.coordinates);
+        }
+        self.recover_accelerations(system, time)?;
+        self.share(system, time)?;
+        Some(&self.found)
+    }
+
+    /// Completes both states with what was found for the other one; none if it is not finite.
+    fn share(&mut self, system: &System, time: f64) -> Option<()> {
+        let Self { matrix, found: Recovered { rates, forces }, work, .. } = self;
+        if !forces.multipliers.iter().chain(&work.change).chain(&work.stiff).all(|value| value.is_finite()) {
+            return None;
+        }
+        let nodes = rates.kinematics.nodes.iter_mut().zip(&mut forces.kinematics.nodes);
+        for (rates, forces) in nodes {
+            rates.acceleration = forces.acceleration;
+            // Springs and dampers are recorded at velocities that are not filtered.
+            forces.twist = rates.twist;
+        }
+        for (_, impulse) in system.layout().impulses() {
+            let force = forces.kinematics.coordinates[impulse].rate;
+            rates.kinematics.coordinates[impulse].rate = force;
+        }
+        let coordinates = rates.kinematics.coordinates.iter_mut().zip(&mut forces.kinematics.coordinates);
+        for (rates, forces) in coordinates {
+            rates.acceleration = forces.acceleration;
+            forces.rate = rates.rate;
+        }
+        rates.multipliers.clone_from(&forces.multipliers);
+        rates.kinematics.show_multipliers(&rates.multipliers);
+        if matrix.is_stiff() {
+            let shift = &mut work.right;
+            for (shift, (y, x)) in shift.iter_mut().zip(work.change.iter().zip(&work.stiff)) {
+                *shift = y - x;
+            }
+            matrix.clear_rates(system.layout(), shift);
+            move_by(system.layout(), time * time, shift, &mut forces.kinematics);
+        }
+        Some(())
+    }
+
+    /// What the rates of constraints lack, -(G v + ∂g/∂t), by row: of constraints between positions and between velocities.
+    fn find_lacking_velocities(&mut self, system: &System) {
+        let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
+        let layout = system.layout();
+        work.lacking.fill(0.0);
+        gather_rates(layout, &rates.kinematics, &mut work.speeds);
+        matrix.subtract_slides(system, &work.speeds, &mut work.lacking);
+        let [found, accelerations] = &mut work.violation_rates;
+        matrix.violation_rates(system, &rates.kinematics, [found, accelerations]);
+        for (lacking, rate) in work.lacking[layout.coordinate_count()..].iter_mut().zip(found) {
+            *lacking = -*rate;
+        }
+    }
+
+    /// Makes the velocities to be recorded satisfy the constraints; none where no finite ones are found.
+    fn recover_velocities(&mut self, system: &System) -> Option<()> {
+        let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
+        work.right.clone_from(&work.lacking);
+        matrix.solve(system, &mut work.right);
+        add_rates(system.layout(), &work.right, &mut rates.kinematics);
+        work.right.iter().all(|value| value.is_finite()).then_some(())
+    }
+
+    /// Makes velocities satisfy the constraints, without strain rates of stiff parts.
+    fn filter_velocities(&mut self, system: &System, time: f64) {
+        let Self { matrix, found: Recovered { forces, .. }, work, stages, .. } = self;
+        if !matrix.is_stiff() {
+            return;
+        }
+        let square = time * time;
+        work.stiff.clone_from(&work.lacking);
+        matrix.add_stiffness_product(-square, &work.speeds, &mut work.stiff);
+        matrix.solve(system, &mut work.stiff);
+        for _ in 1..(*stages).max(2) {
+            work.right.clone_from(&work.lacking);
+            matrix.add_stiffness_product(square, &work.stiff, &mut work.right);
+            matrix.solve(system, &mut work.right);
+            std::mem::swap(&mut work.stiff, &mut work.right);
+        }
+        add_rates(system.layout(), &work.stiff, &mut forces.kinematics);
+    }
+
+    /// Finds accelerations and multipliers.
+    fn recover_accelerations(&mut self, system: &System, time: f64) -> Option<()> {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let square = time * time;
+        let is_redundant = self.matrix.is_redundant();
+        self.find_lacking_accelerations(system);
+        if is_redundant {
+            self.find_stiff_accelerations(system, time);
+            // Solved for as a whole, those of redundant constraints are the least ones.
+            self.found.forces.multipliers.fill(0.0);
+            self.find_unbalanced(system);
+        } else {
+            self.find_stiff_accelerations(system, time);
+        }
+        let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
+        // Vibrations that are resolved as they are.
+        work.change.fill(0.0);
+        let mut last = f64::INFINITY;
+        for repetition in 0..MAX_REPETITIONS {
+            if repetition > 0 {
+                matrix.residual(system, &forces.kinematics, &forces.multipliers, &mut work.unbalanced);
+                let [rates, found] = &mut work.violation_rates;
+                matrix.violation_rates(system, &forces.kinematics, [rates, found]);
+                work.lacking[..count].fill(0.0);
+                for (lacking, found) in work.lacking[count..].iter_mut().zip(found) {
+                    *lacking = -*found;
+                }
+            }
+            let Workspace { right, lacking, unbalanced, stiff, change, accelerations, .. } = &mut *work;
+            for (right, (lacking, unbalanced)) in right.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
+                *right = lacking - unbalanced;
+            }
+            if matrix.is_stiff() {
+                // Their sum is that of x - y.
+                matrix.add_stiffness_product(square, stiff, right);
+                if repetition > 0 {
+                    matrix.add_stiffness_product(-square, change, right);
+                }
+            }
+            matrix.solve(system, right);
+            for (row, impulse) in layout.impulses() {
+                forces.kinematics.coordinates[impulse].rate += std::mem::take(&mut right[row]);
+            }
+            layout.states().for_each(|(row, ..)| right[row] = 0.0);
+            let (motions, multipliers) = right.split_at(count);
+            change.iter_mut().zip(motions).for_each(|(change, further)| *change += further);
+            let mut further = 0.0_f64;
+            let mut largest = 0.0_f64;
+            for (force, change) in forces.multipliers.iter_mut().zip(multipliers) {
+                *force += change;
+                further = further.max(change.abs());
+                largest = largest.max(force.abs());
+            }
+            forces.kinematics.show_multipliers(&forces.multipliers);
+            for (total, (own, change)) in right.iter_mut().zip(accelerations.iter().zip(&*change)) {
+                *total = own + change;
+            }
+            keep_rates(layout, &forces.kinematics, right);
+            scatter_accelerations(layout, right, &mut forces.kinematics);
+            let relative = further / largest.max(f64::MIN_POSITIVE);
+            if relative <= REPEATED {
+                return Some(());
+            }
+            if !system.sees_multipliers() {
+                let is_small = relative <= SMALL_CHANGE && !is_redundant && matrix.is_exact();
+                let is_next_small = last.is_finite() && relative * relative <= NEGLIGIBLE * last;
+                if is_small || is_next_small || repetition == 3 || relative >= last {
+                    return Some(());
+                }
+            }
+            last = relative;
+        }
+        None
+    }
+
+    /// What the second derivatives of constraints lack, -(G a + Ġ v̂ + …), by row.
+    fn find_lacking_accelerations(&mut self, system: &System) {
+        let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
+        let layout = system.layout();
+        gather_accelerations(layout, &forces.kinematics, &mut work.accelerations);
+        matrix.clear_rates(layout, &mut work.accelerations);
+        work.accelerations[layout.coordinate_count()..].fill(0.0);
+        gather_rates(layout, &forces.kinematics, &mut work.speeds);
+        work.lacking.fill(0.0);
+        matrix.subtract_slides(system, &work.accelerations, &mut work.lacking);
+        matrix.subtract_turning_slides(system, &work.speeds, &mut work.lacking);
+        let [rates, found] = &mut work.violation_rates;
+        matrix.violation_rates(system, &forces.kinematics, [rates, found]);
+        for (lacking, acceleration) in work.lacking[layout.coordinate_count()..].iter_mut().zip(found) {
+            *lacking = -*acceleration;
+        }
+    }
+
+    fn find_unbalanced(&mut self, system: &System) {
+        let Recovered { forces, .. } = &self.found;
+        self.matrix.residual(system, &forces.kinematics, &forces.multipliers, &mut self.work.unbalanced);
+    }
+
+    /// What stiff parts, like constraints, ask of the accelerations: x.
+    fn find_stiff_accelerations(&mut self, system: &System, time: f64) {
+        let square = time * time;
+        self.find_unbalanced(system);
+        self.work.stiff.fill(0.0);
+        if !self.matrix.is_stiff() {
+            return;
+        }
+        self.subtract_turning(system, time);
+        let Self { matrix, work, stages, .. } = self;
+        let Workspace { right, lacking, unbalanced, stiff, accelerations, .. } = work;
+        for (stiff, (lacking, unbalanced)) in stiff.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
+            *stiff += lacking - unbalanced;
+        }
+        matrix.add_stiffness_product(-square, accelerations, stiff);
+        matrix.solve(system, stiff);
+        for _ in 2..*stages {
+            for (right, (lacking, unbalanced)) in right.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
+                *right = lacking - unbalanced;
+            }
+            matrix.add_stiffness_product(square, stiff, right);
+            matrix.solve(system, right);
+            std::mem::swap(stiff, right);
+        }
+    }
+
+    /// `stiff` -= τ² d²f/dt² along the motion with constant twists, f the forces of elements that may be stiff: by differences over τ and
+    /// τ/2, without motion, so that forces of position alone are compared.
+    fn subtract_turning(&mut self, system: &System, time: f64) {
+        let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let Workspace { speeds, right: found, stiff: sum, still, moved, .. } = work;
+        matrix.clear_rates(layout, speeds);
+        still.clone_from(&forces.kinematics);
+        for node in &mut still.nodes {
+            node.twist.fill(0.0);
+            node.acceleration.fill(0.0);
+        }
+        for coordinate in &mut still.coordinates {
+            (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+        }
+        for (_, state, _) in layout.states() {
+            still.coordinates[state] = forces.kinematics.coordinates[state];
+        }
+        // Richardson's extrapolation of the second differences, f'' = (4 Δ(τ/2) - Δ(τ))/3.
+        for (shift, weight) in [(0.0, -30.0), (0.5, 16.0), (-0.5, 16.0), (1.0, -1.0), (-1.0, -1.0)] {
+            moved.clone_from(still);
+            if shift != 0.0 {
+                move_by(layout, shift * time, speeds, moved);
+            }
+            system.stiff_forces(moved, found);
+            sum.iter_mut().zip(&*found).for_each(|(sum, force)| *sum -= weight / 3.0 * force);
+        }
+        sum[count..].fill(0.0);
+        matrix.clear_rates(layout, sum);
+        if !sum.iter().all(|value| value.is_finite()) {
+            sum.fill(0.0);
+        }
+    }
+}
+
+/// Holds switches on the sides on which they are, so that forces are continued from there.
+fn hold_sides(system: &System, switches: &mut Vec<Switch>, at: &mut Kinematics) {
+    let first = system.signals().first_side();
+    if at.held.len() == first {
+        return;
+    }
+    switches.clear();
+    system.switches(at, switches);
+    for (held, switch) in at.held[first..].iter_mut().zip(&*switches).filter(|(held, _)| **held == 0.0) {
+        *held = switch.side();
+    }
+}
+
+/// Adds changes to the velocities, but not to forces of constraints between velocities.
+fn add_rates(layout: &Layout, changes: &[f64], at: &mut Kinematics) {
+    for (coordinate, &row) in at.coordinates.iter_mut().zip(&layout.coordinate_rows) {
+        coordinate.rate += changes[row as usize];
+    }
+    for (row, impulse) in layout.impulses() {
+        at.coordinates[impulse].rate -= changes[row];
+    }
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.twist[k] += changes[row as usize];
+        }
+    }
+}
+
+/// Accelerations of rates stay as they are.
+fn keep_rates(layout: &Layout, at: &Kinematics, accelerations: &mut [f64]) {
+    let coordinates = layout.states().map(|(row, coordinate, _)| (row, coordinate));
+    for (row, coordinate) in coordinates.chain(layout.impulses()) {
+        accelerations[row] = at.coordinates[coordinate].acceleration;
+    }
+}
+
+/// Moves nodes and coordinates by a factor of their changes.
+fn move_by(layout: &Layout, factor: f64, changes: &[f64], at: &mut Kinematics) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        let mut change = lissom_motion::Vector6::zeros();
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            change[k] = factor * changes[row as usize];
+        }
+        node.frame = node.frame * Motion::exponential(&change);
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
+        coordinate.value += factor * changes[row as usize];
+    }
+}

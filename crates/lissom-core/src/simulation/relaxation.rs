@@ -1,0 +1,174 @@
+//! Equilibrium where Newton's method does not find it: by steps that inertia resists, longer and longer, each from rest.
+//!
+//! A cable without tension has nearly no stiffness across itself, so that the first correction of a load step is far too
+//! large however small the load. Steps of [`relaxation`] go downhill instead, under loads and drives as they are at one
+//! instant, until a step without inertia ends near where it begins.
+
+use std::sync::Arc;
+
+use crate::errors::StepError;
+use crate::errors::Warning;
+use crate::errors::warn;
+use crate::kinematics::Kinematics;
+use crate::newton::JacobianState;
+use crate::scaling::Representative;
+use crate::schemes::relaxation::relaxation;
+use crate::schemes::statics;
+use crate::settings::Problem;
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::solver_features::SolverFeature;
+use crate::system::{State, System};
+
+/// Steps until there is no equilibrium to be found.
+const MAX_STEPS: usize = 300;
+/// Steps that end less far than this from where they begin, relative to the representative length, are followed by one without
+/// inertia …
+const SLOW: f64 = 0.03;
+/// … which must end as near as this.
+const NEAR: f64 = 0.1;
+/// A step without inertia that failed is repeated after steps so many times as long, or after so many steps of any length: it costs
+/// as much as several others, and fails as long as inertia and not the stiffness limits the steps.
+const RETRY_LENGTH: f64 = 4.0;
+const RETRY_STEPS: usize = 16;
+/// A model that has moved by so many lengths is not held.
+const FAR: f64 = 1e3;
+/// The first step, in units of the time √(m/k) of the stiffest parts.
+const FIRST: f64 = 10.0;
+/// Iterations of a step, which is tried again shorter if they are not enough.
+const ITERATIONS: usize = 15;
+/// Steps without solution until there is no equilibrium to be found.
+const MAX_FAILURES: usize = 60;
+/// The next step over the last, and the same after a step without solution.
+const LONGER: f64 = 2.0;
+const SHORTER: f64 = 0.125;
+
+/// Whether relaxation may find what a load step that ended so did not.
+pub(crate) fn may_help(error: &StepError) -> bool {
+    matches!(
+        error,
+        StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. }
+    )
+}
+
+/// The equilibrium downhill from the positions of `state`, under loads and drives as they are at `time` [s], and its
+/// warnings; none if it is not found. Adds Newton's iterations to `iterations`.
+pub(crate) fn relax(
+    system: &Arc<System>,
+    state: &State,
+    settings: &Settings,
+    time: f64,
+    iterations: &mut usize,
+) -> Option<(State, Vec<Warning>)> {
+    let mut settings =
+        Settings { scheme: relaxation(), control: None, from_equilibrium: false, ..settings.clone() };
+    // A shorter step costs less than iterations that do not lead to the end of a long one, and than its parts.
+    settings.limits.max_iterations = settings.limits.max_iterations.min(ITERATIONS);
+    settings.limits.disabled = settings.limits.disabled.and(SolverFeature::StepBisection);
+    let mut reached = state.clone();
+    let mut failures = 0;
+    let unloaded = system.linearization_at(&state.kinematics);
+    let representative = Representative::of(system, &state.kinematics, &unloaded);
+    let length = representative.length;
+    let shortest = (representative.mass / representative.stiffness).sqrt();
+    let mut step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
+    // Number and size of the next step after which one without inertia is tried.
+    let (mut next_try, mut long_enough) = (0, 0.0);
+    for step in 0..MAX_STEPS {
+        settings.scheme = relaxation();
+        settings.step_size = step_size;
+        let mut simulation = begin(system, &reached, &settings, &representative, time)?;
+        let outcome = simulation.step();
+        *iterations += simulation.totals().newton_iterations;
+        let Ok(_) = outcome else {
+            step_size *= SHORTER;
+            failures += 1;
+            if failures > MAX_FAILURES {
+                return None;
+            }
+            continue;
+        };
+        let moved = distance(&reached.kinematics, &simulation.state().kinematics);
+        if distance(&state.kinematics, &simulation.state().kinematics) >= FAR * length {
+            return None;
+        }
+        reached.clone_from(simulation.state());
+        let is_due = step >= next_try || step_size >= long_enough || step + 1 == MAX_STEPS;
+        let taken = step_size;
+        step_size *= LONGER;
+        if moved > SLOW * length || !is_due {
+            continue;
+        }
+        (next_try, long_enough) = (step + RETRY_STEPS, RETRY_LENGTH * taken);
+        settings.scheme = statics::statics();
+        settings.step_size = 1.0;
+        let mut last = begin(system, &reached, &settings, &representative, time)?;
+        let outcome = last.step();
+        *iterations += last.totals().newton_iterations;
+        if outcome.is_ok() && distance(&reached.kinematics, &last.state().kinematics) <= NEAR * length {
+            let distance = distance(&state.kinematics, &last.state().kinematics);
+            let is_instability = |warning: &&Warning| matches!(warning, Warning::Unstable { .. });
+            let mut warnings: Vec<Warning> = last.warnings().iter().filter(is_instability).cloned().collect();
+            warnings.push(Warning::Relaxed { time, distance });
+            return Some((last.state().clone(), warnings));
+        }
+    }
+    None
+}
+
+impl Simulation {
+    /// Leaves the equilibrium that relaxation finds a step of `size` [s] after the start as the last attempt, where the first load step
+    /// ended with `error`.
+    pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
+        let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
+        if !(self.origin.may_relax && is_first && may_help(error)) {
+            return Err(error.clone());
+        }
+        let time = self.state.kinematics.time + size;
+        let mut iterations = 0;
+        let found = relax(&self.system, &self.state, &self.settings, time, &mut iterations);
+        self.totals.newton_iterations += iterations;
+        let Some((reached, doubts)) = found else { return Err(error.clone()) };
+        let problem = Problem { system: &self.system, settings: &self.settings };
+        self.integrator.resize(problem, size);
+        self.integrator.jacobian_state = JacobianState::default();
+        (self.attempt.size, self.attempt.is_converted, self.attempt.end) = (size, false, reached);
+        // That of a step of unit length has lost digits.
+        self.attempt.end.kinematics.time = time;
+        self.judge_attempt()?;
+        for doubt in doubts {
+            warn(&mut self.warnings, doubt);
+        }
+        Ok(())
+    }
+}
+
+/// A step of the settings' size that ends at `time` begins at rest.
+fn begin(
+    system: &Arc<System>,
+    state: &State,
+    settings: &Settings,
+    representative: &Representative,
+    time: f64,
+) -> Option<Simulation> {
+    let mut state = state.clone();
+    state.kinematics.time = time - settings.step_size;
+    state.time_remainder = 0.0;
+    for node in &mut state.kinematics.nodes {
+        node.twist.fill(0.0);
+        node.acceleration.fill(0.0);
+    }
+    for coordinate in &mut state.kinematics.coordinates {
+        (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+    }
+    let mut simulation =
+        Simulation::start(Arc::clone(system), state, settings.clone(), Some(representative)).ok()?;
+    simulation.origin.may_relax = false;
+    Some(simulation)
+}
+
+/// The longest way of a node [m].
+fn distance(from: &Kinematics, to: &Kinematics) -> f64 {
+    let ways = from.nodes.iter().zip(&to.nodes).map(|(a, b)| (b.frame.position - a.frame.position).norm());
+    ways.fold(0.0, |most, way| if way.is_finite() { most.max(way) } else { f64::INFINITY })
+}

@@ -1,0 +1,266 @@
+//! A simulation between two steps, as plain numbers: enough to continue to the last bit. Contains the state, and all
+//! data that are reused from step to step: the tangent in use, estimates of round-off, predictions, secants, the
+//! controller.
+//!
+//! Factors are not stored: the values of the tangent are, and they are factorised again.
+
+use std::sync::Arc;
+
+use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
+use serde::{Deserialize, Serialize};
+
+use super::EventState;
+use super::laws::Magnitudes;
+use crate::diagnostics::diagnostics;
+use crate::energy_balance::EnergyBalance;
+use crate::errors::Warning;
+use crate::integrator::IntegratorHistory;
+use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
+use crate::newton::JacobianState;
+use crate::scaling::Scaled;
+use crate::settings::{Settings, Totals};
+use crate::simulation::Simulation;
+use crate::simulation::snapshot_parts::Learned;
+use crate::system::State;
+
+/// Incremented whenever the contents of a snapshot change.
+const VERSION: u32 = 19;
+
+/// A simulation between two steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    version: u32,
+    /// Scheme, unknowns, nodes and entries of the tangent, which identify the model.
+    belongs_to: (String, usize, usize, usize),
+    states: [StateNumbers; 2],
+    origin: StateNumbers,
+    step_size: f64,
+    scaled: Scaled,
+    jacobian_state: JacobianState,
+    integrator_history: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
+    control: Vec<u8>,
+    totals: Totals,
+    velocity_correction: f64,
+    energy_balance: EnergyBalance,
+    warnings: Vec<Warning>,
+    event_state: EventState,
+    /// Magnitudes of scalar laws.
+    magnitudes: Magnitudes,
+    /// By the name of the monitor.
+    monitors: Vec<(String, Vec<u8>)>,
+    learned: Learned,
+}
+
+diagnostics! {
+    /// A snapshot that cannot be restored.
+    #[derive(Clone, Debug, PartialEq, Eq)]
+    #[non_exhaustive]
+    Failure SnapshotError {
+        /// It was taken by another version of the program.
+        Version {
+            /// The snapshot's version.
+            found: u32,
+        } => "snapshot-version" {
+            cause: ("the snapshot is of version {found}, but this program reads version {VERSION}"),
+            remedy: "run the model again",
+            meaning: "A snapshot was taken by another version of the program.",
+            advice: "Run the model again.",
+        }
+        /// It was taken of another model, or with another scheme.
+        OtherModel {
+            /// Description of the snapshot's model and scheme.
+            found: String,
+        } => "snapshot-of-other-model" {
+            cause: ("the snapshot belongs to another model or scheme ({found})"),
+            remedy: "restore it in a session of the model of which it was taken",
+            meaning: "A snapshot was taken of another model, or with another scheme.",
+            advice: "Restore it in a session of the model of which it was taken.",
+        }
+        /// It contains invalid data, such as a tangent that cannot be factored again.
+        Damaged {} => "snapshot-damaged" {
+            cause: ("the snapshot is damaged"),
+            remedy: "run the model again",
+            meaning: "A snapshot cannot be read, or its tangent cannot be factored again.",
+            advice: "Run the model again.",
+        }
+    }
+}
+
+/// A state as numbers, in the order of its fields.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct StateNumbers {
+    time: f64,
+    elapsed: f64,
+    time_remainder: f64,
+    nodes: Vec<[f64; 19]>,
+    coordinates: Vec<[f64; 3]>,
+    held: Vec<f64>,
+    multipliers: Vec<f64>,
+    /// Whether elements depend on them.
+    shows_multipliers: bool,
+    violations: Vec<f64>,
+    algorithmic: Vec<f64>,
+    position_remainders: Vec<[f64; 3]>,
+    accumulated: Vec<f64>,
+}
+
+impl From<&State> for StateNumbers {
+    fn from(state: &State) -> Self {
+        let State {
+            kinematics,
+            multipliers,
+            violations,
+            algorithmic,
+            time_remainder,
+            position_remainders,
+            accumulated,
+        } = state;
+        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown } = kinematics;
+        let of_node = |node: &NodeMotion| {
+            let mut numbers = [0.0; 19];
+            numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
+            numbers[4..7].copy_from_slice(node.frame.position.as_slice());
+            numbers[7..13].copy_from_slice(node.twist.as_slice());
+            numbers[13..].copy_from_slice(node.acceleration.as_slice());
+            numbers
+        };
+        Self {
+            time: *time,
+            elapsed: *elapsed,
+            time_remainder: *time_remainder,
+            nodes: nodes.iter().map(of_node).collect(),
+            coordinates: coordinates.iter().map(|own| [own.value, own.rate, own.acceleration]).collect(),
+            held: held.clone(),
+            multipliers: multipliers.clone(),
+            shows_multipliers: !shown.is_empty(),
+            violations: violations.clone(),
+            algorithmic: algorithmic.clone(),
+            position_remainders: position_remainders.iter().map(|place| (*place).into()).collect(),
+            accumulated: accumulated.clone(),
+        }
+    }
+}
+
+impl From<&StateNumbers> for State {
+    fn from(numbers: &StateNumbers) -> Self {
+        let of_node = |numbers: &[f64; 19]| {
+            let vector = Vector3::new(numbers[1], numbers[2], numbers[3]);
+            let rotation = Rotation::from(Versor { scalar: numbers[0], vector: (&vector).into() });
+            NodeMotion {
+                frame: Motion::new(rotation, Vector3::new(numbers[4], numbers[5], numbers[6])),
+                twist: Vector6::from_column_slice(&numbers[7..13]),
+                acceleration: Vector6::from_column_slice(&numbers[13..]),
+            }
+        };
+        Self {
+            kinematics: Kinematics {
+                time: numbers.time,
+                elapsed: numbers.elapsed,
+                nodes: numbers.nodes.iter().map(of_node).collect(),
+                coordinates: numbers
+                    .coordinates
+                    .iter()
+                    .map(|&[value, rate, acceleration]| CoordinateMotion { value, rate, acceleration })
+                    .collect(),
+                held: numbers.held.clone(),
+                multipliers: if numbers.shows_multipliers { numbers.multipliers.clone() } else { Vec::new() },
+            },
+            multipliers: numbers.multipliers.clone(),
+            violations: numbers.violations.clone(),
+            algorithmic: numbers.algorithmic.clone(),
+            time_remainder: numbers.time_remainder,
+            position_remainders: numbers.position_remainders.iter().map(|&place| place.into()).collect(),
+            accumulated: numbers.accumulated.clone(),
+        }
+    }
+}
+
+impl Simulation {
+    /// The simulation between two steps: a simulation of the same model that restores it continues as this one does,
+    /// to the last bit.
+    pub fn snapshot(&self) -> Snapshot {
+        let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
+        Snapshot {
+            version: VERSION,
+            belongs_to: self.belonging(),
+            states: [(&self.previous).into(), (&self.state).into()],
+            origin: (&origin).into(),
+            step_size: self.settings.step_size,
+            scaled: self.integrator.scaled,
+            jacobian_state: self.integrator.jacobian_state,
+            integrator_history: self.integrator.history.as_ref().map(IntegratorHistory::to_numbers),
+            control: self.control.save(),
+            totals: self.totals,
+            velocity_correction: self.origin.velocity_correction,
+            energy_balance: self.energy_balance,
+            warnings: self.warnings.clone(),
+            event_state: self.events.known.clone(),
+            magnitudes: self.stops.laws.magnitudes.clone(),
+            monitors: self.monitors.save(),
+            learned: self.integrator.work.learned(),
+        }
+    }
+
+    /// Returns, or advances, to the state of a snapshot.
+    ///
+    /// # Errors
+    /// If it was taken of another model, or by another version of the program. The simulation is then unchanged.
+    pub fn restore(&mut self, from: &Snapshot) -> Result<(), SnapshotError> {
+        if from.version != VERSION {
+            return Err(SnapshotError::Version { found: from.version });
+        }
+        let is_alike = from.states[1].accumulated.len() == self.accumulation.numbers.len();
+        if !is_alike || from.belongs_to != self.belonging() {
+            let (scheme, unknowns, nodes, _) = &from.belongs_to;
+            return Err(SnapshotError::OtherModel {
+                found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
+            });
+        }
+        let is_read = self.integrator.work.restore(&self.system, &from.learned).is_ok()
+            && self.control.restore(&from.control)
+            && self.monitors.restore(&from.monitors);
+        if !is_read {
+            return Err(SnapshotError::Damaged {});
+        }
+        self.previous = (&from.states[0]).into();
+        self.state = (&from.states[1]).into();
+        self.origin.kinematics = State::from(&from.origin).kinematics;
+        self.origin.velocity_correction = from.velocity_correction;
+        self.stops.laws.magnitudes.clone_from(&from.magnitudes);
+        self.settings.step_size = from.step_size;
+        let integrator = &mut self.integrator;
+        integrator.scaled = from.scaled;
+        integrator.jacobian_state = from.jacobian_state;
+        if let (Some(history), Some(numbers)) = (&mut integrator.history, &from.integrator_history) {
+            history.set_numbers(numbers);
+        }
+        integrator.work.note_scales(self.system.layout(), &integrator.scaled);
+        self.totals = from.totals;
+        self.energy_balance = from.energy_balance;
+        self.warnings.clone_from(&from.warnings);
+        self.events.known.clone_from(&from.event_state);
+        self.is_last_step_known = false;
+        Ok(())
+    }
+
+    /// A second simulation in the same state, which continues from there to the same bits. Both share the system.
+    ///
+    /// # Errors
+    /// If the tangent in use cannot be factorised again.
+    pub fn try_clone(&self) -> Result<Self, SnapshotError> {
+        let settings = Settings { from_equilibrium: false, ..self.settings.clone() };
+        let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
+        let mut copy =
+            Self::start(Arc::clone(&self.system), origin, settings, Some(&self.integrator.representative))
+                .map_err(|_| SnapshotError::Damaged {})?;
+        copy.accumulate(self.accumulation.numbers.clone());
+        copy.restore(&self.snapshot())?;
+        Ok(copy)
+    }
+
+    fn belonging(&self) -> (String, usize, usize, usize) {
+        let layout = self.system.layout();
+        let entries = self.system.structure().pattern.entries();
+        (self.settings.scheme.name.clone(), layout.size(), layout.node_count(), entries)
+    }
+}

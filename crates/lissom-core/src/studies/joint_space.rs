@@ -1,0 +1,219 @@
+//! Motion in joint coordinates: the rates of independent coordinates z of joints determine all velocities.
+//!
+//! Legend: M mass, B gradient of the constraints c, f forces without accelerations, E unit vectors of the rows of z, τ forces on z.
+//!
+//! ```text
+//! v = T ż + w,    Eᵀ T = 1,    H z̈ + h = τ,    H = Tᵀ M T
+//! [M Bᵀ; B 0] [X; ·] = [E; 0]                                    X = T H⁻¹, hence H⁻¹ = Eᵀ X and T = X H
+//! [M Bᵀ; B 0] [w + T ż₀; ·] = [0; -∂c/∂t]                        ż₀ the rates that this motion has
+//! [M Bᵀ; B 0] [a; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]                    h = -H Eᵀ a
+//! ```
+//!
+//! Closed loops need no special treatment. H⁻¹ is the acceleration per unit force: its singularity shows that coordinates depend on
+//! each other.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias, scatter_rates};
+use crate::consistent::mobility::mobility;
+use crate::diagnostics::diagnostics;
+use crate::errors::InitialError;
+use crate::integrator::pivoting_unless_augmented;
+use crate::kinematics::{CoordinateId, Subject};
+use crate::scaling::Representative;
+use crate::settings::Settings;
+use crate::system::{State, System};
+
+/// Coordinates depend on each other if a pivot of their accelerations is below this fraction of their own acceleration.
+const DEPENDENT: f64 = 1e-10;
+/// Accelerations whose kinetic energy differs by more than this fraction are round-off: of a coordinate that cannot move.
+const SAME_ENERGY: f64 = 1e-6;
+
+diagnostics! {
+    /// Joint coordinates that do not describe the motion.
+    #[derive(Clone, Debug, PartialEq)]
+    #[non_exhaustive]
+    Failure JointSpaceError {
+        /// Their number is not that of the degrees of freedom.
+        Number {
+            /// Number of coordinates.
+            coordinates: usize,
+            /// Number of degrees of freedom.
+            freedoms: usize,
+        } => "joint-space-number" {
+            cause: ("the motion has {freedoms} degrees of freedom, but {coordinates} joint coordinates were chosen"),
+            remedy: "choose as many independent joint coordinates as degrees of freedom",
+            meaning: "The rates of the chosen joint coordinates do not determine the velocities of all parts, or are not independent.",
+            advice: "Choose as many independent joint coordinates as `lissom check` reports degrees of freedom. Models with beams or free \
+                     bodies have none.",
+        }
+        /// One of them depends on the others, or is prescribed.
+        Dependent {
+            /// Its name.
+            coordinate: String,
+        } => "joint-space-dependent" {
+            subject: Subject::new("coordinate", coordinate),
+            cause: ("joint coordinate `{coordinate}` cannot move independently of the others"),
+            remedy: "choose another coordinate, or move the mechanism away from a singular position",
+            meaning: "A chosen joint coordinate is prescribed, depends on the other ones, or is at a dead point of a closed loop.",
+            advice: "Choose another coordinate of the loop.",
+        }
+    }
+    wraps {
+        /// There are no accelerations at the state.
+        Initial(InitialError), (error) => error.diagnostic(),
+    }
+}
+
+impl From<InitialError> for JointSpaceError {
+    fn from(error: InitialError) -> Self {
+        Self::Initial(error)
+    }
+}
+
+/// Checks that there are as many `coordinates` as degrees of freedom.
+///
+/// # Errors
+/// [`JointSpaceError::Number`] otherwise.
+pub fn check_number(system: &System, state: &State, coordinates: usize) -> Result<(), JointSpaceError> {
+    let freedoms = mobility(system, state).freedoms;
+    if freedoms == coordinates { Ok(()) } else { Err(JointSpaceError::Number { coordinates, freedoms }) }
+}
+
+/// Equations of motion in joint coordinates at a state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointMotion {
+    /// T: velocities of the system per unit rate of each coordinate, by row of the system.
+    pub directions: DMatrix<f64>,
+    /// H: mass matrix [kg m², kg m, kg].
+    pub mass: DMatrix<f64>,
+    /// h: forces in addition to those of the model at which the coordinates do not accelerate [N m, N].
+    pub bias: DVector<f64>,
+}
+
+impl JointMotion {
+    /// H z̈ + h: forces in addition to those of the model at which the coordinates have these accelerations [N m, N].
+    pub fn forces(&self, accelerations: &[f64]) -> Vec<f64> {
+        (&self.mass * DVector::from_column_slice(accelerations) + &self.bias).as_slice().to_vec()
+    }
+}
+
+/// Computes the motion in joint coordinates.
+pub struct JointSpace {
+    coordinates: Vec<CoordinateId>,
+    initial: ConsistentInitialConditions,
+}
+
+impl JointSpace {
+    /// For these independent `coordinates` of joints.
+    pub fn new(system: &System, state: &State, settings: &Settings, coordinates: Vec<CoordinateId>) -> Self {
+        let linearization = system.linearization_at(&state.kinematics);
+        let representative = Representative::of(system, &state.kinematics, &linearization);
+        let kind = pivoting_unless_augmented(settings);
+        let initial = ConsistentInitialConditions::new(system, state, &representative, kind);
+        Self { coordinates, initial }
+    }
+
+    /// Mass matrix and bias at a state, with the forces that act there.
+    ///
+    /// # Errors
+    /// If the coordinates depend on each other, or there are no accelerations.
+    pub fn motion(&mut self, system: &System, state: &State) -> Result<JointMotion, JointSpaceError> {
+        let (directions, mass) = self.directions_and_mass(system, state)?;
+        let free = self.initial.acceleration_with_factors(system, state)?;
+        let bias = -&mass * self.of_coordinates(system, &free);
+        Ok(JointMotion { directions, mass, bias })
+    }
+
+    /// Sets all velocities of `state` to those at which the coordinates have these `rates` [rad/s, m/s].
+    ///
+    /// # Errors
+    /// If the coordinates depend on each other.
+    pub fn set_rates(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        rates: &[f64],
+    ) -> Result<(), JointSpaceError> {
+        let directions = self.directions(system, state)?;
+        let layout = system.layout();
+        let mut driven = vec![0.0; layout.size()];
+        system.constraint_velocities(&state.kinematics, &mut driven[layout.coordinate_count()..]);
+        for value in &mut driven {
+            *value = -*value;
+        }
+        self.initial.solve(system, &mut driven);
+        let missing = DVector::from_column_slice(rates) - self.of_coordinates(system, &driven);
+        for (value, change) in driven.iter_mut().zip(&(directions * missing)) {
+            *value += change;
+        }
+        scatter_rates(layout, &driven, &mut state.kinematics);
+        Ok(())
+    }
+
+    /// The entries of a vector by row that belong to the coordinates.
+    fn of_coordinates(&self, system: &System, rows: &[f64]) -> DVector<f64> {
+        let own = self.coordinates.iter().map(|&own| rows[system.layout().row_of_coordinate(own)]);
+        DVector::from_iterator(self.coordinates.len(), own)
+    }
+
+    /// T: velocities of the system per unit rate of each coordinate, by row of the system.
+    ///
+    /// # Errors
+    /// If the coordinates depend on each other.
+    pub fn directions(&mut self, system: &System, state: &State) -> Result<DMatrix<f64>, JointSpaceError> {
+        Ok(self.directions_and_mass(system, state)?.0)
+    }
+
+    /// T and H.
+    fn directions_and_mass(
+        &mut self,
+        system: &System,
+        state: &State,
+    ) -> Result<(DMatrix<f64>, DMatrix<f64>), JointSpaceError> {
+        let layout = system.layout();
+        let (count, size) = (layout.coordinate_count(), self.coordinates.len());
+        self.initial.factor(system, state, Inertias::All)?;
+        let mut responses = DMatrix::zeros(count, size);
+        let mut momenta = DMatrix::zeros(count, size);
+        let mut right = vec![0.0; layout.size()];
+        let mut product = right.clone();
+        for (column, &coordinate) in self.coordinates.iter().enumerate() {
+            right.fill(0.0);
+            right[layout.row_of_coordinate(coordinate)] = 1.0;
+            self.initial.solve(system, &mut right);
+            right[count..].fill(0.0);
+            self.initial.multiply_mass(system, &right, &mut product);
+            responses.column_mut(column).copy_from_slice(&right[..count]);
+            momenta.column_mut(column).copy_from_slice(&product[..count]);
+        }
+        let energies = responses.tr_mul(&momenta);
+        let dependent = |index: usize| {
+            let coordinate = layout.coordinate_name(self.coordinates[index]).to_owned();
+            JointSpaceError::Dependent { coordinate }
+        };
+        let rows: Vec<usize> = self.coordinates.iter().map(|&own| layout.row_of_coordinate(own)).collect();
+        let own = DVector::from_fn(size, |index, _| responses[(rows[index], index)]);
+        // Comparisons that are false for what is not a number.
+        let is_motion =
+            |index: &usize| (energies[(*index, *index)] - own[*index]).abs() <= SAME_ENERGY * own[*index];
+        if let Some(index) = (0..size).find(|index| !(is_motion(index) && own[*index] > 0.0)) {
+            return Err(dependent(index));
+        }
+        let units = own.map(|value| value.sqrt().recip());
+        let relative = DMatrix::from_fn(size, size, |i, j| {
+            0.5 * (responses[(rows[i], j)] + responses[(rows[j], i)]) * units[i] * units[j]
+        });
+        let factors = Cholesky::new(relative).ok_or_else(|| dependent(size - 1))?;
+        let pivots = factors.l_dirty().diagonal();
+        if let Some(index) = (0..size).find(|&index| pivots[index].powi(2) <= DEPENDENT) {
+            return Err(dependent(index));
+        }
+        let inverse = factors.inverse();
+        let inverse = DMatrix::from_fn(size, size, |i, j| inverse[(i, j)] * units[i] * units[j]);
+        let directions = responses * &inverse;
+        let mass = directions.tr_mul(&(momenta * inverse));
+        let mass = 0.5 * (&mass + mass.transpose());
+        Ok((directions, mass))
+    }
+}

@@ -1,0 +1,4 @@
+//! Studies of a model beside its motion.
+
+pub mod factorization;
+pub mod joint_space;
