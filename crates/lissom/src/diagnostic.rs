@@ -1,20 +1,7 @@
-//! Diagnostics of analyses and runs: their contents, and the catalogue of all codes.
+//! Contents of the diagnostics of analyses and runs.
 
-use lissom_core::diagnostics::{Diagnose, Entry, Value};
+use lissom_core::diagnostics::{Diagnose, Value};
 use serde_json::json;
-
-use crate::{analysis_warning, failures, gradient};
-
-/// All codes of warnings and failures, with their meaning.
-pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
-    let of_core = lissom_core::catalogue::entries();
-    let of_model = lissom_model::failures::entries();
-    of_core
-        .chain(gradient::ENTRIES)
-        .chain(analysis_warning::ENTRIES)
-        .chain(of_model)
-        .chain(failures::entries())
-}
 
 /// A warning with its code, as in `summary.json` and on the terminal.
 pub fn with_code(warning: &impl Diagnose) -> String {
@@ -73,12 +60,6 @@ mod tests {
     }
 
     #[test]
-    fn codes_are_distinct() {
-        let codes: std::collections::BTreeSet<&str> = catalogue().map(|entry| entry.code).collect();
-        assert_eq!(codes.len(), catalogue().count());
-    }
-
-    #[test]
     fn failures_of_requests_have_codes_values_and_remedies() {
         let error = ModesError::Time { time: 0.5, reason: "a reason".to_owned() };
         let expected = json!({
@@ -95,19 +76,5 @@ mod tests {
         assert!(!diagnostic.remedy.is_empty());
         let wrapped = crate::SessionError::Model(wrong);
         assert_eq!(wrapped.diagnostic(), diagnostic);
-    }
-
-    #[test]
-    fn entries_are_sentences() {
-        for entry in catalogue() {
-            let [meaning, advice] = [entry.meaning, entry.advice];
-            assert!(meaning.ends_with('.') && advice.ends_with('.'), "{}", entry.code);
-            assert!(
-                !meaning.contains(" | ") && !meaning.contains("  ") && !advice.contains("  "),
-                "{}",
-                entry.code
-            );
-            assert!(!entry.message.contains("  ") && !entry.message.contains('\n'), "{}", entry.code);
-        }
     }
 }

@@ -118,6 +118,7 @@ mod operating_point;
 
 mod analysis_warning;
 pub mod campbell;
+mod catalogue;
 mod checkpoint;
 mod command_error;
 mod diagnostic;
@@ -156,9 +157,10 @@ mod timings;
 pub mod view;
 
 pub use analysis_warning::AnalysisWarning;
+pub use catalogue::catalogue;
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use command_error::CommandError;
-pub use diagnostic::{catalogue, with_code};
+pub use diagnostic::with_code;
 pub use folder::{FolderError, ResultFolder, protect_results};
 pub use folder_page::RecordedRun;
 pub use joint_coordinates::{JointCoordinateError, JointCoordinates};

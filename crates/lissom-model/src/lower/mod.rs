@@ -24,7 +24,6 @@ use std::sync::Arc;
 use lissom_core::assembly::{AssemblyError, assemble};
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::beam::section_error::{ExaminedBeams, SectionError};
-use lissom_core::elements::superelement::Deformation;
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::registry::ParameterError;
@@ -33,7 +32,6 @@ use lissom_core::signals::{Argument, SignalId};
 use lissom_core::simulation::accumulated::Accumulated;
 use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
-use nalgebra::DMatrix;
 
 use crate::channels::Channel;
 use crate::document::{
@@ -42,9 +40,9 @@ use crate::document::{
 };
 use crate::functions::Ramp;
 use crate::output_channels;
-use crate::outputs::Resolver;
 use crate::outputs::reaction::REACTION;
 use crate::outputs::section::SECTION_MOMENT;
+use crate::outputs::{Deformed, Resolver};
 use crate::report::{Located, Problem, Report};
 use crate::sweep::TimeWindow;
 
@@ -101,15 +99,6 @@ impl Lowered {
         let at_start = || self.state.kinematics.nodes[node].frame;
         self.assembly.as_ref().map_or_else(at_start, |assembly| assembly.drawn[node])
     }
-}
-
-/// Unknowns of a superelement, and the matrix that makes outputs of them.
-#[derive(Clone)]
-pub struct Deformed {
-    /// Where the unknowns are found.
-    pub unknowns: Arc<Deformation>,
-    /// A row for each output; none where it is not given.
-    pub recovery: Option<Arc<DMatrix<f64>>>,
 }
 
 /// Nodes, coordinates and signals by the names of the model.

@@ -7,9 +7,10 @@ use lissom_core::kinematics::NodeId;
 use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation};
 
+use super::Names;
 use super::order::by_name;
-use super::{Deformed, Names};
 use crate::document::{Document, interface_name};
+use crate::outputs::Deformed;
 use crate::report::Problem;
 
 /// Adds all superelements to the system.

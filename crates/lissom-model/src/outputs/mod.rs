@@ -28,6 +28,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::elements::superelement::Deformation;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::linear::OutputDerivatives;
 use lissom_core::signals::Argument;
@@ -36,9 +37,10 @@ use lissom_core::simulation::accumulated::Accumulated;
 use lissom_core::system::element_quantity;
 use lissom_core::system::{ElementId, State, System};
 
+use nalgebra::DMatrix;
+
 use crate::channels::Channel;
 use crate::document::Output;
-use crate::lower::Deformed;
 use crate::report::Problem;
 
 use differences::Touched;
@@ -137,6 +139,15 @@ pub(crate) enum Build {
 const SOLUTION: &str = "it follows from the solution of a step";
 /// Why signals can depend on a kind at samples alone: the tangent of a load would be full.
 const WHOLE_MODEL: &str = "it depends on the motion of the whole model";
+
+/// Unknowns of a superelement, and the matrix that makes outputs of them.
+#[derive(Clone)]
+pub struct Deformed {
+    /// Where the unknowns are found.
+    pub unknowns: Arc<Deformation>,
+    /// A row for each output; none where it is not given.
+    pub recovery: Option<Arc<DMatrix<f64>>>,
+}
 
 /// Names resolved by the lowering.
 pub(crate) struct Resolver<'a> {

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::signals::measurement::Measurement;
 
+use super::Deformed;
 use super::frames::name_of;
 use super::relative::value_and_rate;
 use super::{Build, Found, NamesAndUnits, OutputQuantity, Resolver, Subjects};
 use crate::document::{Declaration, Output, Subject};
-use crate::lower::Deformed;
 use crate::report::{Located, Problem};
 
 /// Registry entry.

@@ -8,12 +8,12 @@ use lissom_core::linear::OutputDerivatives;
 use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, MAX_TOUCHED, Measurement};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
+use super::Deformed;
 use super::derivatives::add;
 use super::frames::name_of;
 use super::modal::deformed;
 use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, Subjects};
 use crate::document::{Declaration, Feature, Output, Subject};
-use crate::lower::Deformed;
 use crate::report::Problem;
 
 /// Registry entry.
