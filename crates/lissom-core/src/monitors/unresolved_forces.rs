@@ -17,6 +17,7 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::elements::beam::section_error::SectionError;
 use crate::errors::{Warning, report};
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId};
+use crate::round_off;
 use crate::settings::Controlled;
 use crate::system::System;
 
@@ -36,6 +37,8 @@ struct UnresolvedForces {
     largest: Vec<[f64; 2]>,
     /// Σ of the powers of their errors.
     sums: Vec<[f64; 2]>,
+    /// Below these, forces are round-off of positions.
+    least: Vec<[f64; 2]>,
     /// Storage for q + ê.
     displaced: Kinematics,
 }
@@ -44,6 +47,9 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let settings = beginning.problem.settings;
     let chooses = settings.control.is_some_and(|control| control.of != Controlled::Forces);
     let count = sections(beginning.problem.system).count();
+    let (at, length) = (&beginning.state.kinematics, beginning.representative.length);
+    let of_round_off =
+        |section: &SectionError| section.stiffnesses(at, length).map(|size| round_off::INCREMENT * size);
     let is_examined = settings.scheme.dynamic && chooses && count > 0;
     is_examined.then(|| -> Box<dyn Monitor> {
         Box::new(UnresolvedForces {
@@ -51,6 +57,7 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
             unexamined: 0.0,
             largest: vec![[0.0; 2]; count],
             sums: vec![[0.0; 2]; count],
+            least: sections(beginning.problem.system).map(of_round_off).collect(),
             displaced: beginning.state.kinematics.clone(),
         })
     })
@@ -88,13 +95,13 @@ impl Monitor for UnresolvedForces {
             let whole = &mut whole[usize::from(section.is_moment())];
             *whole = whole.max(largest[0].hypot(largest[1]));
         }
-        let error = |((section, largest), sums): ((&SectionError, &[f64; 2]), &[f64; 2])| {
-            let least = LEAST * whole[usize::from(section.is_moment())];
-            let of = |k: usize| sums[k] / largest[k].max(least).max(f64::MIN_POSITIVE).powf(exponent);
-            of(0).max(of(1))
-        };
-        let all = sections(system).zip(&self.largest).zip(&self.sums);
-        let worst = all.map(|own| (FACTOR * error(own), &own.0.0.beam)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let all = sections(system).zip(&self.largest).zip(&self.sums).zip(&self.least);
+        let errors = all.map(|(((section, largest), sums), least)| {
+            let part = LEAST * whole[usize::from(section.is_moment())];
+            let of = |k: usize| FACTOR * sums[k] / largest[k].max(part).max(least[k]).powf(exponent);
+            (of(0).max(of(1)), &section.beam)
+        });
+        let worst = errors.max_by(|a, b| a.0.total_cmp(&b.0));
         let Some((error, beam)) = worst else { return };
         report(
             warnings,

@@ -87,6 +87,20 @@ impl SectionError {
         self.first >= 3
     }
 
+    /// Largest derivatives of the axial and the shear force, or of the torsion and the bending moment, with respect to displacements over
+    /// `length` and rotations [N, N m].
+    pub fn stiffnesses(&self, at: &Kinematics, length: f64) -> [f64; 2] {
+        let columns = self.elements[self.element].section_force_derivatives_at(at, self.xi).by_place;
+        let mut largest = [0.0_f64; 2];
+        for (k, column) in columns.iter().enumerate() {
+            let unit = if k % 6 < 3 { length } else { 1.0 };
+            for (j, size) in (0..3).map(|j| (j, unit * column[self.first + j].abs())) {
+                largest[j.min(1)] = largest[j.min(1)].max(size);
+            }
+        }
+        largest
+    }
+
     /// Axial and shear force [N], or torsion and bending moment [N m], by component.
     pub fn forces(&self, at: &Kinematics) -> [f64; 3] {
         let forces = self.elements[self.element].section_forces_at(at, self.xi);
