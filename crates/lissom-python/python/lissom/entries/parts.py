@@ -88,7 +88,7 @@ class PointMass(Entry):
         mass: mass [kg]; a number > 0.
         position: position at the start [m]; a position, or nothing.
         plane: restricts the motion to this plane; `"xy"`, `"yz"`, `"zx"`, or nothing.
-        shape: solid to be drawn about its position; default: a ball; `{ box, cylinder, tube or sphere }`, or nothing.
+        shape: solid to be drawn about its position; default: a ball; a solid, or a list of solids, or nothing.
         mesh: instead of `shape`: an STL or glTF file in metres, along the global axes; path relative to this file; a text, or nothing.
         velocity: at the start, global axes [m/s]; three numbers, or nothing.
     """
@@ -99,7 +99,7 @@ class PointMass(Entry):
     mass: Number
     position: Place | None = None
     plane: Literal["xy", "yz", "zx"] | None = None
-    shape: Table | None = None
+    shape: Table | list[Table] | None = None
     mesh: str | None = None
     velocity: Vector | None = None
 
