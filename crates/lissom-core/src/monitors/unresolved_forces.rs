@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Legend: F axial force, shear force, torsion or bending moment, q, ê positions at the end of a step and their filtered error
-//! (`error_estimate`), k its order, p order of the scheme, so that each term is the error of a step of the scheme; c factor. Of twelve
-//! random mechanisms with beams the six with errors above 0.9 % are reported, and the others, with at most 0.6 %, are not.
+//! (`error_estimate`), k its order, p order of the scheme, so that each term is the error of a step of the scheme; c factor. Of 35
+//! random mechanisms with beams 15 of the 17 with errors of recorded forces above 1 % are reported, and two of the others, with 0.9 %.
 
 use lissom_motion::{Motion, Vector6};
 
@@ -73,7 +73,8 @@ impl Monitor for UnresolvedForces {
         self.unexamined += 1.0;
         let scheme = &step.problem.settings.scheme;
         let Some(estimate) = scheme.errors.last() else { return };
-        if !self.steps.is_due(scheme.dynamic) {
+        // A step in which forces switch has no filtered error.
+        if step.has_switched || !self.steps.is_due(scheme.dynamic) {
             return;
         }
         let (system, at) = (step.problem.system, &step.end.kinematics);
