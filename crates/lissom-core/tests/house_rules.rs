@@ -91,6 +91,15 @@ fn round_off_tolerances_stand_in_one_file() {
     );
 }
 
+/// Names of constants state a meaning.
+#[test]
+fn constants_have_names_with_a_meaning() {
+    let words =
+        ["SMALL", "SAME", "BESIDE", "BEYOND", "APART", "NEAR", "FAR", "UNEQUAL", "STILL", "TO_COME", "SLOW"];
+    let found = offences(&[], &words);
+    assert!(found.is_empty(), "constants without a meaning:\n{}", found.join("\n"));
+}
+
 #[test]
 fn the_search_finds_what_it_looks_for() {
     assert!(!offences(&["integrator/"], &["h"]).is_empty(), "scaling.rs holds `h`");

@@ -4,13 +4,13 @@
 use crate::round_off;
 
 /// Instants closer than this fraction of a step, or of a sample period, are equal [-].
-pub const SAME: f64 = 1e-9;
+pub const TIME_TOLERANCE: f64 = 1e-9;
 /// Round-off accumulated in a clock may reach this fraction of its step before it is considered an intended difference.
 const MAX_ACCUMULATED: f64 = 1e-3;
 
 /// Distance below which two instants near `time` [s] are equal if steps, or sample periods, are `duration` [s] long.
 pub fn tolerance(time: f64, duration: f64) -> f64 {
-    SAME * duration + round_off::OPERATIONS * time.abs()
+    TIME_TOLERANCE * duration + round_off::OPERATIONS * time.abs()
 }
 
 /// The same for an instant at a distance of `elapsed` [s] from the start in an external clock that has added steps of

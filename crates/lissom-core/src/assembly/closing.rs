@@ -27,9 +27,9 @@ const MAX_TURN: f64 = 0.3;
 /// Damping μ at the start, where it gives up, and that of constraints that repeat each other.
 const DAMPING: [f64; 3] = [1e-6, 1e8, 1e-10];
 /// Joints are closed to this part of the tolerance, as round-off allows.
-const BEYOND: f64 = 1e-3;
+const CLOSING_SHARE: f64 = 1e-3;
 /// Steps that make the violations smaller by less than this part are slow; so many of them end in a least gap.
-const SLOW: (f64, usize) = (1e-8, 5);
+const SLOW_PROGRESS: (f64, usize) = (1e-8, 5);
 /// Steps below this, relative to the model's size, no longer change the least change.
 const SETTLED: f64 = 1e-9;
 
@@ -221,7 +221,7 @@ impl<'a> Closing<'a> {
         let still = vec![0.0; self.columns.count[0]];
         let mut slow = 0;
         for _ in 0..MAX_ITERATIONS {
-            if largest(&violations) <= BEYOND * tolerance || damping > most || slow > SLOW.1 {
+            if largest(&violations) <= CLOSING_SHARE * tolerance || damping > most || slow > SLOW_PROGRESS.1 {
                 break;
             }
             let step = self.solve(&pose, (&still, &violations), damping);
@@ -229,7 +229,7 @@ impl<'a> Closing<'a> {
             let before = square(&violations);
             match next {
                 Some((found, next)) if square(&found) < before => {
-                    slow = if square(&found) > (1.0 - SLOW.0) * before { slow + 1 } else { 0 };
+                    slow = if square(&found) > (1.0 - SLOW_PROGRESS.0) * before { slow + 1 } else { 0 };
                     (pose, violations) = (next, found);
                     damping = (0.1 * damping).max(least);
                 }

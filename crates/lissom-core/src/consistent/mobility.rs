@@ -14,7 +14,7 @@ use crate::system::{State, System};
 const LARGE_ENOUGH: f64 = 0.1;
 
 /// What takes part in a dependence by less than this is round-off.
-const TAKES_PART: f64 = 1e-6;
+const MIN_PARTICIPATION: f64 = 1e-6;
 
 /// Count of degrees of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -127,7 +127,7 @@ fn self_stress(repeating: usize, used: Vec<(usize, f64)>, reduced: &[Reduced]) -
         }
     }
     let largest = stress.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
-    stress.retain(|&(_, value)| value.abs() > TAKES_PART * largest);
+    stress.retain(|&(_, value)| value.abs() > MIN_PARTICIPATION * largest);
     stress.sort_unstable_by_key(|&(multiplier, _)| multiplier);
     stress
 }
@@ -154,7 +154,7 @@ fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, 
     let largest = force.norm().max(moment.norm());
     let mut words = Vec::new();
     for (part, name) in [(force, "translation along"), (moment, "rotation about")] {
-        if part.norm() > TAKES_PART * largest {
+        if part.norm() > MIN_PARTICIPATION * largest {
             words.push(format!("{name} {}", axis(&part.normalize())));
         }
     }
@@ -165,9 +165,9 @@ fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, 
 /// An axis, by name where it is one of the inertial ones.
 fn axis(direction: &Vector3) -> String {
     let named = ["x", "y", "z"].into_iter().zip(direction.iter());
-    let found = named.into_iter().find(|(_, part)| part.abs() > 1.0 - TAKES_PART * TAKES_PART);
+    let found = named.into_iter().find(|(_, part)| part.abs() > 1.0 - MIN_PARTICIPATION * MIN_PARTICIPATION);
     // Of the two senses that in which the first component that is not zero is positive.
-    let first = direction.iter().find(|part| part.abs() > TAKES_PART).copied().unwrap_or(1.0);
+    let first = direction.iter().find(|part| part.abs() > MIN_PARTICIPATION).copied().unwrap_or(1.0);
     let round = |value: f64| (1e3 * value * first.signum()).round() / 1e3 + 0.0;
     found.map_or_else(
         || format!("({}, {}, {})", round(direction.x), round(direction.y), round(direction.z)),

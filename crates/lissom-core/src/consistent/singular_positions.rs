@@ -23,7 +23,7 @@ const REPEATS: f64 = 1e-9;
 /// A pivot that was below is independent above this part.
 const INDEPENDENT: f64 = 1e-7;
 /// A pivot below this part of its largest value may vanish before the next look: the sine of 13 degrees, squared.
-const NEAR: f64 = 0.05;
+const WATCHED_PIVOT: f64 = 0.05;
 /// A pivot of this part of its largest value is singular: a thousandth of a radian beside it.
 const SINGULAR: f64 = 1e-6;
 /// A loop this far from a singular position may fail because of it [rad].
@@ -37,7 +37,7 @@ const BETWEEN_LOOKS: f64 = 0.25;
 /// Loops of more equations are not watched: looking at them would take longer than a step.
 const MAX_EQUATIONS: usize = 100;
 /// An equation that takes part in a dependence by less than this is not named.
-const TAKES_PART: f64 = 1e-3;
+const MIN_PARTICIPATION: f64 = 1e-3;
 
 /// What is known of singular positions.
 #[derive(Clone, Debug, Default)]
@@ -173,7 +173,7 @@ impl Known {
     /// is far comes near first, and near it looks come closer as that does.
     fn unseen(&self) -> f64 {
         let way = self.looks.last().map_or(1.0, |&(_, _, size)| size.clamp(0.0, 1.0).sqrt());
-        (way - NEAR.sqrt()).max(BETWEEN_LOOKS * way)
+        (way - WATCHED_PIVOT.sqrt()).max(BETWEEN_LOOKS * way)
     }
 
     /// Time and equation of a singular position, if the motion has come through one.
@@ -223,7 +223,7 @@ impl Known {
         let &[a, b, c] = self.looks.as_slice() else { return None };
         let same = a.1 == b.1 && b.1 == c.1;
         let smallest = a.2.min(b.2).min(c.2);
-        if !same || smallest > NEAR || b.0 <= a.0 || c.0 <= b.0 {
+        if !same || smallest > WATCHED_PIVOT || b.0 <= a.0 || c.0 <= b.0 {
             return None;
         }
         let slopes = [(b.2 - a.2) / (b.0 - a.0), (c.2 - b.2) / (c.0 - b.0)];
@@ -320,7 +320,7 @@ impl Pivots {
             }
         }
         let mut joints: Vec<Subject> = Vec::new();
-        let takes_part = |k: &usize| shares[*k].abs() > TAKES_PART && self.pivots[*k] > REPEATS;
+        let takes_part = |k: &usize| shares[*k].abs() > MIN_PARTICIPATION && self.pivots[*k] > REPEATS;
         for k in (0..equation).filter(takes_part).chain([equation]) {
             let (joint, _) = system.layout().constraint_name(found.multipliers[k]);
             let joint = Subject::new("joint", joint).called(format!("`{joint}`"));

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::interface::{Control, Review};
 use crate::bytes::{from_bytes, to_bytes};
-use crate::instants::SAME;
+use crate::instants::TIME_TOLERANCE;
 use crate::integrator::Attempt;
 use crate::integrator::error_estimate::{MIN_ERROR, MIN_REFERENCE, driven, excursion};
 use crate::kinematics::CoordinateId;
@@ -175,7 +175,7 @@ impl Control for Adaptive {
     fn propose(&mut self) -> f64 {
         let size = self.controller.propose(self.distance).min(self.control.max_step).min(self.bound);
         // The remainder would be round-off, over which velocities cannot be determined.
-        if (self.distance - size).abs() <= SAME * size { self.distance } else { size }
+        if (self.distance - size).abs() <= TIME_TOLERANCE * size { self.distance } else { size }
     }
 
     fn review(&mut self, review: Review<'_>) -> bool {

@@ -18,7 +18,7 @@ const EASY: f64 = 15.0;
 const CHANGE: (f64, f64) = (0.3, 2.0);
 /// If halving a step leaves more than this fraction of the unexplained work of the whole step, its length is not the
 /// cause.
-const SAME: f64 = 0.7;
+const UNEXPLAINED_SHARE: f64 = 0.7;
 
 /// Control of load steps.
 #[derive(Clone, Copy, Debug)]
@@ -130,7 +130,7 @@ impl LoadControl {
     /// Whether a step that left the fraction `missing` of its work unexplained is to be repeated with half its
     /// length.
     fn refuses(&mut self, size: f64, missing: f64, tolerance: f64, attempts: &mut Attempts) -> bool {
-        let helps = attempts.missing.is_none_or(|before| missing < SAME * before);
+        let helps = attempts.missing.is_none_or(|before| missing < UNEXPLAINED_SHARE * before);
         attempts.missing = Some(missing);
         missing > tolerance && helps && self.halve(size)
     }

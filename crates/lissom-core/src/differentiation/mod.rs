@@ -38,7 +38,7 @@ use variation::Variation;
 /// Corrections of one stage after the first are made where the second is larger than this part of the first.
 const EXACT: f64 = 1e-10;
 /// Corrections still to come, by their contraction, may be this part of the first, and of what they find out.
-const TO_COME: f64 = 1e-10;
+const REMAINING_CORRECTION: f64 = 1e-10;
 /// A better contraction than this is not believed.
 const CREDIBLE: f64 = 1e-5;
 /// Corrections that shrink by less than this are round-off, if they are small.
@@ -220,7 +220,7 @@ fn step(
             if contraction > STALLED {
                 return sizes[lane] <= (round_off::DERIVATIVE * reference[lane]).max(left(lane));
             }
-            contraction.max(CREDIBLE) * sizes[lane] <= TO_COME * reference[lane]
+            contraction.max(CREDIBLE) * sizes[lane] <= REMAINING_CORRECTION * reference[lane]
         };
         if (0..WIDTH).all(is_done) {
             break;

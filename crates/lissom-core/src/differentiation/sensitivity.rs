@@ -24,7 +24,7 @@ use crate::simulation::Simulation;
 const MAX_CORRECTIONS: usize = 12;
 /// Corrections still to come, by their contraction, may be this part of the first one. The derivatives of reactions err by more:
 /// a small displacement is a large force across a constraint.
-const TO_COME: f64 = 1e-11;
+const REMAINING_CORRECTION: f64 = 1e-11;
 /// A contraction that is worse than this is no information about the next one.
 const CONTRACTS: f64 = 0.1;
 /// A neighbour whose last correction is larger has not found its solution.
@@ -88,7 +88,7 @@ impl Simulation {
             let is_exact = made > 1
                 && is_found
                 && contraction <= CONTRACTS
-                && contraction * correction.size <= TO_COME * first;
+                && contraction * correction.size <= REMAINING_CORRECTION * first;
             // What no longer shrinks is round-off.
             let is_done = is_exact
                 || relative <= round_off::CORRECTION

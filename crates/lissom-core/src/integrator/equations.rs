@@ -18,7 +18,7 @@ use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
 
 /// Iterates whose last correction is larger than this are far from equilibrium [-].
-pub(crate) const FAR: f64 = 1e-3;
+pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
 /// Corrections of rotations larger than this are cut short [rad].
 const MAX_ROTATION: f64 = 1.0;
 /// Departures from going straight on below this are not resolved for their own sake where states are measured beside
@@ -207,7 +207,7 @@ impl StepEquations<'_> {
 
     /// Whether the iterate is far from equilibrium.
     pub(crate) fn is_far(&self) -> bool {
-        self.work.correction > FAR && self.work.disabled.allows(SolverFeature::StartStresses)
+        self.work.correction > FAR_FROM_EQUILIBRIUM && self.work.disabled.allows(SolverFeature::StartStresses)
     }
 
     /// Tangent operators of the nodes' increments since the start of the step, straight motion included.

@@ -21,7 +21,7 @@ const MAX_RATE: f64 = 1e-6;
 const JOLT: f64 = 1e-3;
 
 /// Deformation rates below this are round-off of a model at rest [1/s].
-const STILL: f64 = 1e-9;
+const RATE_AT_REST: f64 = 1e-9;
 
 /// Speed below which displacements within `duration` [s] are round-off of positions.
 pub(crate) fn negligible(representative: &Representative, duration: f64) -> f64 {
@@ -98,7 +98,7 @@ pub(crate) fn sudden_deformation(
     let largest = nodes.map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
     let before = Kinematics { nodes: given.nodes.clone(), ..used.clone() };
     let (most, (known, _)) = system.deformation_rate(used).zip(system.deformation_rate(&before))?;
-    (most.0 - known > (JOLT * largest / length).max(STILL)).then_some(most)
+    (most.0 - known > (JOLT * largest / length).max(RATE_AT_REST)).then_some(most)
 }
 
 /// The coordinate whose given rate is changed most, if that is significant compared with the `largest` speed of a

@@ -13,6 +13,7 @@
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
+use super::ADDITIONAL_MODES;
 use super::completion::Spectrum;
 use super::krylov::{Krylov, Operator, complex, product};
 use super::lanczos::{VIOLATED, round_off};
@@ -28,8 +29,7 @@ const BLOCK: usize = 6;
 const TOLERANCE: f64 = 1e-8;
 /// The same if the basis has become large compared with the number of modes: the rest is then round-off.
 const LOOSE: f64 = 1e-6;
-const BETWEEN: usize = 12;
-const BEYOND: usize = 4;
+const CHECK_INTERVAL: usize = 12;
 /// A basis with this number of vectors, and three times the number of requested eigenvalues, is large.
 const LARGE_BASIS: usize = 100;
 /// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
@@ -40,7 +40,7 @@ const SOLVED: f64 = 1e-5;
 /// round-off of an infinite eigenvalue, which two applications have removed.
 const EIGENVECTOR: f64 = 1e-2;
 /// Rigid modes whose shapes differ by less than this are the same.
-const SAME: f64 = 1e-4;
+const SHAPE_TOLERANCE: f64 = 1e-4;
 /// If an eigenvalue is nearer to the shift than this fraction of it, all others are lost in round-off.
 const TOO_NEAR: f64 = 1e-4;
 /// Relative displacement of the shift in this case.
@@ -230,7 +230,7 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
         Some(frequency) if frequency > 0.0 => {
             let shift = Complex64::new(0.0, std::f64::consts::TAU * frequency);
             let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
-            find_near(model, options, (&mut solver, shift), options.count + BEYOND)
+            find_near(model, options, (&mut solver, shift), options.count + ADDITIONAL_MODES)
         }
         _ => {
             let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
@@ -238,7 +238,7 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
             // the rate of rotation.
             let shift = if model.rolls_on() { model.spin().norm() } else { first_shift(model, &mut solver)? };
             // Conjugates and the second zero of each rigid mode are found as well.
-            find_near(model, options, (&mut solver, shift), 2 * (options.count + BEYOND))
+            find_near(model, options, (&mut solver, shift), 2 * (options.count + ADDITIONAL_MODES))
         }
     }
 }
@@ -373,7 +373,7 @@ fn search<S: Field>(
             *is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
         }
         since += 1;
-        let is_early = since < BETWEEN.max(krylov.order() / 8) || krylov.order() < wanted;
+        let is_early = since < CHECK_INTERVAL.max(krylov.order() / 8) || krylov.order() < wanted;
         if !*is_exhausted && is_early {
             continue;
         }
@@ -536,7 +536,7 @@ fn keep_independent_rigid_modes(modes: &mut Vec<Mode>) {
             }
         }
         let left: f64 = rest.iter().map(Complex64::norm_sqr).sum();
-        if left <= SAME * SAME * whole {
+        if left <= SHAPE_TOLERANCE * SHAPE_TOLERANCE * whole {
             return false;
         }
         let norm = left.sqrt();

@@ -9,6 +9,7 @@
 //! operator x ↦ -K₀⁻¹ (K₁ - K₀) x on the constraints is symmetric with eigenvalues 1/Λ. The negative pivots of the matrix at a load
 //! factor above the last one count those below.
 
+use super::ADDITIONAL_MODES;
 use super::krylov::{Krylov, Operator, product};
 use super::lanczos::{is_converged, ritz, whole_clusters};
 use super::mode::Completeness;
@@ -21,9 +22,7 @@ use crate::round_off;
 /// Number of starting vectors.
 const BLOCK: usize = 6;
 /// Steps between two computations of the eigenvalues.
-const BETWEEN: usize = 8;
-/// Additional modes beyond the requested ones, so that a multiple factor at the end is found completely.
-const BEYOND: usize = 4;
+const CHECK_INTERVAL: usize = 8;
 /// Load factor below which no mode is expected if none is found, over the magnitude of the lowest negative one.
 const FAR_AWAY: f64 = 1e3;
 /// A search with this number of vectors, and eight times the number of modes, is ended: there are no more modes.
@@ -152,7 +151,7 @@ impl LinearModel<'_> {
         };
         let mut krylov = Krylov::new(operator.size());
         let mut is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
-        let mut wanted = count + BEYOND;
+        let mut wanted = count + ADDITIONAL_MODES;
         let mut restarts = 0;
         loop {
             let Search { mut modes, is_whole, largest } =
@@ -235,7 +234,7 @@ fn search(
             *is_exhausted = krylov.start(operator, BLOCK, 1) == 0;
         }
         since += 1;
-        if !*is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+        if !*is_exhausted && since < CHECK_INTERVAL.max(krylov.order() / 8) {
             continue;
         }
         since = 0;

@@ -20,13 +20,13 @@ const MAX_STATES: usize = 200;
 /// equal.
 const EQUAL: f64 = 1e-4;
 /// Eigenvalues of the search and of an inverse iteration that differ by less than this fraction are equal.
-const SAME: f64 = 1e-6;
+const EIGENVALUE_TOLERANCE: f64 = 1e-6;
 /// Allowed residual of an inverse iteration.
 const SETTLED: f64 = 1e-6;
 /// Maximum number of solves of an inverse iteration.
 const SOLVES: usize = 4;
 /// Distance of its shift from the eigenvalue, relative to it.
-const BESIDE: f64 = 1e-5;
+const RELATIVE_SHIFT: f64 = 1e-5;
 /// Allowed remainder of a vector that is a combination of known ones, relative to its norm.
 const KNOWN: f64 = 1e-3;
 
@@ -102,7 +102,7 @@ impl Spectrum {
     fn mode_at(&self, model: &LinearModel<'_>, known: &[Mode], value: Complex64) -> Option<Mode> {
         let mut solver =
             GeneralShift::<Complex64>::on(model.system, model.structure(), &model.representative);
-        let shift = value * Complex64::new(1.0 + BESIDE, BESIDE);
+        let shift = value * Complex64::new(1.0 + RELATIVE_SHIFT, RELATIVE_SHIFT);
         let mut operator = inverse(model, &mut solver, shift).ok()?;
         let mut noise = Noise(7);
         let mut vector: Vec<Complex64> =
@@ -137,13 +137,13 @@ impl Spectrum {
             let is_alike = (mode.eigenvalue - value).norm() <= self.tolerance(value);
             !is_alike
                 && (mode.eigenvalue - found).norm()
-                    <= SAME * found.norm() + round_off::MATRIX_ENTRY * self.largest
+                    <= EIGENVALUE_TOLERANCE * found.norm() + round_off::MATRIX_ENTRY * self.largest
         });
         let is_settled = {
             let rest = image.iter().zip(&vector).map(|(image, own)| (image - quotient * own).norm_sqr());
             rest.sum::<f64>().sqrt() <= SETTLED * quotient.norm()
         };
-        let is_new = is_settled && !is_known && found.im >= -SAME * found.norm();
+        let is_new = is_settled && !is_known && found.im >= -EIGENVALUE_TOLERANCE * found.norm();
         is_new.then(|| mode_of(model, &mut operator, vector, quotient)).flatten()
     }
 }

@@ -14,7 +14,7 @@ use crate::system::{Mass, Owner};
 
 /// Largest displacement over the model's length, and rotation, at which energies are evaluated: errors are of its
 /// square.
-const SMALL: f64 = 1e-4;
+const LARGEST_DISPLACEMENT: f64 = 1e-4;
 
 /// Effective masses: translations along x, y and z [kg], rotations about them through the centre of mass [kg m²].
 pub type EffectiveMasses = [f64; 6];
@@ -32,7 +32,7 @@ impl LinearModel<'_> {
             if largest == 0.0 {
                 continue;
             }
-            let step = SMALL / largest;
+            let step = LARGEST_DISPLACEMENT / largest;
             for (sense, weight) in [(1.0, 1.0), (-1.0, 1.0), (0.0, -2.0)] {
                 let at = self.displaced(&rows, sense * step);
                 energies.clear();
@@ -46,7 +46,7 @@ impl LinearModel<'_> {
         let all: f64 = shares.values().map(|value| value.abs()).sum();
         // Differences for a rigid motion are round-off.
         let rate = mode.eigenvalue.norm_sqr();
-        if rate == 0.0 || total <= SMALL * all {
+        if rate == 0.0 || total <= LARGEST_DISPLACEMENT * all {
             return BTreeMap::new();
         }
         for share in shares.values_mut() {

@@ -29,7 +29,7 @@ const NO_RATE: f64 = 1e-10;
 /// them nor their geometric stiffness is significant.
 const NO_LEVER: f64 = 1e-9;
 /// Coordinates that move by less than this fraction of the largest motion are ignored.
-const TAKES_PART: f64 = 1e-6;
+const MIN_PARTICIPATION: f64 = 1e-6;
 /// Maximum number of parts that are named.
 const MAX_LISTED: usize = 4;
 
@@ -167,7 +167,7 @@ impl LinearModel<'_> {
         let size = |row: usize| self.way(motion, row);
         let count = self.coordinate_count();
         let largest = (0..count).map(size).fold(0.0, f64::max);
-        let moves = |row: &usize| size(*row) > TAKES_PART * largest;
+        let moves = |row: &usize| size(*row) > MIN_PARTICIPATION * largest;
         let of_joints = layout.coordinates().map(|coordinate| layout.row_of_coordinate(coordinate));
         let mut rows: Vec<usize> = of_joints.filter(moves).collect();
         if rows.is_empty() {

@@ -13,7 +13,7 @@ use lissom_solver::Pattern;
 
 use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
-use super::shifted::{GeneralShift, SMALL, small_square};
+use super::shifted::{GeneralShift, START_RATE, small_square};
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity};
 use crate::round_off;
 
@@ -51,7 +51,7 @@ impl LinearModel<'_> {
     /// rad.
     fn admitted_direction(&self, noise: &mut Noise) -> Option<Vec<f64>> {
         let (pattern, count) = (self.system.pattern(), self.coordinate_count());
-        let square = small_square(&self.representative) / SMALL;
+        let square = small_square(&self.representative) / START_RATE;
         let mut parts = self.parts.clone();
         parts.damping.fill(0.0);
         let mut solver = GeneralShift::<f64>::new(self.system, &self.representative);

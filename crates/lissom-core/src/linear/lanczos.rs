@@ -8,10 +8,11 @@
 use lissom_solver::FactorError;
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::ADDITIONAL_MODES;
 use super::krylov::{Krylov, Operator, product};
 use super::mode::{Completeness, ModeOptions};
 use super::model::{LinearError, LinearModel};
-use super::shifted::{RealShift, SMALL};
+use super::shifted::{RealShift, START_RATE};
 use crate::interrupt;
 use crate::round_off;
 
@@ -20,11 +21,9 @@ const BLOCK: usize = 6;
 /// Residual of an accepted mode, relative to its eigenvalue of the operator.
 const TOLERANCE: f64 = 1e-9;
 /// Steps between two computations of the eigenvalues.
-const BETWEEN: usize = 8;
+const CHECK_INTERVAL: usize = 8;
 /// Eigenvalues closer than this, relative to their distance from the shift, are considered one cluster.
 const CLUSTER: f64 = 1e-5;
-/// Additional modes beyond the requested ones, so that a cluster at the end is not divided.
-const BEYOND: usize = 4;
 /// Squared rates below this fraction of the small one that represents zero are not distinguished from rigid modes in the choice
 /// of the shift.
 const NEAREST: f64 = 1e-4;
@@ -214,7 +213,7 @@ fn search<'a>(
     below_shift: usize,
 ) -> Result<Found, LinearError> {
     let mut krylov = Krylov::new(model.coordinate_count());
-    let mut wanted = options.count + BEYOND;
+    let mut wanted = options.count + ADDITIONAL_MODES;
     let mut is_exhausted = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2) == 0;
     let mut restarts = 0;
     loop {
@@ -229,7 +228,7 @@ fn search<'a>(
                 }
                 is_exhausted |= krylov.order() >= model.coordinate_count();
                 since += 1;
-                if !is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+                if !is_exhausted && since < CHECK_INTERVAL.max(krylov.order() / 8) {
                     continue;
                 }
                 since = 0;
@@ -310,7 +309,7 @@ enum Count {
 fn missing_anywhere(model: &LinearModel<'_>, pairs: &[Pair], shift: f64) -> Count {
     let mut solver = RealShift::new(model.system, &model.representative);
     let farthest = pairs.iter().map(|pair| (pair.square - shift).abs()).fold(0.0, f64::max);
-    let stiffest = solver.small_square() / SMALL;
+    let stiffest = solver.small_square() / START_RATE;
     let beyond = (3.0 * farthest).max(stiffest).max(shift.abs());
     let counts = FAR_AWAY.map(|far| solver.factor(&model.parts, shift + far * beyond).ok());
     match counts.into_iter().flatten().max().map(|count| count.checked_sub(pairs.len())) {

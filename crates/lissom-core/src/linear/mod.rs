@@ -51,3 +51,6 @@ pub use shapes::NodeShape;
 pub use state_space::{StateSpace, StateSpaceError};
 pub use steady::{Departure, SteadyError, steady};
 pub use whirl::Whirl;
+
+/// Additional modes beyond the requested ones, so that a multiple or clustered eigenvalue at the end is found completely.
+const ADDITIONAL_MODES: usize = 4;

@@ -23,10 +23,10 @@ use crate::system::{Linearization, State, System};
 
 /// An entry and its mirror image are different if they differ by more than this fraction of the larger one, and by more than
 /// round-off of their rows.
-const UNEQUAL: f64 = 1e-9;
+const ASYMMETRY: f64 = 1e-9;
 
 /// The rate for the computation of that displacement, over the rate of rotation: free motions are amplified.
-const SLOW: f64 = 1e-3;
+const SLOW_RATE: f64 = 1e-3;
 /// Squared rates below this fraction of the small one that represents zero are zero.
 const NEUTRAL: f64 = 1e-6;
 
@@ -525,7 +525,7 @@ fn displacement_by_inertia(
     system.pattern().multiply(&parts.mass, &accelerations, &mut forces);
     forces[count..].fill(0.0);
     let mut solver = GeneralShift::<f64>::new(system, representative);
-    solver.factor(parts, SLOW * rate).ok()?;
+    solver.factor(parts, SLOW_RATE * rate).ok()?;
     solver.solve(&mut forces);
     for (row, _) in layout.impulses() {
         forces[row] = 0.0;
@@ -578,7 +578,7 @@ pub(super) fn is_symmetric(system: &System, representative: &Representative, par
             rows.filter(|&(&row, _)| row > column).all(|(&row, &value)| {
                 let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
                 let difference = (value - mirror).abs();
-                difference <= UNEQUAL * value.abs().max(mirror.abs())
+                difference <= ASYMMETRY * value.abs().max(mirror.abs())
                     || difference <= round_off::MATRIX_ENTRY * (largest[row] * largest[column]).sqrt()
                     || difference <= f64::EPSILON * usual * unit(row) * unit(column)
             })

@@ -14,7 +14,7 @@ use crate::schemes::Weights;
 use crate::system::{Linearization, System};
 
 /// The squared rate from which the search for modes starts, relative to that of the stiffest parts.
-pub(super) const SMALL: f64 = 1e-6;
+pub(super) const START_RATE: f64 = 1e-6;
 
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
 pub(super) struct RealShift<'a> {
@@ -172,6 +172,6 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
 
 /// A squared rate [1/s²] that is small compared with those of the stiffest parts.
 pub(super) fn small_square(representative: &Representative) -> f64 {
-    let square = SMALL * representative.stiffness / representative.mass;
+    let square = START_RATE * representative.stiffness / representative.mass;
     if square.is_finite() && square > 0.0 { square } else { 1.0 }
 }

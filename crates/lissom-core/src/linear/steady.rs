@@ -30,11 +30,11 @@ use crate::system::{State, System};
 /// Maximum number of corrections; they end at round-off, or when one is no smaller than the last.
 const MAX_CORRECTIONS: usize = 60;
 /// The small s, over the rate of rotation.
-const SMALL: f64 = 1e-3;
+const SMALL_RATE: f64 = 1e-3;
 /// Rotation of a state for the check of constant coefficients [rad].
 const TURN: f64 = 0.7;
 /// The shift of this check, relative to the eigenvalue.
-const BESIDE: f64 = 0.9;
+const RELATIVE_SHIFT: f64 = 0.9;
 /// Number of samples of the effect of round-off on a mode.
 const SAMPLES: usize = 3;
 
@@ -136,7 +136,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         system.linearize(&at, Chart::Departures(&state.kinematics.nodes), &mut parts);
         parts.fold_multipliers();
         shifted
-            .factor(&parts, Complex64::from(SMALL * rate))
+            .factor(&parts, Complex64::from(SMALL_RATE * rate))
             .map_err(|error| stopped(system, time, &error))?;
         for (value, residual) in right.iter_mut().zip(&residual) {
             *value = Complex64::from(-residual);
@@ -239,7 +239,7 @@ impl<'a> LinearModel<'a> {
             return Ok(Departure { size: 0.0, round_off: 0.0 });
         }
         let mut shifted = ComplexShift::new(other.system, &other.representative);
-        shifted.factor(&other.parts, BESIDE * s).map_err(|error| other.stopped(&error))?;
+        shifted.factor(&other.parts, RELATIVE_SHIFT * s).map_err(|error| other.stopped(&error))?;
         let pattern = other.pattern();
         let mut right = vec![Complex64::default(); pattern.size()];
         // Sums of the magnitudes of the terms of each row.

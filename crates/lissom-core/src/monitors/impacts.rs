@@ -20,7 +20,7 @@ const STEPS: u8 = 2;
 const KEPT: f64 = 0.5;
 /// Approaches slower than this fraction of the fastest one of the same switch have no significant energy: a
 /// hundredth.
-const SLOW: f64 = 0.1;
+const SLOW_APPROACH: f64 = 0.1;
 
 /// State of one switch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -63,7 +63,7 @@ impl Impacts {
         }
         let found = self.approaches.iter().enumerate().filter_map(|(which, approach)| {
             let (rate, time) = approach.stopped?;
-            (rate >= SLOW * approach.fastest).then_some((which, time))
+            (rate >= SLOW_APPROACH * approach.fastest).then_some((which, time))
         });
         found.min_by(|a, b| a.1.total_cmp(&b.1))
     }
@@ -125,7 +125,7 @@ impl Approach {
         let rate = (value - before) / duration;
         let Some(last) = self.rate.replace(rate) else { return false };
         self.fastest = self.fastest.max(last.abs());
-        let is_slow = last.abs() < SLOW * self.fastest;
+        let is_slow = last.abs() < SLOW_APPROACH * self.fastest;
         let is_beyond = |place: f64| before != 0.0 && (before > 0.0) != (place > 0.0);
         if is_beyond(value) || is_beyond(before + last * duration) {
             // It has crossed, or should have.
@@ -188,8 +188,9 @@ mod tests {
     #[test]
     fn a_slow_approach_is_no_longer_reported_beside_fast_ones_that_are_not_stopped() {
         let mut approach = Approach { value: 1e-3, ..Approach::default() };
-        let is_reported =
-            |approach: &Approach| approach.stopped.is_some_and(|(rate, _)| rate >= SLOW * approach.fastest);
+        let is_reported = |approach: &Approach| {
+            approach.stopped.is_some_and(|(rate, _)| rate >= SLOW_APPROACH * approach.fastest)
+        };
         for (k, value) in [5e-4, 0.0, -5e-4, -5e-4].into_iter().enumerate() {
             approach.accept(value, 1.0, k as f64);
         }

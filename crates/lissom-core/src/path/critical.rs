@@ -11,7 +11,7 @@ use crate::system::State;
 /// Most evaluations of a search.
 const MAX_TRIALS: usize = 60;
 /// A search ends when it knows the distance to this part of the step.
-const NARROW: f64 = 1e-10;
+const INTERVAL_TOLERANCE: f64 = 1e-10;
 /// A search ends when the rate is this part of what it is at the ends of the step.
 const FLAT: f64 = 1e-11;
 
@@ -187,7 +187,9 @@ impl EquilibriumPath {
             if next.rate.abs() < best.rate.abs() {
                 best = next;
             }
-            if next.rate.abs() <= FLAT * scale || high.distance - low.distance <= NARROW * last.distance {
+            if next.rate.abs() <= FLAT * scale
+                || high.distance - low.distance <= INTERVAL_TOLERANCE * last.distance
+            {
                 break;
             }
             if next.rate * low.rate > 0.0 {
@@ -213,7 +215,7 @@ impl EquilibriumPath {
         let mut failures = 0;
         for trial in 0..MAX_TRIALS {
             let width = high.distance - low.distance;
-            if width <= NARROW * last.distance {
+            if width <= INTERVAL_TOLERANCE * last.distance {
                 break;
             }
             let mut part = low.signature / (low.signature - high.signature);

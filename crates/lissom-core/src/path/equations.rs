@@ -10,7 +10,7 @@ use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
 use crate::errors::StepError;
 use crate::errors::step_error::{NO_STEP_HELPS, pivot_hint};
-use crate::integrator::equations::FAR;
+use crate::integrator::equations::FAR_FROM_EQUILIBRIUM;
 use crate::integrator::workspace::sizes;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
@@ -27,7 +27,7 @@ const MAX_CORRECTION: f64 = 0.5;
 const INVERSE_ITERATIONS: usize = 4;
 
 /// Entries of the equilibrated tangent that differ from their mirror images by more have no energy.
-const UNEQUAL: f64 = 1e-7;
+const ASYMMETRY: f64 = 1e-7;
 
 /// The equation for the load factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,7 +176,7 @@ fn is_symmetric(pattern: &Pattern, values: &[f64], count: usize) -> bool {
         let entries = pattern.row_indices()[range.clone()].iter().zip(&values[range]);
         entries.filter(|&(&row, _)| row > column && row < count).all(|(&row, &value)| {
             let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
-            (value - mirror).abs() <= UNEQUAL
+            (value - mirror).abs() <= ASYMMETRY
         })
     })
 }
@@ -547,7 +547,7 @@ impl Equations for PathEquations<'_> {
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         // The stresses of an iterate far from equilibrium are no guide.
-        let is_far = self.work.correction > FAR;
+        let is_far = self.work.correction > FAR_FROM_EQUILIBRIUM;
         self.factor(is_far)
     }
 

@@ -16,7 +16,7 @@ pub trait Family: Send {
 }
 
 /// Derivatives by the number are differences over twice this part of its size: they err by its square, and by round-off over it.
-const APART: f64 = 1e-5;
+const DIFFERENCE_STEP: f64 = 1e-5;
 /// The size of a number is at least this part of the way it goes.
 const MIN_SIZE: f64 = 1e-2;
 /// So many systems are kept.
@@ -129,7 +129,7 @@ impl NumberSystems {
     /// another one there.
     pub(super) fn around(&mut self, value: f64) -> Option<[(f64, Arc<System>); 2]> {
         let [from, to] = self.way;
-        let apart = APART * value.abs().max(MIN_SIZE * (to - from).abs());
+        let apart = DIFFERENCE_STEP * value.abs().max(MIN_SIZE * (to - from).abs());
         let mut side = |neighbour: f64| match self.at(neighbour) {
             Some(system) => Some((neighbour, system)),
             None => self.at(value).map(|system| (value, system)),

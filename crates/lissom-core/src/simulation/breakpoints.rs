@@ -5,7 +5,7 @@
 //! Accelerations, and the scheme's memory of them, then jump as forces do. At a kink, which changes only the slope, a step ends,
 //! and nothing jumps.
 
-use crate::instants::SAME;
+use crate::instants::TIME_TOLERANCE;
 use crate::registry::Function;
 use crate::round_off;
 use crate::system::System;
@@ -46,7 +46,7 @@ pub(crate) struct StopTime {
 
 /// All breakpoints of a system, in ascending order. Times closer than a fraction of the step, `step` [s], are merged.
 pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
-    let near = SAME * step;
+    let near = TIME_TOLERANCE * step;
     let mut jumps: Vec<f64> = Vec::new();
     let mut known: Vec<f64> = Vec::new();
     let mut late: Vec<f64> = Vec::new();
@@ -99,7 +99,7 @@ pub(crate) fn stop_time(
     longest: f64,
     is_motion: bool,
 ) -> Option<StopTime> {
-    let near = SAME * longest;
+    let near = TIME_TOLERANCE * longest;
     let begin = breakpoints.partition_point(|breakpoint| breakpoint.time <= now + near);
     let is_met = |breakpoint: &&Breakpoint| {
         breakpoint.time < limit - near || (breakpoint.jumps && breakpoint.time <= limit + near)

@@ -41,7 +41,7 @@ const ACCURACY: f64 = 1e-10;
 /// would be round-off.
 const CLOSE: f64 = 1e-6;
 /// Distance from the end of a step at which the rate of a switching function is evaluated, as a step fraction.
-const BESIDE: f64 = 1e-3;
+const RATE_OFFSET: f64 = 1e-3;
 /// Maximum number of repeated steps for one root: three are usual.
 const MAX_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the switching surface.
@@ -286,13 +286,13 @@ impl EventDetector {
         if doubtful.is_empty() {
             return None;
         }
-        self.at(system, step, 1.0 - BESIDE);
+        self.at(system, step, 1.0 - RATE_OFFSET);
         let beside = self.values.clone();
         self.at(system, step, BEFORE_END);
         let mut roots = Vec::new();
         for (k, end) in doubtful {
             let (side, noise) = (self.known.sides[k], NOISE * self.known.largest[k]);
-            let rate = (end - beside[k].number) / BESIDE;
+            let rate = (end - beside[k].number) / RATE_OFFSET;
             // From the side that is known, clearly, towards zero.
             if side * self.values[k].number <= noise || side * rate >= 0.0 {
                 continue;

@@ -32,7 +32,7 @@ use crate::system::{State, System};
 /// resolved: a sine with 4.4 steps a period.
 pub(crate) const DEPARTURE: f64 = 0.01;
 /// If bounds are narrower than this fraction of the largest value, nothing is missed between the samples.
-const NARROW: f64 = 0.1;
+const NARROW_BOUNDS: f64 = 0.1;
 /// Maximum number of intervals within one step.
 pub(crate) const MAX_INTERVALS: usize = 256;
 /// Bisections of an interval after which the remaining feature is a jump.
@@ -40,7 +40,7 @@ const MAX_HALVINGS: usize = 30;
 /// Values at the ends of an interval are evaluated by this fraction inside: a jump at an end belongs to the neighbour.
 const INSIDE: f64 = 1e-6;
 /// Distance of the values that determine the slope at an end, as a fraction of the interval.
-const BESIDE: f64 = 1e-3;
+const SLOPE_OFFSET: f64 = 1e-3;
 /// Values beyond those at the ends of a planned step by more than this fraction of the law's magnitude are reported: a sine with
 /// five steps a period.
 const EXCESS: f64 = 0.2;
@@ -198,7 +198,7 @@ impl<'l> Course<'l> {
         let may_be = |within: Interval| {
             let [from, to] = within.map(|share| share.clamp(whole[0] + inside, whole[1] - inside));
             self.bounds([from, to]).is_some_and(|bounds| bounds.into_iter().any(is_beyond))
-                && self.may_hide(within, NARROW * magnitude)
+                && self.may_hide(within, NARROW_BOUNDS * magnitude)
         };
         search(whole, is_found, may_be)
     }
@@ -212,7 +212,7 @@ impl<'l> Course<'l> {
         let expected = self.interpolated(whole);
         let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
         // A law with kinks may act between two samples only, in a contact for example.
-        let least = if self.law.is_smooth() { NARROW } else { part } * magnitude;
+        let least = if self.law.is_smooth() { NARROW_BOUNDS } else { part } * magnitude;
         let may_be = |within: Interval| self.may_hide(within, least);
         if search(whole, is_found, may_be) {
             self.jump(whole, magnitude).map_or(Found::Hidden, Found::Jump)
@@ -252,9 +252,9 @@ impl<'l> Course<'l> {
         let [from, to] = [from + inside, to - inside];
         // The slope of the parabola through three values, times the length.
         let end = |at: f64, towards: f64| {
-            let [value, near, next] =
-                [0.0, BESIDE, 2.0 * BESIDE].map(|share| self.value(at + towards * share * (to - from)));
-            (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * BESIDE))
+            let [value, near, next] = [0.0, SLOPE_OFFSET, 2.0 * SLOPE_OFFSET]
+                .map(|share| self.value(at + towards * share * (to - from)));
+            (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * SLOPE_OFFSET))
         };
         let ((start, first), (end, last)) = (end(from, 1.0), end(to, -1.0));
         let change = end - start;
@@ -404,7 +404,7 @@ impl Laws {
         part: f64,
         has_switched: bool,
     ) -> f64 {
-        let begin = if has_switched { BESIDE } else { 0.0 };
+        let begin = if has_switched { SLOPE_OFFSET } else { 0.0 };
         let find = |course: &Course<'_>, magnitude| {
             let longest = match course.found([begin, 1.0], magnitude, part) {
                 Found::Hidden => begin + course.longest([begin, 0.5], magnitude, part),

@@ -24,15 +24,15 @@ use crate::system::{State, System};
 const MAX_STEPS: usize = 300;
 /// Steps that end less far than this from where they begin, relative to the representative length, are followed by one without
 /// inertia …
-const SLOW: f64 = 0.03;
+const SHORT_STEP: f64 = 0.03;
 /// … which must end as near as this.
-const NEAR: f64 = 0.1;
+const SETTLED_LENGTH: f64 = 0.1;
 /// A step without inertia that failed is repeated after steps so many times as long, or after so many steps of any length: it costs
 /// as much as several others, and fails as long as inertia and not the stiffness limits the steps.
 const RETRY_LENGTH: f64 = 4.0;
 const RETRY_STEPS: usize = 16;
 /// A model that has moved by so many lengths is not held.
-const FAR: f64 = 1e3;
+const MAX_TRAVEL: f64 = 1e3;
 /// The first step, in units of the time √(m/k) of the stiffest parts.
 const FIRST: f64 = 10.0;
 /// Iterations of a step, which is tried again shorter if they are not enough.
@@ -89,14 +89,14 @@ pub(crate) fn relax(
             continue;
         };
         let moved = distance(&reached.kinematics, &simulation.state().kinematics);
-        if distance(&state.kinematics, &simulation.state().kinematics) >= FAR * length {
+        if distance(&state.kinematics, &simulation.state().kinematics) >= MAX_TRAVEL * length {
             return None;
         }
         reached.clone_from(simulation.state());
         let is_due = step >= next_try || step_size >= long_enough || step + 1 == MAX_STEPS;
         let taken = step_size;
         step_size *= LONGER;
-        if moved > SLOW * length || !is_due {
+        if moved > SHORT_STEP * length || !is_due {
             continue;
         }
         (next_try, long_enough) = (step + RETRY_STEPS, RETRY_LENGTH * taken);
@@ -105,7 +105,9 @@ pub(crate) fn relax(
         let mut last = begin(system, &reached, &settings, &representative, time)?;
         let outcome = last.step();
         *iterations += last.totals().newton_iterations;
-        if outcome.is_ok() && distance(&reached.kinematics, &last.state().kinematics) <= NEAR * length {
+        if outcome.is_ok()
+            && distance(&reached.kinematics, &last.state().kinematics) <= SETTLED_LENGTH * length
+        {
             let distance = distance(&state.kinematics, &last.state().kinematics);
             let is_instability = |warning: &&Warning| matches!(warning, Warning::Unstable { .. });
             let mut warnings: Vec<Warning> = last.warnings().iter().filter(is_instability).cloned().collect();

@@ -303,7 +303,7 @@ impl Simulation {
     /// If there are no consistent accelerations there.
     pub(crate) fn begin_behind_jumps(&mut self) -> Result<(), InitialError> {
         let (now, longest) = (self.state.kinematics.time, self.control.longest());
-        let behind = now + instants::SAME * longest;
+        let behind = now + instants::TIME_TOLERANCE * longest;
         let problem = Problem { system: &self.system, settings: &self.settings };
         let jumps = self.settings.scheme.dynamic && self.stops.jumps(problem, [now, behind]);
         if jumps { self.jump_between(now, behind) } else { Ok(()) }
@@ -315,7 +315,7 @@ impl Simulation {
     /// If there are no consistent accelerations on one of the sides.
     fn cross_breakpoint(&mut self, stop_time: &StopTime, longest: f64) -> Result<(), StepError> {
         if let Some(jump) = stop_time.jump {
-            let aside = instants::SAME * longest;
+            let aside = instants::TIME_TOLERANCE * longest;
             self.jump_between(jump - aside, jump + aside)
                 .map_err(|error| StepError::Velocities { time: stop_time.clock, error })?;
             // The end of the step no longer determines the start of the next one.

@@ -6,13 +6,13 @@ use std::sync::Arc;
 use super::breakpoints::{self, Breakpoint, StopTime};
 use super::laws::{Course, DEPARTURE, Found, Laws, MAX_INTERVALS, OfTime};
 use crate::errors::Warning;
-use crate::instants::SAME;
+use crate::instants::TIME_TOLERANCE;
 use crate::registry::Function;
 use crate::settings::{Problem, Settings};
 use crate::system::{State, System};
 
 /// Functions are sampled by this fraction of the step beyond its end: a jump at the end is within the samples.
-const BEYOND: f64 = 0.01;
+const LOOK_AHEAD: f64 = 0.01;
 /// Bisections of a planned step in which jumps beside fast motions are searched for.
 const FURTHER: i32 = 6;
 
@@ -50,7 +50,7 @@ impl Stops {
         if system.functions.is_empty() || !problem.settings.scheme.dynamic {
             return;
         }
-        let step = [now + SAME * longest, now + (1.0 + BEYOND) * size];
+        let step = [now + TIME_TOLERANCE * longest, now + (1.0 + LOOK_AHEAD) * size];
         let mut jumps = Vec::new();
         for (index, (_, function)) in system.functions.iter().enumerate() {
             if function.is_constant() || self.laws.is_straight(index, function, [now, step[1]], DEPARTURE) {
@@ -68,7 +68,7 @@ impl Stops {
         }
         for time in jumps {
             let next = self.breakpoints.partition_point(|breakpoint| breakpoint.time < time);
-            let near = |breakpoint: &Breakpoint| (breakpoint.time - time).abs() <= SAME * longest;
+            let near = |breakpoint: &Breakpoint| (breakpoint.time - time).abs() <= TIME_TOLERANCE * longest;
             if !self.breakpoints[next.saturating_sub(1)..].iter().take(2).any(near) {
                 self.breakpoints.insert(next, Breakpoint::jump(time));
                 self.found.push(time);
@@ -157,7 +157,7 @@ impl Scan {
     fn look(&mut self, course: &Course<'_>, [from, to]: [f64; 2], step: f64, magnitude: f64) {
         self.looks += 1;
         let length = to - from;
-        if self.looks > MAX_INTERVALS || length <= SAME * step {
+        if self.looks > MAX_INTERVALS || length <= TIME_TOLERANCE * step {
             return;
         }
         let mut middle = 0.5 * (from + to);
@@ -175,7 +175,7 @@ impl Scan {
             }
             Found::Jump(time) => {
                 // A jump at an end is a known one.
-                if (time - from).min(to - time) <= SAME * step {
+                if (time - from).min(to - time) <= TIME_TOLERANCE * step {
                     return;
                 }
                 self.jumps.push(time);

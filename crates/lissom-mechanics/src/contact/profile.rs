@@ -4,11 +4,11 @@ use crate::dual::Number;
 use crate::registry::Function;
 
 /// Relative step of the argument for the difference of second derivatives that gives a third one.
-const APART: f64 = 1e-4;
+const DIFFERENCE_STEP: f64 = 1e-4;
 
 /// Value and three derivatives of a given function; its third derivative is a difference of the second.
 fn given(function: &Function, at: f64, length: f64) -> [f64; 4] {
-    let step = APART * length;
+    let step = DIFFERENCE_STEP * length;
     let third = function.second_derivative(at + step) - function.second_derivative(at - step);
     [function.value(at), function.first_derivative(at), function.second_derivative(at), third / (2.0 * step)]
 }

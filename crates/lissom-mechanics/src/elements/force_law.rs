@@ -380,7 +380,7 @@ const ACCURACY: f64 = 1e-11;
 
 /// If the bounds of a law exceed the values at points of an interval by more than this fraction of its largest value, the interval
 /// is bisected.
-const NARROW: f64 = 0.1;
+const NARROW_BOUNDS: f64 = 0.1;
 
 /// A law that is integrated, with bounds of what is not linear in it; none if none are known.
 struct Integrand<'f> {
@@ -408,7 +408,7 @@ fn integral(law: &Integrand<'_>, end: f64, breakpoints: &[f64]) -> f64 {
         let values = [a, 0.5 * (a + b), b].map(law.value);
         let whole = simpson(b - a, values);
         let size = (b - a).abs() * values.iter().fold(law.width([a, b]), |most, value| most.max(value.abs()));
-        let narrow = NARROW * law.width([a, b]);
+        let narrow = NARROW_BOUNDS * law.width([a, b]);
         sum += bisected(law, (a, b), values, whole, (ACCURACY * size, narrow, DEPTH));
     }
     sum

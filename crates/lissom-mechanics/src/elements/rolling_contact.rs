@@ -25,7 +25,7 @@ use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parame
 use crate::signals::measurement::Gradient;
 
 /// Sliding velocities below this are those of rolling, where the law is linear [m/s].
-const STILL: f64 = 1e-9;
+const ROLLING_SPEED: f64 = 1e-9;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -104,7 +104,7 @@ enum Traction {
 impl Traction {
     /// μ(σ)/σ, and its derivative with respect to σ, over σ.
     fn per_velocity(&self, sliding: f64) -> (f64, f64) {
-        let at = sliding.max(STILL);
+        let at = sliding.max(ROLLING_SPEED);
         let (value, slope) = match self {
             Self::Saturated { coefficient, velocity } => {
                 let value = (at / velocity).tanh();
@@ -113,7 +113,7 @@ impl Traction {
             Self::Given(function) => (function.value(at), function.first_derivative(at)),
         };
         let ratio = value / at;
-        if sliding > STILL { (ratio, (slope - ratio) / (at * at)) } else { (ratio, 0.0) }
+        if sliding > ROLLING_SPEED { (ratio, (slope - ratio) / (at * at)) } else { (ratio, 0.0) }
     }
 }
 

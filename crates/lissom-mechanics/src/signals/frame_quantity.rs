@@ -186,7 +186,7 @@ impl Measurement for FrameQuantity {
 }
 
 /// Below this square of the tangent of half the angle the series of the logarithm has the precision of doubles.
-const SMALL: f64 = 1e-4;
+const SERIES_LIMIT: f64 = 1e-4;
 
 /// Rotation vector θ with |θ| ≤ π of a unit quaternion (c, s): θ = g s, and with n = |s|
 ///
@@ -201,7 +201,7 @@ fn logarithm<T: Number>(rotation: Quaternion<T>) -> Three<T> {
     let square = dot(vector, vector);
     let (c, n2) = (scalar.value(), square.value());
     let x = n2 / (c * c);
-    let (factor, by_square) = if x < SMALL {
+    let (factor, by_square) = if x < SERIES_LIMIT {
         let (mut series, mut slope) = (0.0, 0.0);
         for k in (0..5).rev() {
             let term = 1.0 / f64::from(2 * k + 1);

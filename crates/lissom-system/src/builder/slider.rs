@@ -13,7 +13,7 @@ use lissom_mechanics::registry::ParameterError;
 
 /// Allowed initial distance of a point from the line, relative to the length of the line. It covers the digits of a text,
 /// and the deviation of the smooth line through the nodes from a curved one.
-const BESIDE: f64 = 1e-4;
+const MAX_DISTANCE: f64 = 1e-4;
 
 impl Builder {
     /// Adds a slider: a point of the node `tip`, initially at `place`, slides along the line through `nodes` at the arc
@@ -46,7 +46,7 @@ impl Builder {
         let distance = (on_line - place).norm();
         // Parts that are given approximately are assembled afterwards.
         let is_drawn = self.start_values.is_some();
-        if distance.is_nan() || (!is_drawn && distance > BESIDE * line.length()) {
+        if distance.is_nan() || (!is_drawn && distance > MAX_DISTANCE * line.length()) {
             let problem = format!(
                 "must be on the line through the beam's nodes, but is {:.3e} m away from it; its nearest position is \
                  [{}, {}, {}]",

@@ -13,7 +13,7 @@ use lissom_model::{Document, ModelText, Problem, Report};
 use crate::model::{Model, Override};
 
 /// Positions that differ by less than this, over the size of the model, and angles [rad], are equal.
-const SAME: f64 = 1e-9;
+const SIZE_TOLERANCE: f64 = 1e-9;
 
 /// A model with a varied number.
 #[derive(Clone)]
@@ -106,7 +106,7 @@ fn moved_where_locked(lowered: &Lowered, start: &Kinematics) -> Option<String> {
         let change = own[node].frame.relative_to(&start.nodes[node].frame).logarithm();
         for (k, _) in rows.iter().enumerate().filter(|&(_, &row)| row == LOCKED) {
             let unit = if k < 3 { size } else { 1.0 };
-            if change[k].abs() > SAME * unit {
+            if change[k].abs() > SIZE_TOLERANCE * unit {
                 return Some(layout.node_name(node).to_owned());
             }
         }

@@ -13,7 +13,7 @@ use crate::round_off;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
 /// formulas for small changes are accurate to round-off.
-const SMALL: f64 = 1e-3;
+const SMALL_CHANGE: f64 = 1e-3;
 
 /// Two Gauss points on 0 … 1.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
@@ -135,7 +135,8 @@ impl<const N: usize> Beam<N> {
         let length = self.length();
         let is_small = |i: usize| {
             let change = to[i] - from[i];
-            change.fixed_rows::<3>(0).norm() < SMALL * length && change.fixed_rows::<3>(3).norm() < SMALL
+            change.fixed_rows::<3>(0).norm() < SMALL_CHANGE * length
+                && change.fixed_rows::<3>(3).norm() < SMALL_CHANGE
         };
         if !(0..N).all(is_small) {
             return None;

@@ -25,7 +25,7 @@ pub const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 
 const BLOCKS: usize = 21;
 const FORMER_BLOCKS: usize = 12;
 /// Allowed relative asymmetry of matrices, and relative error of inertias under rigid rotations.
-const UNEQUAL: f64 = 1e-3;
+const ASYMMETRY: f64 = 1e-3;
 
 /// Shortening by a deformation: along a direction, by half a quadratic form.
 #[derive(Clone, Debug, PartialEq)]
@@ -226,7 +226,7 @@ impl GeometricMatrices {
         let inertia = self.points.inertia.iter_mut().chain(&mut self.sections.inertia);
         for matrix in self.moment.iter_mut().chain(inertia).chain(shortening) {
             let symmetric = 0.5 * (&*matrix + matrix.transpose());
-            if (&symmetric - &*matrix).amax() > UNEQUAL * matrix.amax() {
+            if (&symmetric - &*matrix).amax() > ASYMMETRY * matrix.amax() {
                 return problem("has a block that is not symmetric");
             }
             *matrix = symmetric;
@@ -251,7 +251,7 @@ impl GeometricMatrices {
             let expected = about * whole + whole * about.transpose();
             for (row, [i, j]) in PAIRS.into_iter().enumerate() {
                 let found = slope.row(row).transpose().dot(turned);
-                if (found - expected[(i, j)]).abs() > UNEQUAL * whole.amax() {
+                if (found - expected[(i, j)]).abs() > ASYMMETRY * whole.amax() {
                     return problem(format!(
                         "does not match the mass: rotated about its first interface the part would have another inertia ({:.3e} \
                          instead of {:.3e} kg m² per radian); look at the order of rows and at the units",

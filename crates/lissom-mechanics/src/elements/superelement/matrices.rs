@@ -10,7 +10,7 @@ use crate::registry::ParameterError;
 use crate::round_off;
 
 /// Allowed difference between mirror entries, as a fraction of their rows' diagonals.
-const UNEQUAL: f64 = 1e-5;
+const ASYMMETRY: f64 = 1e-5;
 /// Allowed forces of a rigid displacement, as a fraction of their terms, and allowed deviation of a mass from that of a rigid
 /// body.
 const RIGID: f64 = 1e-4;
@@ -100,7 +100,7 @@ fn symmetric(matrix: &DMatrix<f64>, name: &str) -> Result<DMatrix<f64>, Paramete
         for j in 0..i {
             let (one, other) = (matrix[(i, j)], matrix[(j, i)]);
             let usual = (matrix[(i, i)] * matrix[(j, j)]).abs().sqrt();
-            if (one - other).abs() > UNEQUAL * usual.max(one.abs()).max(other.abs()) {
+            if (one - other).abs() > ASYMMETRY * usual.max(one.abs()).max(other.abs()) {
                 return problem(
                     name,
                     format!(
