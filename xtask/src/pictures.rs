@@ -46,8 +46,18 @@ const PICTURES: &[(&str, &str, Instants)] = &[
     ("wheelset", "wheelset", At(&[1.0])),
 ];
 
-/// The picture of kinds of joints, the kinds by rows, with the keys that they need.
-const JOINTS: &str = "joints";
+/// Makes the bytes of a file.
+type Make = fn() -> Result<Vec<u8>, PicturesError>;
+
+/// Names and extensions of pictures of other models, and what makes them.
+const OTHERS: &[(&str, &str, Make)] = &[
+    ("campbell", "svg", campbell_diagram),
+    ("first-model", "png", first_model),
+    ("joints", "png", joints),
+    ("modes", "png", modes),
+];
+
+/// The kinds of joints by rows, with the keys that they need.
 const KINDS: [[(&str, &str); 5]; 3] = [
     [
         ("clamp", ""),
@@ -72,14 +82,20 @@ const KINDS: [[(&str, &str); 5]; 3] = [
     ],
 ];
 
-/// The picture of a Campbell diagram, and an overhung disc.
-const CAMPBELL: &str = "campbell";
+/// An overhung disc.
 const ROTOR: &str = concat!(
     "lissom = 1\n[parameters]\nspeed = 10.0\n[initial]\nangular_velocity = [\"speed\", 0, 0]\n",
     include_str!("../../crates/lissom/tests/support/rotor.toml"),
     "stiffness = 2000\n[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"bearing\"\nrotation = \"speed*t\"\n",
     "[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 1e-3\n"
 );
+
+/// The model that `lissom new` writes, and its instant [s].
+const FIRST_MODEL: &str = include_str!("../../crates/lissom/src/commands/new_model.toml");
+const FIRST_INSTANT: f64 = 2.7;
+
+/// Number of natural modes in their picture.
+const SHAPES: usize = 2;
 
 /// Pixels of the files for each of the drawings', and of moving ones.
 const SCALE: f64 = 1.0;
@@ -90,8 +106,8 @@ const DELAY: f64 = 0.1;
 /// Why pictures are not made.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum PicturesError {
-    #[error("`lissom run examples/{0}.toml` failed")]
-    Run(&'static str),
+    #[error("`lissom {0}` failed")]
+    Run(String),
     #[error("the joints cannot be drawn: {0}")]
     Joints(String),
     #[error(transparent)]
@@ -112,27 +128,56 @@ fn images() -> PathBuf {
 
 /// Makes all pictures, or those of these names.
 pub(crate) fn pictures(names: &[String]) -> Result<(), PicturesError> {
+    let is_wanted = |name: &str| names.is_empty() || names.iter().any(|known| known == name);
     for (name, example, instants) in PICTURES {
-        if !names.is_empty() && !names.iter().any(|known| known == name) {
+        if !is_wanted(name) {
             continue;
         }
-        let folder = verify::root().join("target/pictures").join(example);
-        run(example, &folder)?;
+        let folder = simulated(&format!("examples/{example}.toml"), example)?;
         let target = images().join(format!("{name}.png"));
         files::write(&target, &drawn(&folder, instants)?)?;
         println!("{}", target.display());
     }
-    if names.is_empty() || names.iter().any(|name| name == JOINTS) {
-        let target = images().join(format!("{JOINTS}.png"));
-        files::write(&target, &joints()?)?;
-        println!("{}", target.display());
-    }
-    if names.is_empty() || names.iter().any(|name| name == CAMPBELL) {
-        let target = images().join(format!("{CAMPBELL}.svg"));
-        files::write(&target, campbell_diagram()?.as_bytes())?;
-        println!("{}", target.display());
+    for (name, extension, make) in OTHERS {
+        if is_wanted(name) {
+            let target = images().join(format!("{name}.{extension}"));
+            files::write(&target, &make()?)?;
+            println!("{}", target.display());
+        }
     }
     Ok(())
+}
+
+/// The picture of the model that `lissom new press` writes, as the bytes of a PNG file.
+fn first_model() -> Result<Vec<u8>, PicturesError> {
+    let model = "target/first-model.toml";
+    files::write(&verify::root().join(model), FIRST_MODEL.replace("@title@", "press").as_bytes())?;
+    drawn(&simulated(model, "first-model")?, &At(&[FIRST_INSTANT]))
+}
+
+/// The picture of the first natural modes of the tip crank, as the bytes of a PNG file.
+fn modes() -> Result<Vec<u8>, PicturesError> {
+    let (folder, count) = ("target/pictures/modes", SHAPES.to_string());
+    lissom(&[
+        "modes",
+        "examples/tip-crank.toml",
+        "--about",
+        "undeformed",
+        "--count",
+        &count,
+        "--out",
+        folder,
+    ])?;
+    let found = ResultFolder::recorded_modes(&verify::root().join(folder))?;
+    let motion = found.shapes(SHAPES);
+    let picture = Picture {
+        times: motion.times().to_vec(),
+        view: View::Chosen,
+        labels: found.labels(),
+        ..Picture::default()
+    };
+    let drawing = picture.draw(&found.scene, &motion, &found.title)?;
+    Ok(animation(&[drawing], 1.0, SCALE)?)
 }
 
 /// Two rods for each kind of joint, in rows that are level in an oblique view.
@@ -180,21 +225,28 @@ fn joints() -> Result<Vec<u8>, PicturesError> {
     Ok(animation(&[drawing], 1.0, SCALE)?)
 }
 
-/// The diagram of the overhung disc as an SVG text.
-fn campbell_diagram() -> Result<String, PicturesError> {
+/// The diagram of the overhung disc, as the bytes of an SVG file.
+fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
     let path = "parameters.speed".to_owned();
     let request = CampbellRequest { path, from: 5.0, to: 200.0, values: 27, count: 4, rays: vec![1, 2, 3] };
     let found = campbell(&Model::from_text("rotor.toml", ROTOR), &[], &request)?;
-    Ok(found.figure("Overhung disc").svg().map_err(FolderError::from)?)
+    Ok(found.figure("Overhung disc").svg().map_err(FolderError::from)?.into_bytes())
 }
 
-fn run(example: &'static str, folder: &Path) -> Result<(), PicturesError> {
+/// Simulates a model into a folder of this name.
+fn simulated(model: &str, name: &str) -> Result<PathBuf, PicturesError> {
+    let folder = format!("target/pictures/{name}");
+    lissom(&["run", "--quiet", model, "--out", &folder])?;
+    Ok(verify::root().join(folder))
+}
+
+/// Runs the program in the folder of the repository.
+fn lissom(arguments: &[&str]) -> Result<(), PicturesError> {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(verify::root());
-    command.args(["run", "--release", "--quiet", "-p", "lissom", "--", "run", "--quiet"]);
-    command.arg(format!("examples/{example}.toml")).arg("--out").arg(folder);
+    command.args(["run", "--release", "--quiet", "-p", "lissom", "--"]).args(arguments);
     let succeeded = command.status().is_ok_and(|status| status.success());
-    succeeded.then_some(()).ok_or(PicturesError::Run(example))
+    succeeded.then_some(()).ok_or_else(|| PicturesError::Run(arguments.join(" ")))
 }
 
 /// A picture of the results in a folder, as the bytes of a PNG file.
@@ -232,13 +284,16 @@ mod tests {
         for file in files::entries(&images()) {
             let name = file.file_name().unwrap().to_string_lossy().into_owned();
             let is_made = PICTURES.iter().any(|(known, ..)| name == format!("{known}.png"))
-                || [format!("{CAMPBELL}.svg"), format!("{JOINTS}.png")].contains(&name);
+                || OTHERS.iter().any(|(known, extension, _)| name == format!("{known}.{extension}"));
             assert!(is_made || FIGURES.contains(&&*name), "no command makes {name}");
             assert!(text.contains(&format!("images/{name}")), "no page shows {name}");
         }
         for (name, example, _) in PICTURES {
             assert!(images().join(format!("{name}.png")).is_file(), "{name}");
             assert!(verify::root().join(format!("examples/{example}.toml")).is_file(), "{example}");
+        }
+        for (name, extension, _) in OTHERS {
+            assert!(images().join(format!("{name}.{extension}")).is_file(), "{name}");
         }
         joints().unwrap();
     }
