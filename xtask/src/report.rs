@@ -103,9 +103,10 @@ fn text(cases: &[Case], outcomes: &[Outcome], elapsed: Duration) -> String {
         elapsed.as_secs_f64()
     );
     text.push_str(
-        "Digits: −log₁₀ of the difference over the reference (over the largest reference of a curve or of a group \
-         of values). Good to: how uncertain the reference is. Order: observed between successive levels of a refinement. Both, and tolerances, are relative to the \
-         same scale; a tolerance wider than the reference is good to says why.\n\n",
+        "Digits are −log₁₀ of the difference relative to the reference, or to the largest reference value of a \
+         curve or a group of values. \"Good to\" is the uncertainty of the reference, and \"tolerance\" the \
+         permitted difference; both are relative to the same scale. Each tolerance that exceeds the uncertainty \
+         is explained below its table. Orders are observed between successive levels of a refinement.\n\n",
     );
     text.push_str(&summary(cases, outcomes));
     text.push_str(&not_verified(cases, outcomes));
