@@ -158,7 +158,7 @@ fn first_model() -> Result<Vec<u8>, PicturesError> {
 /// The picture of the first natural modes of the tip crank, as the bytes of a PNG file.
 fn modes() -> Result<Vec<u8>, PicturesError> {
     let (folder, count) = ("target/pictures/modes", SHAPES.to_string());
-    lissom(&[
+    run_program(&[
         "modes",
         "examples/tip-crank.toml",
         "--about",
@@ -236,12 +236,12 @@ fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
 /// Simulates a model into a folder of this name.
 fn simulated(model: &str, name: &str) -> Result<PathBuf, PicturesError> {
     let folder = format!("target/pictures/{name}");
-    lissom(&["run", "--quiet", model, "--out", &folder])?;
+    run_program(&["run", "--quiet", model, "--out", &folder])?;
     Ok(verify::root().join(folder))
 }
 
 /// Runs the program in the folder of the repository.
-fn lissom(arguments: &[&str]) -> Result<(), PicturesError> {
+fn run_program(arguments: &[&str]) -> Result<(), PicturesError> {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(verify::root());
     command.args(["run", "--release", "--quiet", "-p", "lissom", "--"]).args(arguments);
