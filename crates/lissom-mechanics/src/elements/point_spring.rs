@@ -17,6 +17,7 @@ use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
 use crate::law::VisitLaw;
+use crate::number::Written;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -86,6 +87,11 @@ fn build(
     }
     let law = ForceLaw::new(parameters, ["force", "damper_force"])?;
     let length = law.rest(parameters, "length", [distance; 2])?;
+    if length < 0.0 {
+        let problem =
+            format!("needs a length without force of {} m: give a larger `stiffness`", Written(length));
+        return Err(ParameterError::new("preload", problem));
+    }
     Ok(Contribution::of(
         model,
         PointSpring { nodes, points, law, length, switch_states: SwitchStates::default() },
