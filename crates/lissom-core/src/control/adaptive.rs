@@ -110,12 +110,17 @@ impl Adaptive {
             let allowed = share * tolerance.powf(f64::from(order) / f64::from(scheme.order));
             integrator.estimate_error(review.problem, estimate, end, review.has_switched);
             let work = &*integrator.work;
-            let errors = work.filtered.iter().zip(&work.sizes).map(|(error, size)| (error * size).abs());
+            let errors = work
+                .error
+                .filtered
+                .iter()
+                .zip(&work.units.coordinates)
+                .map(|(error, size)| (error * size).abs());
             let positions = largest(errors) / (reference * allowed).max(MIN_ERROR);
             // First-order states, each relative to its magnitude, unfiltered.
             let of = |(row, coordinate, magnitude): (usize, CoordinateId, f64)| {
                 let value = review.start.kinematics.coordinates[coordinate].value;
-                (work.error[row] / magnitude.max(value.abs())).abs()
+                (work.error.unfiltered[row] / magnitude.max(value.abs())).abs()
             };
             let states = largest(system.layout().states().map(of)) / allowed;
             excess = larger(excess, root(larger(positions, states), order));

@@ -188,7 +188,7 @@ fn share(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
     let largest = |of: &mut dyn Iterator<Item = (f64, f64)>| {
         of.fold(0.0_f64, |most, (size, value)| most.max((size * value).abs()))
     };
-    let sizes = || work.sizes.iter().copied();
+    let sizes = || work.units.coordinates.iter().copied();
     let column = |values: &[Block]| largest(&mut sizes().zip(values.iter().map(|block| block[lane])));
     let place = column(&lanes.now.place);
     let found = largest_found(base, lanes)[lane];

@@ -142,7 +142,8 @@ impl Sensitivities {
     pub fn extent(&self, base: &Simulation, index: usize) -> f64 {
         self.variations[index / WIDTH]
             .now
-            .extents(&base.integrator.work.sizes, base.integrator.scaled.step_size())[index % WIDTH]
+            .extents(&base.integrator.work.units.coordinates, base.integrator.scaled.step_size())
+            [index % WIDTH]
     }
 
     /// Moves a copy of the state of `base` by `share` of its derivative by the number of this index.
@@ -206,7 +207,7 @@ fn step(
         }
         let known = largest_found(base, lanes);
         let rounding = rounding.get_or_insert_with(|| {
-            lanes.now.extents(&base.integrator.work.sizes, base.integrator.scaled.step_size())
+            lanes.now.extents(&base.integrator.work.units.coordinates, base.integrator.scaled.step_size())
         });
         let reference: Block =
             std::array::from_fn(|lane| first[lane].max(known[lane]).max(ROUNDED * rounding[lane]));

@@ -67,7 +67,7 @@ impl Simulation {
         integrator.scaled.to_unit_step(self.system.layout(), &self.settings.scheme, start, &mut work.unit);
         work.increments.clone_from(&leading.increments);
         work.multipliers.clone_from(&leading.multipliers);
-        work.anderson.forget();
+        work.newton.anderson.forget();
         work.tangent.borrow_factors(&mut leading.tangent);
         work.note_scales(self.system.layout(), &integrator.scaled);
         let scaled = integrator.scaled;
@@ -100,7 +100,7 @@ impl Simulation {
             }
         }
         let worst = equations.worst_unknown();
-        let correction = equations.work.correction;
+        let correction = equations.work.newton.correction;
         work.tangent.exchange_factors(&mut leading.tangent);
         if !(last <= FOUND || size_of_last <= round_off::CORRECTION) {
             let time = self.state.kinematics.time + size;

@@ -210,7 +210,7 @@ impl Stages {
             }
         }
         for residual in &mut self.residuals {
-            multiply(residual, &work.row_factors);
+            multiply(residual, &work.units.rows);
         }
         work.tangent.matrices.solve_several(&base.settings.scheme.coupling, &mut self.residuals);
         let mut sizes = NOTHING;
@@ -219,7 +219,7 @@ impl Stages {
                 multiply(residual, factors);
             }
             for ((value, correction), size) in
-                lanes.increments[index].iter_mut().zip(&*residual).zip(&work.sizes)
+                lanes.increments[index].iter_mut().zip(&*residual).zip(&work.units.coordinates)
             {
                 for lane in 0..WIDTH {
                     value[lane] -= correction[lane];
@@ -367,7 +367,7 @@ fn combine(combination: &Combination, lanes: &Lanes, size: f64, factor: f64, out
 pub(super) fn largest_found(base: &Simulation, lanes: &Lanes) -> Block {
     let mut largest = NOTHING;
     for increments in &lanes.increments {
-        for (value, size) in increments.iter().zip(&base.integrator.work.sizes) {
+        for (value, size) in increments.iter().zip(&base.integrator.work.units.coordinates) {
             for lane in 0..WIDTH {
                 largest[lane] = larger(largest[lane], size * value[lane]);
             }

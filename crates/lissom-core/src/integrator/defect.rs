@@ -80,7 +80,7 @@ impl Integrator {
         let mut largest = 0.0_f64;
         if let Some(last) = residuals.last_mut() {
             work.tangent.scale(last);
-            for (value, size) in last.iter().zip(&work.sizes) {
+            for (value, size) in last.iter().zip(&work.units.coordinates) {
                 let displacement = (value * size).abs();
                 // A NaN counts as the largest.
                 if largest.is_nan() || displacement <= largest {

@@ -4,7 +4,7 @@ use lissom_motion::Vector6;
 use lissom_solver::FactorError;
 
 use super::corrections::{Add, Measure, Multiply};
-use super::workspace::Workspace;
+use super::workspace::{EvaluationSpace, Workspace};
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::{self, Chart, Point};
 use crate::joints::starts::JointStarts;
@@ -43,14 +43,14 @@ impl StepEquations<'_> {
     /// First guess from the scheme, improved by the memory of earlier ones if that is asked for.
     pub(crate) fn predict(&mut self) {
         let work = &mut *self.work;
-        work.correction = f64::INFINITY;
-        let extrapolates = std::mem::take(&mut work.extrapolates);
+        work.newton.correction = f64::INFINITY;
+        let extrapolates = std::mem::take(&mut work.prediction.extrapolates);
         for (i, stage) in self.scheme.stages.iter().enumerate() {
             work.unit.predict(&stage.prediction, &mut work.increments[i]);
             work.multipliers[i].copy_from_slice(&self.start.multipliers);
         }
-        if extrapolates && work.disabled.allows(SolverFeature::Prediction) {
-            let [of_increments, of_multipliers] = &work.predictors;
+        if extrapolates && work.options.disabled.allows(SolverFeature::Prediction) {
+            let [of_increments, of_multipliers] = &work.prediction.predictors;
             of_increments.improve(&mut work.increments);
             of_multipliers.improve(&mut work.multipliers);
         }
@@ -105,9 +105,10 @@ impl StepEquations<'_> {
                 durations,
                 lasting,
                 reached: tableau.reached,
-                length: work.length,
+                length: work.units.length,
             },
-            increments: [first, second, end].map(|motion| joint_changes(start, motion, &work.joint_starts)),
+            increments: [first, second, end]
+                .map(|motion| joint_changes(start, motion, &work.evaluation.joint_starts)),
             multipliers: [&work.multipliers[0], &work.multipliers[1]],
             violations: &self.start.violations,
             augmentation: self.scaled.augmentation(),
@@ -120,7 +121,7 @@ impl StepEquations<'_> {
         Point {
             at: &motion.at,
             stressed: &motion.at,
-            increments: joint_changes(&self.start.kinematics, motion, &work.joint_starts),
+            increments: joint_changes(&self.start.kinematics, motion, &work.evaluation.joint_starts),
             multipliers: &work.multipliers[stage],
             violations: &self.start.violations,
             augmentation: self.scaled.augmentation(),
@@ -133,7 +134,7 @@ impl StepEquations<'_> {
         let mut point = self.point(last);
         if let Some(end) = self.work.motions.last() {
             point.at = &end.at;
-            point.increments = joint_changes(&self.start.kinematics, end, &self.work.joint_starts);
+            point.increments = joint_changes(&self.start.kinematics, end, &self.work.evaluation.joint_starts);
         }
         self.system.stage_violations(&point, out);
     }
@@ -150,14 +151,14 @@ impl StepEquations<'_> {
         }
         for stage in 0..self.scheme.stages.len() {
             let mut residual = std::mem::take(&mut self.work.residuals[stage]);
-            let mut threads = self.work.threads.take();
+            let mut threads = self.work.evaluation.threads.take();
             match &mut threads {
                 Some(threads) => {
                     self.system.residual_side_by_side(&self.point(stage), threads, &mut residual);
                 }
                 None => self.system.residual(&self.point(stage), &mut residual),
             }
-            self.work.threads = threads;
+            self.work.evaluation.threads = threads;
             self.work.residuals[stage] = residual;
         }
     }
@@ -187,8 +188,8 @@ impl StepEquations<'_> {
     /// Hands the derivatives at the last stage to `out`.
     pub(crate) fn assemble_tangent(&mut self, out: &mut TangentAssembler<'_>) {
         let last = self.scheme.stages.len() - 1;
-        let mut scratch = self.work.scratch.take().unwrap_or_default();
-        let mut tangents = std::mem::take(&mut self.work.node_tangents);
+        let mut scratch = self.work.evaluation.scratch.take().unwrap_or_default();
+        let mut tangents = std::mem::take(&mut self.work.evaluation.node_tangents);
         let chart = match self.scheme.increments {
             Increments::FromStart => {
                 self.whole_increments(last, &mut tangents);
@@ -201,13 +202,14 @@ impl StepEquations<'_> {
             point.stressed = &self.start.kinematics;
         }
         self.system.assemble_tangent(&point, chart, &mut scratch, out);
-        self.work.node_tangents = tangents;
-        self.work.scratch = Some(scratch);
+        self.work.evaluation.node_tangents = tangents;
+        self.work.evaluation.scratch = Some(scratch);
     }
 
     /// Whether the iterate is far from equilibrium.
     pub(crate) fn is_far(&self) -> bool {
-        self.work.correction > FAR_FROM_EQUILIBRIUM && self.work.disabled.allows(SolverFeature::StartStresses)
+        self.work.newton.correction > FAR_FROM_EQUILIBRIUM
+            && self.work.options.disabled.allows(SolverFeature::StartStresses)
     }
 
     /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
@@ -229,13 +231,13 @@ impl StepEquations<'_> {
     /// change where the places are found already.
     fn add_corrections(&mut self) -> Correction {
         let places = self.measure_places();
-        self.work.correction = places.size;
+        self.work.newton.correction = places.size;
         if !places.size.is_finite() {
             return places;
         }
         let largest = MAX_ROTATION;
         if places.size > largest {
-            self.work.anderson.interrupt();
+            self.work.newton.anderson.interrupt();
             let cut = largest / places.size;
             self.work.residuals.iter_mut().flatten().for_each(|value| *value *= cut);
         }
@@ -245,9 +247,9 @@ impl StepEquations<'_> {
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
         let work = &*self.work;
         for (corrections, multipliers) in work.residuals.iter().zip(&work.multipliers) {
-            let Correction { size, reference } = work.processor.dispatch(Measure {
-                sizes: &work.multiplier_sizes,
-                corrections: &corrections[work.sizes.len()..],
+            let Correction { size, reference } = work.evaluation.processor.dispatch(Measure {
+                sizes: &work.units.multipliers,
+                corrections: &corrections[work.units.coordinates.len()..],
                 increments: multipliers,
             });
             change = change.max(self.scaled.multiplier_factor() * size);
@@ -259,7 +261,7 @@ impl StepEquations<'_> {
         // Where nothing bears a load yet, as before the first wave arrives, or bears it no longer, as in free flight,
         // multipliers are nothing but round-off: of strains, and of the forces that accelerate the masses.
         let inertial = self.scaled.multiplier_factor() * reference * self.scaling.1.length;
-        let round_off = work.force_round_off.max(self.roundings() * f64::EPSILON * inertial);
+        let round_off = work.round_off.force.max(self.roundings() * f64::EPSILON * inertial);
         let is_known = largest > 0.0 && change > round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
         // What a joint sees change is rounded as the whole way that parts go in the step, of which accelerations are a part.
@@ -270,8 +272,8 @@ impl StepEquations<'_> {
 
     /// Round-off of multipliers from how far parts go straight on in the step.
     fn travel_round_off(&mut self) -> f64 {
-        let round_off = self.work.travel_round_off.unwrap_or_else(|| self.round_off_of_travel());
-        self.work.travel_round_off = Some(round_off);
+        let round_off = self.work.round_off.travel.unwrap_or_else(|| self.round_off_of_travel());
+        self.work.round_off.travel = Some(round_off);
         round_off * self.scaled.multiplier_factor() * self.scaling.1.length
     }
 
@@ -279,7 +281,8 @@ impl StepEquations<'_> {
     fn round_off_of_travel(&self) -> f64 {
         let work = &*self.work;
         let travel = work
-            .sizes
+            .units
+            .coordinates
             .iter()
             .zip(&work.unit.rate)
             .fold(0.0_f64, |most, (size, rate)| most.max((size * rate).abs()));
@@ -333,9 +336,11 @@ impl StepEquations<'_> {
     /// Adds corrections of all stages, times `share`.
     fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
         let factor = self.scaled.multiplier_factor();
-        let Workspace { increments, multipliers, processor, sizes, .. } = &mut *self.work;
+        let Workspace {
+            increments, multipliers, evaluation: EvaluationSpace { processor, .. }, units, ..
+        } = &mut *self.work;
         for (stage, corrections) in corrections.iter().enumerate() {
-            let (motion, constraints) = corrections.split_at(sizes.len());
+            let (motion, constraints) = corrections.split_at(units.coordinates.len());
             processor.dispatch(Add { share, corrections: motion, values: &mut increments[stage] });
             processor.dispatch(Add {
                 share: share * factor,
@@ -349,9 +354,9 @@ impl StepEquations<'_> {
         let work = &*self.work;
         let mut largest = Correction { size: 0.0, reference: 0.0 };
         for (corrections, increments) in work.residuals.iter().zip(&work.increments) {
-            let sizes = &work.sizes;
+            let sizes = &work.units.coordinates;
             let corrections = &corrections[..sizes.len()];
-            let found = work.processor.dispatch(Measure { sizes, corrections, increments });
+            let found = work.evaluation.processor.dispatch(Measure { sizes, corrections, increments });
             if found.size.is_nan() {
                 return found;
             }
@@ -389,7 +394,7 @@ impl StepEquations<'_> {
             residual[..layout.coordinate_count()]
                 .iter()
                 .enumerate()
-                .map(|(row, value)| (row, self.work.sizes[row] * value.abs()))
+                .map(|(row, value)| (row, self.work.units.coordinates[row] * value.abs()))
         });
         let mut worst = (0, -1.0);
         // States are measured apart, as in `with_states`.
@@ -420,9 +425,9 @@ impl StepEquations<'_> {
 
 impl Equations for StepEquations<'_> {
     fn correct(&mut self) -> Correction {
-        self.work.effort.iterations += 1;
-        if !std::mem::take(&mut self.work.backed_off) {
-            std::mem::swap(&mut self.work.residuals, &mut self.work.before);
+        self.work.newton.effort.iterations += 1;
+        if !std::mem::take(&mut self.work.newton.backed_off) {
+            std::mem::swap(&mut self.work.residuals, &mut self.work.newton.before);
         }
         self.watch.begin(Phase::Evaluation);
         self.evaluate();
@@ -436,18 +441,18 @@ impl Equations for StepEquations<'_> {
             }
         }
         for values in &mut work.residuals {
-            work.processor.dispatch(Multiply { values, factors: &work.row_factors });
+            work.evaluation.processor.dispatch(Multiply { values, factors: &work.units.rows });
         }
         self.watch.begin(Phase::Solve);
         work.tangent.matrices.solve(&self.scheme.coupling, &mut work.residuals);
         self.watch.begin(Phase::Rest);
         if let Some(factors) = work.tangent.row_factors() {
             for values in &mut work.residuals {
-                work.processor.dispatch(Multiply { values, factors });
+                work.evaluation.processor.dispatch(Multiply { values, factors });
             }
         }
-        if work.disabled.allows(SolverFeature::Secants) {
-            work.anderson.improve(&mut work.residuals, &work.tuning);
+        if work.options.disabled.allows(SolverFeature::Secants) {
+            work.newton.anderson.improve(&mut work.residuals, &work.options.tuning);
         }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
@@ -456,13 +461,13 @@ impl Equations for StepEquations<'_> {
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
-        self.work.effort.factorizations += 1;
+        self.work.newton.effort.factorizations += 1;
         let (choice, representative) = self.scaling;
         self.scaled = Scaled::new(choice, representative, self.scaled.step_size());
         self.watch.begin(Phase::Linearisation);
-        self.work.anderson.forget();
+        self.work.newton.anderson.forget();
         self.linearize();
-        self.work.force_round_off = self.force_round_off();
+        self.work.round_off.force = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
         self.work.tangent.factor(self.system.structure(), self.scaled.scale())?;
         self.note_scales();
@@ -471,7 +476,7 @@ impl Equations for StepEquations<'_> {
     }
 
     fn restart(&mut self) {
-        self.work.anderson.interrupt();
+        self.work.newton.anderson.interrupt();
         self.predict();
     }
 
@@ -484,9 +489,9 @@ impl Equations for StepEquations<'_> {
     }
 
     fn back_off(&mut self) {
-        self.work.anderson.forget();
+        self.work.newton.anderson.forget();
         let last = std::mem::take(&mut self.work.residuals);
-        let mut before = std::mem::take(&mut self.work.before);
+        let mut before = std::mem::take(&mut self.work.newton.before);
         // A correction that is not finite was not applied.
         if last.iter().flatten().all(|value| value.is_finite()) {
             self.apply(&last, 1.0);
@@ -496,8 +501,8 @@ impl Equations for StepEquations<'_> {
             *value *= 0.5;
         }
         self.work.residuals = last;
-        self.work.before = before;
-        self.work.backed_off = true;
+        self.work.newton.before = before;
+        self.work.newton.backed_off = true;
         self.update_motions();
     }
 }

@@ -108,7 +108,7 @@ impl Integrator {
         let work = &mut *self.work;
         let is_of_states = scheme.errors.last() == Some(estimate);
         let quantities = system.layout().quantities();
-        for (row, error) in work.error.iter_mut().enumerate() {
+        for (row, error) in work.error.unfiltered.iter_mut().enumerate() {
             let is_defined = is_of_states || quantities[row] != Quantity::State;
             *error = if is_defined {
                 work.unit.combine(&estimate.combination, &work.increments, row)
@@ -116,24 +116,29 @@ impl Integrator {
                 0.0
             };
         }
-        let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
+        let (motion, constraints) = work.error.filtered.split_at_mut(work.error.unfiltered.len());
         if has_switched {
             // The filter would hide a motion that the switch has just started, such as an impact on a stiff stop.
-            motion.copy_from_slice(&work.error);
+            motion.copy_from_slice(&work.error.unfiltered);
             system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
             return;
         }
-        inertial_part(system, end, &work.error, motion);
+        inertial_part(system, end, &work.error.unfiltered, motion);
         constraints.fill(0.0);
-        work.tangent.scale(&mut work.filtered);
-        work.tangent.matrices.solve_inertial(&scheme.coupling, &mut work.filtered);
-        work.tangent.scale(&mut work.filtered);
+        work.tangent.scale(&mut work.error.filtered);
+        work.tangent.matrices.solve_inertial(&scheme.coupling, &mut work.error.filtered);
+        work.tangent.scale(&mut work.error.filtered);
     }
 
     /// The unknown with the largest estimated error of the last attempt.
     pub(crate) fn most_inaccurate(&self, system: &System) -> Subject {
-        let errors =
-            self.work.filtered.iter().zip(&self.work.sizes).map(|(error, size)| (error * size).abs());
+        let errors = self
+            .work
+            .error
+            .filtered
+            .iter()
+            .zip(&self.work.units.coordinates)
+            .map(|(error, size)| (error * size).abs());
         let most = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         system.layout().subject_of(most.map_or(0, |(row, _)| row))
     }

@@ -28,17 +28,17 @@ impl Integrator {
         let work = &mut *self.work;
         let coupling = &settings.scheme.coupling;
         let square = self.scaled.step_size().powi(2);
-        let count = work.error.len();
+        let count = work.error.unfiltered.len();
         let again = &mut self.refiltered;
-        inertial_part(system, end, &work.filtered[..count], &mut again[..count]);
+        inertial_part(system, end, &work.error.filtered[..count], &mut again[..count]);
         again[count..].fill(0.0);
         work.tangent.scale(again);
         work.tangent.matrices.solve_inertial(coupling, again);
         work.tangent.scale(again);
         let Some(stage) = settings.scheme.stages.last() else { unreachable!("every scheme has a stage") };
         let (mut error, mut largest) = (0.0_f64, 0.0_f64);
-        for (row, size) in work.sizes.iter().enumerate().take(count) {
-            let of_row = ((work.filtered[row] - again[row]) * size).abs();
+        for (row, size) in work.units.coordinates.iter().enumerate().take(count) {
+            let of_row = ((work.error.filtered[row] - again[row]) * size).abs();
             // A NaN counts as the largest.
             error = if of_row <= error || error.is_nan() { error } else { of_row };
             let end = work.unit.combine(&stage.curvature, &work.increments, row);

@@ -73,8 +73,8 @@ impl Integrator {
         let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
         let equilibrated = settings.scaling.equilibrates();
         let mut work = Workspace::new(system, state, scheme, &representative, settings.solver, equilibrated);
-        (work.disabled, work.tuning) = (settings.limits.disabled, settings.limits.tuning);
-        work.threads = Threads::new(system.starts_of_batches(), settings.threads);
+        (work.options.disabled, work.options.tuning) = (settings.limits.disabled, settings.limits.tuning);
+        work.evaluation.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.tangent.matrices.set_threads(settings.threads);
         let count = system.layout().coordinate_count();
         let unknown = repeating.map(|multiplier| count + multiplier);
@@ -117,7 +117,7 @@ impl Integrator {
         self.begin(problem, from, size, attempt)?;
         let settings = problem.settings;
         let start = attempt.start(from.state);
-        self.work.extrapolates = settings.scheme.dynamic;
+        self.work.prediction.extrapolates = settings.scheme.dynamic;
         let time = start.kinematics.time;
         let mut equations =
             step_equations(problem, start, &self.representative, self.scaled, &mut self.work, watch);
@@ -160,8 +160,8 @@ impl Integrator {
         }
         let start = attempt.start(state);
         self.scaled.to_unit_step(system.layout(), &settings.scheme, start, &mut self.work.unit);
-        self.work.travel_round_off = None;
-        system.begin_step(&start.kinematics, &mut self.work.joint_starts);
+        self.work.round_off.travel = None;
+        system.begin_step(&start.kinematics, &mut self.work.evaluation.joint_starts);
         Ok(())
     }
 
@@ -231,10 +231,10 @@ impl Integrator {
         problem: Problem<'_>,
         start: &State,
     ) -> Result<(), FactorError> {
-        problem.system.begin_step(&start.kinematics, &mut self.work.joint_starts);
+        problem.system.begin_step(&start.kinematics, &mut self.work.evaluation.joint_starts);
         let (representative, work, watch) = (&self.representative, &mut self.work, &mut Unwatched);
         let mut equations = step_equations(problem, start, representative, self.scaled, work, watch);
-        equations.work.correction = 0.0;
+        equations.work.newton.correction = 0.0;
         let result = equations.renew_tangent();
         self.scaled = equations.scaled;
         result
@@ -248,7 +248,7 @@ impl Integrator {
         scaled: Scaled,
         of: &StageSystem,
     ) -> TangentValues {
-        problem.system.begin_step(&start.kinematics, &mut self.work.joint_starts);
+        problem.system.begin_step(&start.kinematics, &mut self.work.evaluation.joint_starts);
         let (representative, work, watch) = (&self.representative, &mut self.work, &mut Unwatched);
         let mut equations = step_equations(problem, start, representative, scaled, work, watch);
         let mut values = TangentValues::zeros(of, problem.system.structure().pattern.entries());

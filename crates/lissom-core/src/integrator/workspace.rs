@@ -25,63 +25,101 @@ pub(crate) struct Effort {
     pub(crate) factorizations: usize,
 }
 
+/// First guesses of a step's unknowns.
+pub(crate) struct Prediction {
+    /// The scheme's own, of the increments, by stage.
+    pub(crate) predicted: Vec<Vec<f64>>,
+    /// Extrapolation of their errors, of increments and of multipliers.
+    pub(crate) predictors: [Predictor; 2],
+    /// Whether the next guess is extrapolated.
+    pub(crate) extrapolates: bool,
+}
+
+/// Progress of Newton's method.
+pub(crate) struct Progress {
+    /// The previous correction, by stage.
+    pub(crate) before: Vec<Vec<f64>>,
+    /// Whether it was halved.
+    pub(crate) backed_off: bool,
+    /// Size of the last correction of positions.
+    pub(crate) correction: f64,
+    /// All iterations and tangents so far.
+    pub(crate) effort: Effort,
+    /// Secants.
+    pub(crate) anderson: Anderson,
+}
+
+/// Estimated error of a step.
+pub(crate) struct EstimatedError {
+    /// By coordinate row.
+    pub(crate) unfiltered: Vec<f64>,
+    /// By row.
+    pub(crate) filtered: Vec<f64>,
+}
+
+/// Limits that round-off sets.
+pub(crate) struct RoundOff {
+    /// Of displacements, from the extrapolated motion in the present step [scaled]; none until it is needed.
+    pub(crate) travel: Option<f64>,
+    /// Forces below this are round-off of the stiffest elements' strains [N].
+    pub(crate) force: f64,
+}
+
+/// Scaled sizes of units.
+pub(crate) struct Units {
+    /// Of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
+    pub(crate) coordinates: Vec<f64>,
+    /// Of each multiplier: moments as forces at the length that stands for a radian.
+    pub(crate) multipliers: Vec<f64>,
+    /// From residuals in SI to right-hand sides of the tangent in use.
+    pub(crate) rows: Vec<f64>,
+    /// Representative length [m].
+    pub(crate) length: f64,
+}
+
+/// Storage of the evaluation of elements and joints.
+pub(crate) struct EvaluationSpace {
+    /// What joints need of the start of the step.
+    pub(crate) joint_starts: JointStarts,
+    /// Tangent operators of the nodes' increments, for schemes that measure them from the start.
+    pub(crate) node_tangents: Vec<IncrementTangent>,
+    pub(crate) scratch: Option<Box<Scratch>>,
+    /// For evaluation on several threads, if the system is large.
+    pub(crate) threads: Option<Threads>,
+    pub(crate) processor: pulp::Arch,
+}
+
+/// Options of the solver.
+#[derive(Default)]
+pub(crate) struct SolverOptions {
+    /// Features that are switched off.
+    pub(crate) disabled: DisabledFeatures,
+    /// Parameters of the others.
+    pub(crate) tuning: Tuning,
+}
+
 /// Everything a step needs besides system and state, allocated once.
 pub(crate) struct Workspace {
     pub(crate) unit: UnitStepState,
-    /// The scheme's first guess of the increments, by stage.
-    pub(crate) predicted: Vec<Vec<f64>>,
-    /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
-    pub(crate) predictors: [Predictor; 2],
-    /// Whether the next first guess is to make use of them.
-    pub(crate) extrapolates: bool,
-    /// Departures from going straight on since the start of the step, by stage and coordinate row.
+    pub(crate) prediction: Prediction,
+    /// Increments beyond the extrapolated start of the step, by stage and coordinate row.
     pub(crate) increments: Vec<Vec<f64>>,
-    /// Tangent operators of the nodes' increments, for schemes that measure them from the start.
-    pub(crate) node_tangents: Vec<IncrementTangent>,
     /// Multipliers by stage [N, N m].
     pub(crate) multipliers: Vec<Vec<f64>>,
     /// By stage; then at the end of the step, for schemes that integrate velocities.
     pub(crate) motions: Vec<StageMotion>,
     /// Residuals, then corrections, by stage.
     pub(crate) residuals: Vec<Vec<f64>>,
-    /// The correction before, as far as it stands.
-    pub(crate) before: Vec<Vec<f64>>,
-    /// Whether that one was just halved.
-    pub(crate) backed_off: bool,
-    /// Size of the last correction of places.
-    pub(crate) correction: f64,
-    /// All iterations and tangents so far, whatever they led to.
-    pub(crate) effort: Effort,
-    /// Room for the error estimate: by coordinate row, and by row.
-    pub(crate) error: Vec<f64>,
-    pub(crate) filtered: Vec<f64>,
-    /// Round-off of displacements from how far parts go straight on in the present step, scaled; none until it is needed.
-    pub(crate) travel_round_off: Option<f64>,
-    /// Forces below this are round-off of the stiffest elements' strains [N].
-    pub(crate) force_round_off: f64,
-    /// What joints see at the start of the step.
-    pub(crate) joint_starts: JointStarts,
-    pub(crate) scratch: Option<Box<Scratch>>,
-    /// Diagonal of the derivatives by place, by row.
+    /// Diagonal of the derivatives by position, by row.
     pub(crate) stiffness: Vec<f64>,
     /// The tangents of the scheme's decoupled systems.
     pub(crate) tangent: SaddlePoint<StageTangents>,
-    /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
-    pub(crate) sizes: Vec<f64>,
-    /// Scaled size of one unit of each multiplier: moments as forces at the length that stands for a radian.
-    pub(crate) multiplier_sizes: Vec<f64>,
-    /// From residuals in SI to right-hand sides of the tangent in use.
-    pub(crate) row_factors: Vec<f64>,
-    pub(crate) processor: pulp::Arch,
-    /// Representative length [m].
-    pub(crate) length: f64,
-    /// For evaluation on several threads, where that pays.
-    pub(crate) threads: Option<Threads>,
-    pub(crate) anderson: Anderson,
-    /// Features that are switched off.
-    pub(crate) disabled: DisabledFeatures,
-    /// Parameters of the solver.
-    pub(crate) tuning: Tuning,
+    pub(crate) newton: Progress,
+    pub(crate) error: EstimatedError,
+    pub(crate) round_off: RoundOff,
+    pub(crate) units: Units,
+    pub(crate) evaluation: EvaluationSpace,
+    pub(crate) options: SolverOptions,
 }
 
 impl Workspace {
@@ -104,82 +142,91 @@ impl Workspace {
         }
         Self {
             unit: UnitStepState::new(layout, scheme),
-            predicted: vec![vec![0.0; count]; stages],
-            predictors: [
-                Predictor::new(stages, &sizes),
-                Predictor::new(stages, &vec![1.0; layout.multiplier_count]),
-            ],
-            extrapolates: false,
-            increments: vec![vec![0.0; count]; stages],
-            node_tangents: match scheme.increments {
-                Increments::FromStart => vec![IncrementTangent::none(); state.kinematics.nodes.len()],
-                Increments::Departure => Vec::new(),
+            prediction: Prediction {
+                predicted: vec![vec![0.0; count]; stages],
+                predictors: [
+                    Predictor::new(stages, &sizes),
+                    Predictor::new(stages, &vec![1.0; layout.multiplier_count]),
+                ],
+                extrapolates: false,
             },
+            increments: vec![vec![0.0; count]; stages],
             multipliers: vec![state.multipliers.clone(); stages],
             motions: vec![
                 StageMotion::new(&state.kinematics);
                 stages + usize::from(scheme.tableau.is_some())
             ],
             residuals: vec![vec![0.0; layout.size()]; stages],
-            before: vec![vec![0.0; layout.size()]; stages],
-            backed_off: false,
-            correction: f64::INFINITY,
-            effort: Effort::default(),
-            error: vec![0.0; count],
-            filtered: vec![0.0; layout.size()],
-            travel_round_off: None,
-            force_round_off: 0.0,
-            joint_starts: JointStarts::default(),
-            scratch: Some(Box::default()),
             stiffness: vec![0.0; layout.size()],
             tangent,
-            anderson: Anderson::new(stages, layout.size(), &sizes),
-            sizes,
-            multiplier_sizes: vec![1.0; layout.multiplier_count],
-            row_factors: vec![1.0; layout.size()],
-            processor: processor(layout.size()),
-            length: representative.length,
-            threads: None,
-            disabled: DisabledFeatures::default(),
-            tuning: Tuning::default(),
+            newton: Progress {
+                before: vec![vec![0.0; layout.size()]; stages],
+                backed_off: false,
+                correction: f64::INFINITY,
+                effort: Effort::default(),
+                anderson: Anderson::new(stages, layout.size(), &sizes),
+            },
+            error: EstimatedError { unfiltered: vec![0.0; count], filtered: vec![0.0; layout.size()] },
+            round_off: RoundOff { travel: None, force: 0.0 },
+            units: Units {
+                coordinates: sizes,
+                multipliers: vec![1.0; layout.multiplier_count],
+                rows: vec![1.0; layout.size()],
+                length: representative.length,
+            },
+            evaluation: EvaluationSpace {
+                joint_starts: JointStarts::default(),
+                node_tangents: match scheme.increments {
+                    Increments::FromStart => vec![IncrementTangent::none(); state.kinematics.nodes.len()],
+                    Increments::Departure => Vec::new(),
+                },
+                scratch: Some(Box::default()),
+                threads: None,
+                processor: processor(layout.size()),
+            },
+            options: SolverOptions::default(),
         }
     }
 
     /// Records the error of the scheme's first guess; `multipliers` are those at the start of the step.
     pub(crate) fn learn(&mut self, scheme: &Scheme, multipliers: &[f64]) {
-        for (stage, predicted) in scheme.stages.iter().zip(&mut self.predicted) {
+        for (stage, predicted) in scheme.stages.iter().zip(&mut self.prediction.predicted) {
             self.unit.predict(&stage.prediction, predicted);
         }
-        let [of_increments, of_multipliers] = &mut self.predictors;
-        of_increments.learn(&self.increments, |stage| &self.predicted[stage], &self.tuning);
-        of_multipliers.learn(&self.multipliers, |_| multipliers, &self.tuning);
+        let [of_increments, of_multipliers] = &mut self.prediction.predictors;
+        of_increments.learn(
+            &self.increments,
+            |stage| &self.prediction.predicted[stage],
+            &self.options.tuning,
+        );
+        of_multipliers.learn(&self.multipliers, |_| multipliers, &self.options.tuning);
     }
 
     /// Records how residuals are to be scaled for the tangent in use.
     pub(crate) fn note_scales(&mut self, layout: &Layout, scaled: &Scaled) {
-        self.row_factors.fill(1.0);
-        scaled.scale_residual(layout, &mut self.row_factors);
-        self.tangent.scale(&mut self.row_factors);
+        self.units.rows.fill(1.0);
+        scaled.scale_residual(layout, &mut self.units.rows);
+        self.tangent.scale(&mut self.units.rows);
         let quantities = &layout.quantities()[layout.coordinate_count()..];
-        for (size, &quantity) in self.multiplier_sizes.iter_mut().zip(quantities) {
+        for (size, &quantity) in self.units.multipliers.iter_mut().zip(quantities) {
             *size = 1.0 / scaled.unit(quantity);
         }
     }
 
     /// From residuals in SI to right-hand sides of the tangent in use.
     pub(crate) fn row_factors(&self) -> &[f64] {
-        &self.row_factors
+        &self.units.rows
     }
 
     /// Makes the next first guess from the scheme alone.
     pub(crate) fn forget_predictions(&mut self) {
-        self.predictors.iter_mut().for_each(Predictor::forget);
+        self.prediction.predictors.iter_mut().for_each(Predictor::forget);
     }
 
     /// Goes over to steps that are `ratio` times as long: what is missed of places is of third order in the step, the
     /// change of multipliers of first order.
     pub(crate) fn rescale_predictions(&mut self, ratio: f64) {
-        let [of_increments, of_multipliers] = &mut self.predictors;
+        let [of_increments, of_multipliers] = &mut self.prediction.predictors;
         of_increments.rescale(ratio, 3);
         of_multipliers.rescale(ratio, 1);
     }

@@ -79,7 +79,7 @@ impl Monitor for UnresolvedForces {
         }
         let (system, at) = (step.problem.system, &step.end.kinematics);
         step.integrator.estimate_error(step.problem, estimate, at, step.has_switched);
-        self.displace(system.layout(), at, &step.integrator.work.filtered);
+        self.displace(system.layout(), at, &step.integrator.work.error.filtered);
         let steps = std::mem::take(&mut self.unexamined);
         let exponent = f64::from(scheme.order + 1) / f64::from(estimate.order);
         // Of the forces and of the moments.

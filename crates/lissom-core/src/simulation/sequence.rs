@@ -65,7 +65,7 @@ impl Simulation {
     pub fn step_watched(&mut self, limit: f64, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
         watch.begin(Phase::Rest);
         self.is_last_step_known = false;
-        let before = self.integrator.work.effort;
+        let before = self.integrator.work.newton.effort;
         let mut report = StepReport::default();
         let mut progress = Progress { watch, report: &mut report, first: None, failure: None, start: None };
         let result = self.advance(limit, &mut progress);
@@ -76,7 +76,7 @@ impl Simulation {
                 warn(&mut self.warnings, unseen);
             }
         }
-        let effort = self.integrator.work.effort;
+        let effort = self.integrator.work.newton.effort;
         report.iterations = effort.iterations - before.iterations;
         report.factorizations = effort.factorizations - before.factorizations;
         self.totals.newton_iterations += report.iterations;

@@ -23,12 +23,12 @@ pub(crate) struct Learned {
 impl Workspace {
     pub(crate) fn learned(&self) -> Learned {
         Learned {
-            predictors: self.predictors.clone(),
-            anderson: self.anderson.clone(),
-            effort: self.effort,
-            backed_off: self.backed_off,
+            predictors: self.prediction.predictors.clone(),
+            anderson: self.newton.anderson.clone(),
+            effort: self.newton.effort,
+            backed_off: self.newton.backed_off,
             tangent: self.tangent.learned(),
-            force_round_off: self.force_round_off,
+            force_round_off: self.round_off.force,
         }
     }
 
@@ -37,13 +37,13 @@ impl Workspace {
     /// # Errors
     /// If a tangent cannot be factored: it is not the one that was taken.
     pub(crate) fn restore(&mut self, system: &System, from: &Learned) -> Result<(), FactorError> {
-        for (guess, learned) in self.predictors.iter_mut().zip(&from.predictors) {
+        for (guess, learned) in self.prediction.predictors.iter_mut().zip(&from.predictors) {
             guess.restore(learned);
         }
-        self.anderson.restore(&from.anderson);
-        self.effort = from.effort;
-        self.backed_off = from.backed_off;
-        self.force_round_off = from.force_round_off;
+        self.newton.anderson.restore(&from.anderson);
+        self.newton.effort = from.effort;
+        self.newton.backed_off = from.backed_off;
+        self.round_off.force = from.force_round_off;
         self.tangent.restore(system.structure(), &from.tangent)
     }
 }

@@ -111,7 +111,7 @@ fn examine(
     let mut work = Workspace::new(system, state, &settings.scheme, representative, kind, equilibrated);
     let scaled = Scaled::new(choice, representative, settings.step_size);
     scaled.to_unit_step(layout, &settings.scheme, state, &mut work.unit);
-    system.begin_step(&state.kinematics, &mut work.joint_starts);
+    system.begin_step(&state.kinematics, &mut work.evaluation.joint_starts);
     let mut equations = StepEquations {
         system,
         scheme: &settings.scheme,
