@@ -300,6 +300,13 @@ mod tests {
     }
 
     #[test]
+    fn files_of_model_and_facade_import_each_other_in_cycles_of_at_most_ten() {
+        for files in ["lissom-model", "lissom"].into_iter().flat_map(of) {
+            assert!(files.len() <= 10, "{} files import each other: {}", files.len(), files.join(", "));
+        }
+    }
+
+    #[test]
     fn folders_of_the_core_stand_on_floors() {
         for name in ["lissom-system", "lissom-core"] {
             let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src");

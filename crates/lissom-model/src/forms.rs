@@ -2,7 +2,8 @@
 
 use crate::context::singular;
 use crate::document::part_tables::part_motion;
-use crate::document::tables::{Holds, tops, variants};
+use crate::document::tables::variants;
+use crate::document::top_level::{Holds, tops};
 use crate::expression::FUNCTION_NAMES;
 use crate::keys::{Key, Shape};
 use crate::manual::words;

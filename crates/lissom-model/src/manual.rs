@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use crate::context::singular;
 use crate::document::part_tables::part_motion;
-use crate::document::tables::{Holds, Top, Variants, tops, variants};
+use crate::document::tables::variants;
+use crate::document::top_level::{Holds, Top, Variants, tops};
 use crate::expression::FUNCTION_NAMES;
 use crate::keys::{Key, Shape, direction};
 use crate::registry::{ChoiceEntry, KindEntry, Registry};

@@ -1,6 +1,7 @@
 //! Keys of a model file whose values are expressed in model axes, for tests and documentation.
 
-use crate::document::tables::{Holds, has_named_entries, tops, variants};
+use crate::document::tables::variants;
+use crate::document::top_level::{Holds, has_named_entries, tops};
 use crate::registry::Registry;
 
 /// A form of an entry of a model file, with the keys whose values are transformed with the part in which it is written.

@@ -6,7 +6,8 @@ use std::fmt::Write;
 
 use crate::context::singular;
 use crate::document::part_tables::part_motion;
-use crate::document::tables::{Holds, Top, Variant, tops, variants};
+use crate::document::tables::variants;
+use crate::document::top_level::{Holds, Top, Variant, tops};
 use crate::keys::{Key, Shape, direction, three_numbers};
 use crate::manual::words;
 use crate::registry::Registry;

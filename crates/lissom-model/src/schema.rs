@@ -5,7 +5,8 @@ use serde_json::{Map, Value, json};
 
 use crate::document::VERSION;
 use crate::document::part_tables::part_motion;
-use crate::document::tables::{Holds, Variant, tops, variants};
+use crate::document::tables::variants;
+use crate::document::top_level::{Holds, Variant, tops};
 use crate::keys::{Key, Shape, direction, three_numbers};
 use crate::registry::Registry;
 use crate::table_values::table_keys;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::document::tables;
+use crate::document::top_level;
 use crate::library::Library;
 use crate::parts::{ROOT, ScopeId};
 use crate::report::{OVERRIDE, Problem, Shift, Sources, Span};
@@ -258,8 +258,8 @@ impl Patch {
     fn is_of_part(&self, root: &Table) -> bool {
         let has_parts = root.get("parts").is_some_and(|entry| entry.node.table().is_some());
         match self.path.as_slice() {
-            [(first, _), (second, _), ..] if tables::tops().any(|top| top.name == first) => {
-                has_parts && tables::has_named_entries(first) && second.contains('.')
+            [(first, _), (second, _), ..] if top_level::tops().any(|top| top.name == first) => {
+                has_parts && top_level::has_named_entries(first) && second.contains('.')
             }
             [_, _, ..] => has_parts,
             _ => false,
@@ -322,7 +322,7 @@ impl Patch {
     /// An override changes existing entries: it cannot add a part, a material or a parameter.
     fn check(&self, root: &Table) -> Result<(), Box<Problem>> {
         let [(first, _), (second, place), ..] = self.path.as_slice() else { return Ok(()) };
-        if !tables::has_named_entries(first) {
+        if !top_level::has_named_entries(first) {
             return Ok(());
         }
         let entries = root.get(first).and_then(|entry| entry.node.table());

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::document::part_tables::part_motion;
-use crate::document::tables::{Variant, variants};
+use crate::document::tables::variants;
+use crate::document::top_level::Variant;
 use crate::keys::{Key, Shape};
 use crate::registry::Registry;
 

@@ -4,9 +4,8 @@ use lissom_core::registry::{Parameter, Parameters};
 use lissom_core::settings::Controlled;
 use lissom_core::solver_features::DisabledFeatures;
 
-use super::decode::of_kind;
+use super::entries::of_kind;
 use crate::context::Context;
-use crate::keys::Shape;
 use crate::reader::Reader;
 use crate::registry::{ChoiceEntry, Registry};
 use crate::report::{Located, Problem, Span};
@@ -167,16 +166,6 @@ pub struct Analysis {
     pub ramp: bool,
     /// The word `analysis`.
     pub span: Span,
-}
-
-/// The range of a scheme's parameter, where its type does not state it.
-pub(super) fn range_of(parameter: &str) -> Option<Shape> {
-    match parameter {
-        // HHT: unconditionally stable and second order from -1/3 to 0.
-        "alpha" => Some(Shape::Between(-1.0 / 3.0, 0.0)),
-        "spectral_radius" => Some(Shape::Between(0.0, 1.0)),
-        _ => None,
-    }
 }
 
 pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Analysis> {

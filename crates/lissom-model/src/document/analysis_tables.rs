@@ -2,7 +2,7 @@
 
 use lissom_core::solver_features::WORDS;
 
-use super::tables::Variant;
+use super::top_level::Variant;
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ChoiceEntry, Registry};
 
@@ -116,7 +116,7 @@ fn motion(mut dynamics: Vec<Key>, registry: &Registry) -> Vec<Key> {
         if !dynamics.iter().any(|key| key.name == parameter.name) {
             let mut key = of_parameter(parameter);
             key.required = false;
-            key.holds = super::analysis::range_of(parameter.name).unwrap_or(key.holds);
+            key.holds = range_of(parameter.name).unwrap_or(key.holds);
             dynamics.push(key);
         }
     }
@@ -180,4 +180,14 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
         Variant { word: "buckling", summary: "Buckling load factors, by a linear estimate.", keys: buckling },
         Variant { word: "modes", summary: "Natural modes about a state at rest.", keys: modes },
     ]
+}
+
+/// The range of a scheme's parameter, where its type does not state it.
+fn range_of(parameter: &str) -> Option<Shape> {
+    match parameter {
+        // HHT: unconditionally stable and second order from -1/3 to 0.
+        "alpha" => Some(Shape::Between(-1.0 / 3.0, 0.0)),
+        "spectral_radius" => Some(Shape::Between(0.0, 1.0)),
+        _ => None,
+    }
 }

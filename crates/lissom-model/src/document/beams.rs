@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
-use super::decode::each;
+use super::entries::each;
 use super::places::PlaceOrNode;
 use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station, Superelement, interface_name};
 use crate::context::Context;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
-use super::decode::each;
+use super::entries::each;
 use super::solids::{solid, surface};
 use super::{Body, Plane, PointMass};
 use crate::context::Context;

@@ -4,7 +4,7 @@ use lissom_core::registry::{Parameters, Value as Held};
 use lissom_motion::Vector3;
 
 use super::connections::Places;
-use super::decode::each_of_kind;
+use super::entries::each_of_kind;
 use super::{Attachment, Component, CoordinateName, NodeReference, assembly};
 use crate::context::Context;
 use crate::keys::Shape;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use lissom_motion::Vector3;
 
-use super::decode::PARTS;
+use super::entries::PARTS;
 use super::{
     AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, OutputSource, PointMass,
     Subject, Superelement, interface_name,

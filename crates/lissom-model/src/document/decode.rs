@@ -7,7 +7,8 @@ use std::sync::Arc;
 use lissom_core::joints::generalized_coordinates::KIND as FREE;
 use lissom_motion::Vector3;
 
-use super::tables::{self, Holds, Variants, variants};
+use super::entries::PARTS;
+use super::top_level::{self, Holds};
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, events, initial, materials,
     outputs, signals, superelements,
@@ -16,7 +17,6 @@ use crate::context::{Context, singular};
 use crate::expression;
 use crate::library::Library;
 use crate::parts;
-use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::{Problem, Report, Severity, Span};
 use crate::suggest;
@@ -151,7 +151,7 @@ fn gravity(context: &Context<'_>, node: &Node) -> Option<Vector3> {
 fn version(context: &Context<'_>) -> Option<()> {
     let Some((node, _)) = context.top("lissom") else {
         let problem = Problem::error(Span::default(), "the file does not specify the version of its format");
-        let help = format!("write `lissom = {}` in the first line", tables::VERSION);
+        let help = format!("write `lissom = {}` in the first line", top_level::VERSION);
         context.report(problem.label("before this").help(help));
         return None;
     };
@@ -159,22 +159,22 @@ fn version(context: &Context<'_>) -> Option<()> {
         Value::Number(number) if number.fract() == 0.0 => Some(number),
         _ => None,
     };
-    if found == Some(tables::VERSION as f64) {
+    if found == Some(top_level::VERSION as f64) {
         return Some(());
     }
     let message = match found {
         Some(found) => format!("version {found} of the format is not supported"),
         None => "the version of the format must be a whole number".to_owned(),
     };
-    let help = format!("this program reads version {0}: write `lissom = {0}`", tables::VERSION);
+    let help = format!("this program reads version {0}: write `lissom = {0}`", top_level::VERSION);
     context.fail(node.span, message, help)
 }
 
 /// Checks the keys at the top level and whether each is a table or a value as required.
 fn check_words(context: &Context<'_>) {
     for (word, span, node) in context.tops() {
-        let Some(top) = tables::tops().find(|top| top.name == word) else {
-            let help = suggest::help(word, tables::tops().map(|top| top.name));
+        let Some(top) = top_level::tops().find(|top| top.name == word) else {
+            let help = suggest::help(word, top_level::tops().map(|top| top.name));
             let problem = Problem::error(span, format!("`{word}` is not a key of a model file"));
             context.report(problem.label("unknown").maybe_help(help));
             continue;
@@ -183,7 +183,7 @@ fn check_words(context: &Context<'_>) {
             context.wrong_type::<()>(node, &format!("`{word}`"), "a table");
         }
     }
-    for top in tables::tops().filter(|top| top.required && context.top(top.name).is_none()) {
+    for top in top_level::tops().filter(|top| top.required && context.top(top.name).is_none()) {
         let message = format!("the model lacks [{}]", top.name);
         let help = if top.name == "analysis" {
             "add it, for example [analysis] with kind = \"dynamics\", end = 1 and step = 1e-3 on lines of their own".to_owned()
@@ -207,9 +207,6 @@ fn check_words(context: &Context<'_>) {
     }
 }
 
-/// Tables of parts.
-pub(super) const PARTS: [&str; 4] = ["beams", "bodies", "point_masses", "superelements"];
-
 /// Longest name of a part, output or anything else, with the parts around it [bytes]: names of files have at most 255.
 const MAX_NAME: usize = 160;
 
@@ -218,7 +215,7 @@ fn check_names(context: &Context<'_>) {
     let usable = |name: &str| {
         !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '))
     };
-    for top in tables::tops().filter(|top| tables::has_named_entries(top.name)) {
+    for top in top_level::tops().filter(|top| top_level::has_named_entries(top.name)) {
         for (name, span, node) in context.entries(top.name) {
             if name.len() > MAX_NAME {
                 let message = format!("a name in [{}] is longer than {MAX_NAME} bytes", top.name);
@@ -290,76 +287,4 @@ fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
 fn points(context: &Context<'_>) -> BTreeMap<String, Vector3> {
     let place = |(name, _): (&str, Span)| Some((name.to_owned(), context.point(name)?));
     context.names("points").into_iter().filter_map(place).collect()
-}
-
-/// Reads every entry of a table that has a single form.
-pub(super) fn each<'c, 'a, T>(
-    context: &'c Context<'a>,
-    table: &'static str,
-    read: impl Fn(&Reader<'c, 'a>, &str) -> Option<T>,
-) -> Vec<T>
-where
-    'a: 'c,
-{
-    let mut all = Vec::new();
-    let entries = context.entries(table);
-    if entries.is_empty() {
-        return all;
-    }
-    let Some(form) = variants(table, &Registry::default()).all.into_iter().next() else { return all };
-    for (name, span, node) in entries {
-        let words = format!("{} `{name}`", singular(table));
-        let reader = Reader::open(context, node, (words, span), form.keys.clone());
-        all.extend(reader.and_then(|reader| read(&reader, name)));
-    }
-    all
-}
-
-/// Reads every entry of a table whose form is chosen by a word.
-pub(super) fn each_of_kind<'c, 'a, T>(
-    context: &'c Context<'a>,
-    table: &'static str,
-    registry: &Registry,
-    read: impl Fn(&Reader<'c, 'a>, &str, &str) -> Option<T>,
-) -> Vec<T>
-where
-    'a: 'c,
-{
-    let mut all = Vec::new();
-    let entries = context.entries(table);
-    if entries.is_empty() {
-        return all;
-    }
-    // All forms of a table are built once for its entries: they take longer than an entry.
-    let forms = variants(table, registry);
-    for (name, span, node) in entries {
-        let words = format!("{} `{name}`", singular(table));
-        all.extend(
-            of_form(context, &forms, (node, words, span))
-                .and_then(|(reader, word)| read(&reader, name, word)),
-        );
-    }
-    all
-}
-
-/// Opens a table whose form is chosen by a word, and gives the word.
-pub(super) fn of_kind<'c, 'a>(
-    context: &'c Context<'a>,
-    table: &str,
-    (node, words, span): (&'c Node, String, Span),
-    registry: &Registry,
-) -> Option<(Reader<'c, 'a>, &'static str)> {
-    of_form(context, &variants(table, registry), (node, words, span))
-}
-
-/// Opens a table that has one of `forms`.
-fn of_form<'c, 'a>(
-    context: &'c Context<'a>,
-    forms: &Variants,
-    (node, words, span): (&'c Node, String, Span),
-) -> Option<(Reader<'c, 'a>, &'static str)> {
-    let chosen = crate::reader::tag(context, node, forms.tag?, &forms.words(), (&words, span))?;
-    let form = forms.all.iter().find(|form| form.word == chosen.value)?;
-    let reader = Reader::open(context, node, (words, span), form.keys.clone())?;
-    Some((reader, form.word))
 }

@@ -3,7 +3,7 @@
 use lissom_core::signals::event::Direction;
 
 use super::analysis::{Analysis, AnalysisKind};
-use super::decode::each;
+use super::entries::each;
 use crate::context::Context;
 use crate::expression::Formula;
 use crate::keys::{Key, Shape, choice, optional, required};

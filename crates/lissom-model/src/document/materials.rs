@@ -2,7 +2,7 @@
 
 use lissom_motion::{Matrix3, Matrix6, Vector3};
 
-use super::decode::{each, each_of_kind};
+use super::entries::{each, each_of_kind};
 use super::{Material, Section};
 use crate::context::Context;
 use crate::keys::Shape as Holds;

@@ -10,6 +10,7 @@ mod components;
 mod connections;
 pub(crate) mod decode;
 mod distributed;
+mod entries;
 mod events;
 mod initial;
 mod load_input;
@@ -22,6 +23,7 @@ mod signals;
 mod solids;
 mod superelements;
 pub(crate) mod tables;
+pub(crate) mod top_level;
 mod unloaded;
 
 use std::collections::BTreeMap;
@@ -49,7 +51,7 @@ pub use output_kinds::OutputKind;
 pub(crate) use output_kinds::{Declaration, Feature, Feeds, OutputComponent, Subject};
 pub use outputs::{Output, OutputSource, ReactionAxes};
 pub use signals::{SignalEntry, StateEntry};
-pub use tables::VERSION;
+pub use top_level::VERSION;
 
 /// A model as it was written, checked.
 ///

@@ -3,7 +3,7 @@
 use lissom_motion::Vector3;
 
 use super::NodeReference;
-use super::decode::each_of_kind;
+use super::entries::each_of_kind;
 use super::output_kinds::{Feature, OutputKind, Subject};
 use crate::context::Context;
 use crate::expression::Formula;

@@ -1,6 +1,6 @@
 //! Keys of parts, of positions relative to parts, and of motions at the start.
 
-use super::tables::{TOP, has_named_entries};
+use super::top_level::{TOP, has_named_entries};
 use crate::keys::{Key, Shape, optional, required};
 
 /// Key of the part in whose frame an entry is placed.

@@ -3,7 +3,7 @@
 use lissom_motion::Vector3;
 
 use super::NodeReference;
-use super::decode::PARTS;
+use super::entries::PARTS;
 use crate::context::Context;
 use crate::parts::ScopeId;
 use crate::report::{Located, Problem, Span};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::decode::each;
+use super::entries::each;
 use crate::context::{Context, singular};
 use crate::expression::{self, Formula};
 use crate::keys::Shape;

@@ -7,7 +7,7 @@ use lissom_motion::Vector3;
 use nalgebra::DMatrix;
 
 use super::bodies::{axes, position};
-use super::decode::each;
+use super::entries::each;
 use super::{Interface, Superelement};
 use crate::context::Context;
 use crate::keys::Shape;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::{Expanded, MAX_PARTS, Outside, PLACED_TABLES, Placement, ROOT, Scope, ScopeId, overrides};
 use crate::document::part_tables;
-use crate::document::tables::{self, VERSION};
+use crate::document::top_level::{self, VERSION};
 use crate::library::{Library, joined};
 use crate::report::{Origin, Problem, Shift, Sources, Span};
 use crate::suggest;
@@ -239,7 +239,7 @@ impl Expansion<'_> {
         };
         let given = self.entries(name, table, "parameters")?;
         let handed = self.entries(name, table, "names")?;
-        let is_content = |word: &&String| tables::has_named_entries(word) && word.as_str() != "parameters";
+        let is_content = |word: &&String| top_level::has_named_entries(word) && word.as_str() != "parameters";
         let inline = table.keys().find(is_content).cloned();
         match (table.get("include"), table.get("like"), inline) {
             (Some(include), None, None) => {
@@ -278,7 +278,7 @@ impl Expansion<'_> {
                 if let Some((_, entry)) = handed.first_key_value() {
                     return self.fail(entry.key, format!("part `{name}` knows the names around it"), "leave out `names`: they are for included files");
                 }
-                let content: Table = table.iter().filter(|(word, _)| tables::has_named_entries(word)).map(|(word, entry)| (word.clone(), entry.clone())).collect();
+                let content: Table = table.iter().filter(|(word, _)| top_level::has_named_entries(word)).map(|(word, entry)| (word.clone(), entry.clone())).collect();
                 let is_own = !table.contains_key("count");
                 Some(Content { table: content, file: None, given: BTreeMap::new(), handed, placements: vec![own], is_own })
             }
@@ -502,7 +502,7 @@ impl Expansion<'_> {
     /// Puts entries into the model's tables.
     fn merge(&mut self, table: &Table, prefix: &str) {
         for (word, entry) in table {
-            if !tables::has_named_entries(word) || matches!(word.as_str(), "parameters" | "parts") {
+            if !top_level::has_named_entries(word) || matches!(word.as_str(), "parameters" | "parts") {
                 continue;
             }
             let Value::Table(inner) = &entry.node.value else {
@@ -534,13 +534,13 @@ fn wrong_word(word: &str, node: &Node) -> Option<(String, String)> {
             "this version of the format is not supported".to_owned(),
             format!("write `lissom = {VERSION}`"),
         )),
-        word if tables::has_named_entries(word) => None,
-        word if tables::tops().any(|top| top.name == word) => Some((
+        word if top_level::has_named_entries(word) => None,
+        word if top_level::tops().any(|top| top.name == word) => Some((
             format!("`{word}` is not allowed in an included file: it belongs to the model as a whole"),
             "move it to the model's own file".to_owned(),
         )),
         word => {
-            let help = suggest::help(word, tables::tops().map(|top| top.name))
+            let help = suggest::help(word, top_level::tops().map(|top| top.name))
                 .unwrap_or_else(|| "leave it out".to_owned());
             Some((format!("`{word}` is not a key of a model file"), help))
         }

@@ -1,36 +1,13 @@
 //! Frames of scopes and bodies, and positions of points, each computed when it is first requested.
 
-use std::cell::RefCell;
-use std::collections::BTreeMap;
-
 use lissom_motion::{Motion, Rotation, Vector3};
 
+use super::found_frames::{Finding, Wanted};
 use super::{Placement, ScopeId};
 use crate::context::Context;
 use crate::document::body_axes;
 use crate::report::{Problem, Span};
 use crate::text::{Node, Value};
-
-/// The request.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Wanted {
-    Scope(ScopeId),
-    Body(String),
-    Point(String),
-}
-
-/// How far a frame is known.
-#[derive(Clone, Copy)]
-enum Finding {
-    /// It is being found.
-    Begun,
-    /// It is known; nothing where it could not be read.
-    Done(Option<Motion>),
-}
-
-/// Frames that are known, or being found.
-#[derive(Default)]
-pub(crate) struct Frames(RefCell<BTreeMap<Wanted, Finding>>);
 
 impl Context<'_> {
     /// The frame in which positions of `scope` are given.

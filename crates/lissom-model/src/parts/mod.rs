@@ -2,6 +2,7 @@
 //! names such as `leg2.rod`. The meaning of a name, a parameter or a position depends on its scope.
 
 mod expand;
+mod found_frames;
 mod frames;
 mod names;
 mod overrides;
@@ -14,7 +15,7 @@ use crate::report::{Sources, Span};
 use crate::text::{Node, Table};
 
 pub(crate) use expand::expand;
-pub(crate) use frames::Frames;
+pub(crate) use found_frames::Frames;
 
 /// Number of a scope.
 pub(crate) type ScopeId = usize;

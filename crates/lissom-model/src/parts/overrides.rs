@@ -2,7 +2,7 @@
 
 use super::Expanded;
 use crate::context::singular;
-use crate::document::tables;
+use crate::document::top_level;
 use crate::report::Problem;
 use crate::suggest;
 use crate::text::Patch;
@@ -11,12 +11,12 @@ use crate::text::Patch;
 pub(super) fn apply(mut patch: Patch, into: &mut Expanded) -> Result<(), Box<Problem>> {
     let names: Vec<&str> = patch.path.iter().map(|(name, _)| name.as_str()).collect();
     let place = patch.path.first().map(|(_, span)| *span).unwrap_or_default();
-    if names.first().is_some_and(|first| tables::tops().any(|top| top.name == *first)) {
+    if names.first().is_some_and(|first| top_level::tops().any(|top| top.name == *first)) {
         return patch.apply(&mut into.root);
     }
-    let words: Vec<&str> = tables::tops()
+    let words: Vec<&str> = top_level::tops()
         .map(|top| top.name)
-        .filter(|word| tables::has_named_entries(word) && !matches!(*word, "parts" | "parameters"))
+        .filter(|word| top_level::has_named_entries(word) && !matches!(*word, "parts" | "parameters"))
         .collect();
     let has = |word: &str, name: &str| {
         into.root.get(word).and_then(|entry| entry.node.table()).is_some_and(|table| table.contains_key(name))

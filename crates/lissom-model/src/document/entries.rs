@@ -1,0 +1,84 @@
+//! The entries of a table, each opened in its form.
+
+use super::tables::variants;
+use super::top_level::Variants;
+use crate::context::{Context, singular};
+use crate::reader::Reader;
+use crate::registry::Registry;
+use crate::report::Span;
+use crate::text::Node;
+
+/// Tables of parts.
+pub(super) const PARTS: [&str; 4] = ["beams", "bodies", "point_masses", "superelements"];
+
+/// Reads every entry of a table that has a single form.
+pub(super) fn each<'c, 'a, T>(
+    context: &'c Context<'a>,
+    table: &'static str,
+    read: impl Fn(&Reader<'c, 'a>, &str) -> Option<T>,
+) -> Vec<T>
+where
+    'a: 'c,
+{
+    let mut all = Vec::new();
+    let entries = context.entries(table);
+    if entries.is_empty() {
+        return all;
+    }
+    let Some(form) = variants(table, &Registry::default()).all.into_iter().next() else { return all };
+    for (name, span, node) in entries {
+        let words = format!("{} `{name}`", singular(table));
+        let reader = Reader::open(context, node, (words, span), form.keys.clone());
+        all.extend(reader.and_then(|reader| read(&reader, name)));
+    }
+    all
+}
+
+/// Reads every entry of a table whose form is chosen by a word.
+pub(super) fn each_of_kind<'c, 'a, T>(
+    context: &'c Context<'a>,
+    table: &'static str,
+    registry: &Registry,
+    read: impl Fn(&Reader<'c, 'a>, &str, &str) -> Option<T>,
+) -> Vec<T>
+where
+    'a: 'c,
+{
+    let mut all = Vec::new();
+    let entries = context.entries(table);
+    if entries.is_empty() {
+        return all;
+    }
+    // All forms of a table are built once for its entries: they take longer than an entry.
+    let forms = variants(table, registry);
+    for (name, span, node) in entries {
+        let words = format!("{} `{name}`", singular(table));
+        all.extend(
+            of_form(context, &forms, (node, words, span))
+                .and_then(|(reader, word)| read(&reader, name, word)),
+        );
+    }
+    all
+}
+
+/// Opens a table whose form is chosen by a word, and gives the word.
+pub(super) fn of_kind<'c, 'a>(
+    context: &'c Context<'a>,
+    table: &str,
+    (node, words, span): (&'c Node, String, Span),
+    registry: &Registry,
+) -> Option<(Reader<'c, 'a>, &'static str)> {
+    of_form(context, &variants(table, registry), (node, words, span))
+}
+
+/// Opens a table that has one of `forms`.
+fn of_form<'c, 'a>(
+    context: &'c Context<'a>,
+    forms: &Variants,
+    (node, words, span): (&'c Node, String, Span),
+) -> Option<(Reader<'c, 'a>, &'static str)> {
+    let chosen = crate::reader::tag(context, node, forms.tag?, &forms.words(), (&words, span))?;
+    let form = forms.all.iter().find(|form| form.word == chosen.value)?;
+    let reader = Reader::open(context, node, (words, span), form.keys.clone())?;
+    Some((reader, form.word))
+}
