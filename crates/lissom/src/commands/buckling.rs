@@ -7,8 +7,9 @@ use clap::Args;
 use lissom::buckling::{BucklingReport, BucklingRunError, buckling, of_request};
 use lissom::{Document, Model, Override};
 
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 use lissom_core::number::{Written, duration};
 

@@ -7,8 +7,9 @@ use clap::Args;
 use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell};
 use lissom::summary;
 
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 use lissom_core::number::{Written, duration};
 

@@ -12,7 +12,8 @@ use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, check_run, lower};
 use serde_json::{Value, json};
 
-use super::{Exit, Failure, ModelArguments, show_warnings, warn};
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use crate::terminal;
 
 /// Check a model without simulating it: errors, size, degrees of freedom, redundant constraints.

@@ -3,8 +3,9 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
+use super::Line;
+use super::outcome::{Exit, Failure};
 use super::results::writing_failed;
-use super::{Exit, Failure, Line};
 use crate::terminal;
 
 /// Print the completion script for a shell.

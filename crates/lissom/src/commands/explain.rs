@@ -7,7 +7,7 @@ use lissom::catalogue;
 use lissom_core::diagnostics::Entry;
 use serde_json::Value;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// Explain warnings and failures, by code, by words of the message, or all that a run has reported.

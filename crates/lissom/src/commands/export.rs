@@ -9,7 +9,7 @@ use lissom::import::{from_model, to_urdf};
 use lissom::{Model, Override, ResultFolder};
 use lissom_model::files;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// Export results to ParaView, Blender, NumPy or pandas, or a model of rigid bodies as URDF.
@@ -42,7 +42,7 @@ pub(super) struct Export {
     frames: u64,
 
     /// For `urdf`: override a value of the model, such as `bodies.arm.mass=2`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
     /// For `urdf`: omit elements that the format cannot express, such as loads and springs.

@@ -6,7 +6,8 @@ use clap::Args;
 use lissom::fmu::{FmuError, LIBRARY, export, platform};
 use lissom_model::files;
 
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings};
 use crate::terminal;
 
 /// Export a model as a functional mock-up unit (FMI 3.0, co-simulation), for Simulink, Modelica tools and others.

@@ -7,7 +7,8 @@ use clap::Args;
 use lissom::gradient::{Confirmation, GradientError, GradientReport, Target, gradient};
 use lissom::{FolderError, ResultFolder, summary};
 
-use super::{Exit, Failure, ModelArguments, show_warnings, warn};
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use crate::terminal;
 use lissom_core::number::{Written, duration};
 

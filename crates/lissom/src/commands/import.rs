@@ -7,7 +7,7 @@ use lissom::import::{Freedom, Options, Pose, Root, Unsupported, from_description
 use lissom::{Diagnose, Diagnostic, Model, SessionError};
 use lissom_model::files;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// Convert a robot description (URDF, MJCF) to a model file: bodies, joints, limits, springs, damping and friction.

@@ -9,8 +9,8 @@ use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
+use super::outcome::{Exit, Failure, show_warnings};
 use super::results::writing_failed;
-use super::{Exit, Failure, show_warnings};
 
 /// Scene of a model in its initial state.
 pub(super) struct InitialScene {

@@ -11,7 +11,7 @@ use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry
 use lissom_model::{Form, FormKey, forms, function_names, meant, topic, topics};
 use serde_json::{Value, json};
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// List kinds, keys, functions and schemes of model files.

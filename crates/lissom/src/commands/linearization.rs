@@ -4,7 +4,7 @@ use clap::Args;
 use lissom::modes::OperatingPoint;
 use lissom::response::FrequencyError;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 
 /// State about which the model is linearised.
 #[derive(Args)]

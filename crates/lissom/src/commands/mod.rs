@@ -16,8 +16,10 @@ mod linearize;
 mod live;
 #[cfg(test)]
 mod manual;
+mod model_arguments;
 mod modes;
 mod new;
+pub(crate) mod outcome;
 mod path;
 mod plot;
 mod reduce;
@@ -30,76 +32,11 @@ mod study;
 mod sweep;
 mod view;
 
-use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
-use lissom::{CommandError, Diagnose, Diagnostic, Document, Model, Override, Report, with_code};
+use clap::{Parser, Subcommand};
 
 use crate::terminal;
-
-/// Exit code of the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Exit {
-    /// Success.
-    Done,
-    /// The model or the command line is invalid.
-    BadModel,
-    /// There is no solution, or it cannot be written.
-    Failed,
-    /// Ctrl-C.
-    Interrupted,
-}
-
-impl Exit {
-    /// The exit code.
-    pub(crate) fn code(self) -> u8 {
-        match self {
-            Self::Done => 0,
-            Self::BadModel => 2,
-            Self::Failed => 3,
-            Self::Interrupted => 130,
-        }
-    }
-}
-
-/// The failure of a command: exit code and message.
-pub(crate) struct Failure {
-    exit: Exit,
-    words: String,
-}
-
-impl Failure {
-    /// A failure with its code.
-    fn new(exit: Exit, error: &impl Diagnose) -> Self {
-        Self::with_details(exit, &error.diagnostic(), "")
-    }
-
-    /// Arguments that do not match each other or what they name.
-    fn request(reason: impl Into<String>) -> Self {
-        Self::new(Exit::BadModel, &CommandError::Request(reason.into()))
-    }
-
-    /// A failure with its code. The lines `details` follow the message.
-    fn with_details(exit: Exit, diagnostic: &Diagnostic, details: &str) -> Self {
-        let explained = explained(diagnostic.code);
-        let remedy = diagnostic.remedy().map_or_else(String::new, |remedy| format!("  remedy: {remedy}\n"));
-        Self { exit, words: format!("error: {}\n{remedy}{details}{explained}", diagnostic.cause) }
-    }
-}
-
-impl From<Report> for Failure {
-    fn from(report: Report) -> Self {
-        let explained = explained(report.diagnostic().code);
-        let words = report.render(terminal::in_colour()) + &format!("{report}\n{explained}");
-        Self { exit: Exit::BadModel, words }
-    }
-}
-
-/// The command that explains a code, as a line below a message.
-fn explained(code: &str) -> String {
-    format!("  `lissom explain {code}` explains it\n")
-}
 
 /// The help of the program: its commands by topic.
 const HELP: &str = "\
@@ -230,59 +167,6 @@ impl Line {
             failure.exit
         });
         ExitCode::from(exit.code())
-    }
-}
-
-/// A model file and its overrides, for every command that reads a model.
-#[derive(Args)]
-struct ModelArguments {
-    /// The model file.
-    #[arg(value_name = "MODEL.toml")]
-    model: PathBuf,
-
-    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
-    set: Vec<Override>,
-
-    /// Remove a value or an entry from the model, such as `analysis.step` or `springs.damper`; may be repeated.
-    #[arg(long, value_name = "PATH")]
-    unset: Vec<String>,
-}
-
-impl ModelArguments {
-    /// The text and the checked document.
-    fn read(&self) -> Result<(Model, Document), Failure> {
-        let model = Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let model = model.without(self.unset.clone());
-        let document = model.document(&self.set)?;
-        Ok((model, document))
-    }
-
-    /// The folder for results: the given one, or out/<name of the model file>-`of`.
-    fn folder(&self, given: Option<PathBuf>, of: &str) -> PathBuf {
-        let stem = self.model.file_stem().unwrap_or_default().to_string_lossy();
-        given.unwrap_or_else(|| Path::new("out").join(format!("{stem}-{of}")))
-    }
-}
-
-fn parse_override(text: &str) -> Result<Override, String> {
-    match text.split_once('=') {
-        Some((path, value)) if !path.trim().is_empty() => {
-            Ok((path.trim().to_owned(), value.trim().to_owned()))
-        }
-        _ => Err("it must be PATH=VALUE, such as `analysis.step=1e-4`".to_owned()),
-    }
-}
-
-/// Shows a warning with its code on the terminal.
-fn warn(warning: &impl Diagnose) {
-    terminal::complain(&format!("warning: {}\n", with_code(warning)));
-}
-
-/// The warnings of a model, on the terminal.
-fn show_warnings(document: &Document) {
-    if !document.warnings.is_empty() {
-        terminal::complain(&document.warnings.render(terminal::in_colour()));
     }
 }
 

@@ -15,8 +15,9 @@ use lissom_core::number::{DIGITS, duration, written};
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::{folder_for, unwritable, writing_failed};
-use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 
 /// Maximum number of nodes of models whose shapes are drawn: for larger ones drawing would take longer than the modes.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lissom_model::files;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// The model, complete except for its title.

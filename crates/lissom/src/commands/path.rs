@@ -8,7 +8,7 @@ use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_reques
 use lissom::{Diagnose, Document, FolderError, Model, Override, ResultFolder, Writer};
 use lissom_model::output::CurveRecord;
 
-use super::{Exit, Failure, show_warnings, warn};
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
 use lissom_core::number::{Written, duration};
 

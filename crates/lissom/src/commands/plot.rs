@@ -7,7 +7,7 @@ use lissom::{FolderError, Record, ResultFolder};
 use lissom_model::output::CurveRecord;
 use lissom_model::output::{Over, Source, plots};
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// Plot the `history.csv` of one or several folders of results.

@@ -8,8 +8,9 @@ use lissom::response::{DEFAULT_POINTS, ResponseReport, ResponseRequest, response
 use lissom::summary;
 
 use super::linearization::{StateArgument, answered};
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::{folder_for, unwritable};
-use super::{Exit, Failure, ModelArguments, show_warnings, warn};
 use crate::terminal;
 use lissom_core::number::{Written, duration};
 

@@ -7,7 +7,7 @@ use std::path::Path;
 use lissom::{Diagnose, FolderError, ResultFolder, RunError};
 use lissom_model::output::Summary;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 
 /// The folder for `found`, with earlier results removed. A failed analysis writes its `summary` to it, with the
 /// reason.

@@ -21,8 +21,8 @@ use lissom_model::lower::{Assembly, Lowered, check_run, lower};
 use lissom_model::output::CurveRecord;
 use lissom_model::scene::Scene;
 
+use super::outcome::{Exit, Failure, show_warnings, warn};
 use super::results::unwritable;
-use super::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Bar, Interrupt};
 
 /// Simulate a model as specified in its table `[analysis]`.
@@ -48,7 +48,7 @@ pub(super) struct Run {
     model: Option<PathBuf>,
 
     /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
     /// Remove a value or an entry from the model, such as `analysis.step` or `springs.damper`; may be repeated.

@@ -3,7 +3,7 @@
 use clap::Args;
 use lissom_model::lower::registry::registry;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal;
 
 /// Print the JSON schema of model files, for completion and validation in editors.

@@ -11,8 +11,8 @@ use lissom_model::output::{DrawingError, animation};
 use lissom_model::scene::Scene;
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
+use super::outcome::{Exit, Failure};
 use super::run::Run;
-use super::{Exit, Failure};
 use crate::terminal;
 
 /// Draw a mechanism at one or several instants, as SVG or PNG.
@@ -80,7 +80,7 @@ pub(super) struct Snapshot {
     initial: bool,
 
     /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
     /// Print neither progress nor a summary.

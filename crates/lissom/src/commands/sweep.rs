@@ -17,7 +17,7 @@ use lissom_core::number::duration;
 use lissom_model::files;
 use serde_json::json;
 
-use super::{Exit, Failure};
+use super::outcome::{Exit, Failure};
 use crate::terminal::{self, Interrupt};
 
 /// Maximum number of unsolved members listed in the message.
@@ -52,7 +52,7 @@ pub(super) struct SweepCommand {
     file: PathBuf,
 
     /// Override a value in all members, such as `analysis.step=1e-4`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
     /// Folder for the results [default: out/<name of the sweep file>].

@@ -10,8 +10,8 @@ use lissom::{CommandError, FileError, Override, ResultFolder};
 use lissom_model::files;
 
 use super::initial_scene::{InitialScene, refuse_what_does_not_move};
+use super::outcome::{Exit, Failure};
 use super::run::Run;
-use super::{Exit, Failure};
 use crate::terminal;
 
 /// Show results as an animation with plots, in one HTML file for any browser.
@@ -45,7 +45,7 @@ pub(super) struct View {
     initial: bool,
 
     /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
     /// Folder for the results of a model [default: out/<name of the model file>].

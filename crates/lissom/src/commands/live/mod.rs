@@ -13,8 +13,8 @@ use std::time::Duration;
 use clap::Args;
 use lissom::{CommandError, Model, Override};
 
+use super::outcome::{Exit, Failure, warn};
 use super::view::open;
-use super::{Exit, Failure, warn};
 use crate::terminal::{self, Interrupt};
 use simulation::Shared;
 
@@ -40,7 +40,7 @@ pub(super) struct Live {
     model: PathBuf,
 
     /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::model_arguments::parse_override)]
     set: Vec<Override>,
 
     /// Port of the page [default: any free port].

@@ -8,7 +8,8 @@ use lissom::Model;
 use lissom::study::conditioning::{Measured, Request, SCALINGS, Table, study};
 use lissom_core::simulation::ConditionMethod;
 
-use super::super::{Exit, Failure, ModelArguments, show_warnings};
+use super::super::model_arguments::ModelArguments;
+use super::super::outcome::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Interrupt};
 
 /// Show the conditioning of the equations over the step size, with and without scaling.

@@ -7,7 +7,8 @@ use clap::Args;
 use lissom::study::convergence::{Request, Table, study};
 use lissom::{AnalysisWarning, Diagnose, Model};
 
-use super::super::{Exit, Failure, ModelArguments, show_warnings, warn};
+use super::super::model_arguments::ModelArguments;
+use super::super::outcome::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
 
 /// Show the convergence of schemes: relative error and observed order over the step size.

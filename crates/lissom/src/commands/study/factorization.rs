@@ -7,7 +7,8 @@ use clap::Args;
 use lissom::study::factorization::{Table, scaling_name, study};
 use lissom_core::studies::factorization::{Case, ITERATIONS};
 
-use super::super::{Exit, Failure, ModelArguments, show_warnings};
+use super::super::model_arguments::ModelArguments;
+use super::super::outcome::{Exit, Failure, show_warnings};
 use crate::terminal;
 
 /// Show whether the equations can be factored without pivoting, and how accurately they are solved.

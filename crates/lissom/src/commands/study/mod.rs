@@ -16,7 +16,7 @@ use lissom::study::{StudyError, Watch};
 use lissom_model::files;
 use lissom_model::output::LogFigure;
 
-use super::{Exit, Failure, warn};
+use super::outcome::{Exit, Failure, warn};
 use crate::terminal::Interrupt;
 
 /// Study the effects of scaling, scheme, step size and solver on a model.

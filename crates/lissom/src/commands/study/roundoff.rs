@@ -7,7 +7,8 @@ use clap::Args;
 use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
 use lissom::{Diagnose, Model};
 
-use super::super::{Exit, Failure, ModelArguments, show_warnings, warn};
+use super::super::model_arguments::ModelArguments;
+use super::super::outcome::{Exit, Failure, show_warnings, warn};
 use crate::terminal::{self, Interrupt};
 
 /// Show the round-off of an output, such as a reaction, at tiny steps.

@@ -1,0 +1,49 @@
+//! A model file and its overrides on the command line.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::{Document, Model, Override};
+
+use super::outcome::{Exit, Failure};
+
+/// A model file and its overrides, for every command that reads a model.
+#[derive(Args)]
+pub(super) struct ModelArguments {
+    /// The model file.
+    #[arg(value_name = "MODEL.toml")]
+    pub(super) model: PathBuf,
+
+    /// Override a value of the model, such as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
+    pub(super) set: Vec<Override>,
+
+    /// Remove a value or an entry from the model, such as `analysis.step` or `springs.damper`; may be repeated.
+    #[arg(long, value_name = "PATH")]
+    pub(super) unset: Vec<String>,
+}
+
+impl ModelArguments {
+    /// The text and the checked document.
+    pub(super) fn read(&self) -> Result<(Model, Document), Failure> {
+        let model = Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        let model = model.without(self.unset.clone());
+        let document = model.document(&self.set)?;
+        Ok((model, document))
+    }
+
+    /// The folder for results: the given one, or out/<name of the model file>-`of`.
+    pub(super) fn folder(&self, given: Option<PathBuf>, of: &str) -> PathBuf {
+        let stem = self.model.file_stem().unwrap_or_default().to_string_lossy();
+        given.unwrap_or_else(|| Path::new("out").join(format!("{stem}-{of}")))
+    }
+}
+
+pub(super) fn parse_override(text: &str) -> Result<Override, String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => {
+            Ok((path.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("it must be PATH=VALUE, such as `analysis.step=1e-4`".to_owned()),
+    }
+}
