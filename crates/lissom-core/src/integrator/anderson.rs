@@ -1,13 +1,13 @@
-//! Estimates from earlier corrections of the error of a kept tangent: secants. A tangent that is old leaves something of each
-//! correction to the next ones, in a few directions that are the same from iteration to iteration and from step to
-//! step. Those are seen and taken away [Anderson 1965; Fang and Saad 2009, type II].
+//! Secant updates of a reused tangent (Anderson acceleration). An outdated tangent leaves a fraction of each correction to the next
+//! ones, in a few directions that are the same from iteration to iteration and from step to step. These errors are estimated from
+//! earlier corrections and removed [Anderson 1965; Fang and Saad 2009, type II].
 //!
 //! ```text
-//! d_k  correction by the kept tangent,   s_k  correction made,   Δ_i = d_{i+1} - d_i,   P_i = s_i + Δ_i
+//! d_k  correction by the reused tangent,   s_k  correction applied,   Δ_i = d_{i+1} - d_i,   P_i = s_i + Δ_i
 //! s_k = d_k - Σ γ_i P_i,   γ = argmin |d_k - Σ γ_i Δ_i|
 //! ```
 //!
-//! Where the tangent is exact, P = 0 and nothing changes.
+//! If the tangent is exact, P = 0 and the correction is not changed.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -16,40 +16,41 @@ use serde::{Deserialize, Serialize};
 use super::corrections::{Processor, processor, product};
 use crate::tuning::{Tuning, TuningParameter};
 
-/// Most secants in use.
+/// Maximum number of secants.
 const MAX_SECANTS: usize = 5;
-/// Secants that are less independent of newer ones are left out.
+/// Smallest pivot of a secant relative to its squared norm; secants below it depend linearly on newer ones and are skipped.
 const INDEPENDENT: f64 = 3e-4;
-/// A secant is used for corrections up to so many times as large: beyond, its round-off would dominate.
+/// Largest ratio of a correction to a secant for which the secant is used: its round-off is amplified by this ratio.
 const REACH: f64 = 10.0;
-/// Corrections below this are not examined: they may be round-off, and an error of this size is small [scaled].
+/// Corrections below this are not checked for contradicting secants: they may be round-off, and an error of this size is small
+/// [scaled].
 const MIN_EXAMINED: f64 = 1e-10;
-/// Least fraction of a correction that secants leave.
+/// Smallest fraction of a correction that may remain after the secants are subtracted.
 const MIN_REMAINING: f64 = 0.1;
 
-/// The last corrections, of all stages.
+/// History of corrections, of all stages together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Anderson {
     /// Weights of the coordinates.
     sizes: Vec<f64>,
     /// Δ, weighted, by stage and coordinate.
     changes: [Vec<f64>; MAX_SECANTS],
-    /// P, by stage and row.
+    /// P, by stage and row: error of the tangent along a correction.
     departures: [Vec<f64>; MAX_SECANTS],
-    /// Their weighted sizes.
+    /// Weighted norms of P.
     departure_sizes: [f64; MAX_SECANTS],
-    /// Products of the changes.
+    /// Inner products of the Δ.
     products: [[f64; MAX_SECANTS]; MAX_SECANTS],
-    /// Most secants in use: fewer than there are directions.
+    /// Maximum number of secants in use, limited by the number of coordinates.
     most: usize,
-    /// Secants known, and where the next one goes.
+    /// Number of stored secants, and slot of the next one.
     known: usize,
     next: usize,
-    /// Whether the last correction is known.
+    /// Whether the next correction continues the last one, so that their difference is a secant.
     goes_on: bool,
-    /// d - s of that one, by stage and row.
+    /// d - s of the last correction, by stage and row.
     taken: Vec<f64>,
-    /// d of that one and of the present one, weighted.
+    /// Weighted d of the last and of the present correction.
     last_weighted: Vec<f64>,
     weighted: Vec<f64>,
     #[serde(skip)]
@@ -57,7 +58,7 @@ pub(crate) struct Anderson {
 }
 
 impl Anderson {
-    /// None yet, for `stages` stages of `size` rows, of which the first are coordinates of these `sizes`.
+    /// No secants, for `stages` stages of `size` rows, of which the first are coordinates with the weights `sizes`.
     pub(crate) fn new(stages: usize, size: usize, sizes: &[f64]) -> Self {
         let (rows, coordinates) = (stages * size, stages * sizes.len());
         Self {
@@ -77,26 +78,26 @@ impl Anderson {
         }
     }
 
-    /// Forgets everything: the tangent is another one.
+    /// Discards all secants: the tangent has changed.
     pub(crate) fn forget(&mut self) {
         self.known = 0;
         self.next = 0;
         self.goes_on = false;
     }
 
-    /// Takes over what another one has learned.
+    /// Copies the secants of another history.
     pub(crate) fn restore(&mut self, from: &Self) {
         let processor = self.processor;
         self.clone_from(from);
         self.processor = processor;
     }
 
-    /// The next correction does not follow on the last one.
+    /// Marks that the next correction is not the continuation of the last one.
     pub(crate) fn interrupt(&mut self) {
         self.goes_on = false;
     }
 
-    /// Improves the corrections of all stages.
+    /// Improves the corrections of all stages in place.
     pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>], tuning: &Tuning) {
         self.processor.0.dispatch(Improve { secants: self, corrections, tuning });
     }
@@ -123,9 +124,9 @@ impl Anderson {
         }
     }
 
-    /// Whether the secants leave so little of a correction that they contradict each other: a tangent whose corrections converge does
-    /// not make them many times too long. Secants of earlier equations, such as those of another step size, may predict what newer
-    /// ones disprove; the iteration would then stop although the residual is large.
+    /// Whether the secants contradict each other: they leave a negligible fraction of the correction. A tangent whose iteration
+    /// converges does not overestimate corrections so much. Secants of earlier equations, such as those of another step size, can be
+    /// inconsistent with newer ones; the iteration would then stop although the residual is large.
     #[inline(always)]
     fn contradict_each_other(&self, shares: &[f64; MAX_SECANTS]) -> bool {
         let whole = product(&self.last_weighted, &self.last_weighted);
@@ -144,7 +145,7 @@ impl Anderson {
         remaining < MIN_REMAINING * MIN_REMAINING * whole
     }
 
-    /// Σ γ P.
+    /// Computes Σ γ P.
     #[inline(always)]
     fn take(&mut self, shares: &[f64; MAX_SECANTS]) {
         let mut is_first = true;
@@ -175,7 +176,7 @@ impl Anderson {
         }
     }
 
-    /// Records the secant from the last correction to this one.
+    /// Stores the secant between the last correction and this one.
     #[inline(always)]
     fn note(&mut self, corrections: &[Vec<f64>], credible: f64) {
         let slot = self.next;
@@ -191,7 +192,7 @@ impl Anderson {
             for ((departure, taken), value) in into.iter_mut().zip(&self.taken[own]).zip(corrections) {
                 *departure = value - taken;
             }
-            // The weights are used up: room for the departure's own.
+            // The last weighted corrections are no longer needed: reuse their storage.
             let weighted = &mut self.last_weighted[stage * count..(stage + 1) * count];
             for ((weighted, value), size) in weighted.iter_mut().zip(&*into).zip(&self.sizes) {
                 *weighted = size * value;
@@ -208,12 +209,12 @@ impl Anderson {
             self.next = (slot + 1) % self.most;
             self.known = (self.known + 1).min(self.most);
         } else if self.known == self.most {
-            // The oldest one has been written over.
+            // The oldest secant has been overwritten.
             self.known = self.most - 1;
         }
     }
 
-    /// γ by slot: least squares through a factorisation L D Lᵀ of the products, newest first.
+    /// γ by slot: least squares by a factorisation L D Lᵀ of the inner products, newest first.
     #[inline(always)]
     fn shares(&self) -> [f64; MAX_SECANTS] {
         let mut shares = [0.0; MAX_SECANTS];
@@ -276,8 +277,8 @@ impl pulp::WithSimd for Improve<'_> {
 mod tests {
     use super::*;
 
-    /// Corrections of A x = b by the tangent 1, A = 1 + two directions that it does not know; how many until `|d|` is below
-    /// a millionth of a millionth, for right-hand sides that change from step to step.
+    /// Iterations for A x = b with the unit tangent, A = 1 + two rank-one terms, until `|d|` < 1e-12, for right-hand sides that
+    /// change from step to step.
     fn iterations(improves: bool) -> Vec<usize> {
         let count = 12;
         let direction = |k: usize, row: usize| (1.0 + (k * 7 + row * (3 + k)) as f64).sin() / 2.0;
@@ -323,7 +324,7 @@ mod tests {
         assert!(improved[1..].iter().all(|&count| count <= 3), "{improved:?}");
     }
 
-    /// A tangent that was exact, and then leaves 0.4 of each correction in the same direction, as after a change of the step size.
+    /// A tangent that is exact at first and then leaves 0.4 of each correction in the same direction, as after a change of step size.
     #[test]
     fn secants_of_earlier_equations_do_not_stop_the_iteration() {
         let mut secants = Anderson::new(1, 12, &[1.0; 12]);

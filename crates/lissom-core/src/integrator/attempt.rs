@@ -8,7 +8,7 @@ use crate::system::State;
 pub(crate) struct Attempt {
     /// Size of the step [s].
     pub(crate) size: f64,
-    /// The state at the start, converted to this step size if the scheme's memory depends on the step size.
+    /// The state at the start, converted to this step size if the scheme's history depends on the step size.
     pub(crate) converted: State,
     /// Whether `converted` is the start of this attempt.
     pub(crate) is_converted: bool,

@@ -1,22 +1,21 @@
-//! Corrections of an iterate: how large they are, and adding them up. Loops over all unknowns for the widest registers
-//! the processor has.
+//! Norms and updates of an iterate's corrections: vectorised loops over all unknowns.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use crate::newton::Correction;
 
-/// Numbers side by side in a sum or a maximum, so that they need not wait for each other.
+/// Number of independent partial sums or maxima, which hides the latency of the operations.
 pub(crate) const SIDE_BY_SIDE: usize = 8;
 
-/// Systems of fewer unknowns are not worth a call of their own for wide registers.
+/// Systems with fewer unknowns use scalar code: the dispatch would cost more than vectorisation saves.
 const FEW: usize = 24;
 
-/// What to go through `count` unknowns with.
+/// Instruction set for loops over `count` unknowns.
 pub(crate) fn processor(count: usize) -> pulp::Arch {
     if count < FEW { pulp::Arch::Scalar } else { pulp::Arch::new() }
 }
 
-/// What goes through many unknowns: no part of what is learned, and equal to any other.
+/// Instruction set in use. It is not part of a stored state: all values compare equal.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Processor(pub(crate) pulp::Arch);
 
@@ -32,14 +31,14 @@ impl PartialEq for Processor {
     }
 }
 
-/// Sum of numbers side by side, by halves: none waits for more than two others.
+/// Sum of the partial sums by pairwise addition: three dependent additions only.
 #[inline(always)]
 pub(crate) fn sum(values: &[f64; SIDE_BY_SIDE]) -> f64 {
     let [a, b, c, d, e, f, g, h] = *values;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
-/// Σ aᵢ bᵢ.
+/// Inner product Σ aᵢ bᵢ.
 #[inline(always)]
 pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
     let (a_blocks, a_rest) = a.as_chunks::<SIDE_BY_SIDE>();
@@ -54,13 +53,13 @@ pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
     sum(&sums) + rest
 }
 
-/// max |wᵢ vᵢ|, and whether all are finite.
+/// Weighted maximum norm max |wᵢ vᵢ|, and whether all values are finite.
 #[inline(always)]
 pub(crate) fn largest(weights: &[f64], values: &[f64]) -> (f64, bool) {
     let (w_blocks, w_rest) = weights.as_chunks::<SIDE_BY_SIDE>();
     let (v_blocks, v_rest) = values.as_chunks::<SIDE_BY_SIDE>();
     let mut most = [0.0_f64; SIDE_BY_SIDE];
-    // 0 · v is 0 or not a number.
+    // 0 · v is 0 or NaN.
     let mut nothing = [0.0; SIDE_BY_SIDE];
     for (w, v) in w_blocks.iter().zip(v_blocks) {
         for k in 0..SIDE_BY_SIDE {
@@ -81,7 +80,7 @@ pub(crate) fn largest(weights: &[f64], values: &[f64]) -> (f64, bool) {
     (most, nothing == 0.0)
 }
 
-/// Multiplies by factors, one by one.
+/// Multiplies values by factors, entry by entry.
 pub(crate) struct Multiply<'a> {
     pub(crate) values: &'a mut [f64],
     pub(crate) factors: &'a [f64],
@@ -98,10 +97,9 @@ impl pulp::WithSimd for Multiply<'_> {
     }
 }
 
-/// Size of the corrections of one stage's places; its reference is what the step has to find out: how far it departs from
-/// going straight on. Not a number where one is not finite.
+/// Norm of the position corrections of one stage. The reference is the norm of the increments. NaN if a correction is not finite.
 pub(crate) struct Measure<'a> {
-    /// Scaled size of one unit.
+    /// Scale factors of the rows.
     pub(crate) sizes: &'a [f64],
     pub(crate) corrections: &'a [f64],
     pub(crate) increments: &'a [f64],
@@ -118,7 +116,7 @@ impl pulp::WithSimd for Measure<'_> {
     }
 }
 
-/// Adds corrections, times a share.
+/// Adds corrections times the factor `share`.
 pub(crate) struct Add<'a> {
     pub(crate) share: f64,
     pub(crate) corrections: &'a [f64],

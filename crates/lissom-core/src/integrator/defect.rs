@@ -1,18 +1,19 @@
-//! Defect of the equations between the ends of a step: Newton's correction within the dense output.
+//! Defect of the equations of motion between the ends of a step: Newton correction within the dense output.
 //!
 //! Legend: x step fraction in the middle of the widest gap between stages, or of the step, q(x) dense output with its accelerations
-//! and multipliers, r residual of the equations of motion, C violation of the constraints, J tangent of the step with its
-//! constraints, δ defect as a displacement.
+//! and multipliers, r residual of the equations of motion, C constraint violations, J tangent of the step with its constraints, δ
+//! defect as a displacement.
 //!
 //! ```text
 //! J [δ; ·] = [M a + f(q, v, t) + Bᵀ λ; C(q(x)) - (C_start + C_end)/2]
 //! ```
 //!
-//! A solution satisfies the equations at the stages only. A long step can lead from one branch of equilibria to another where
-//! branches come close, for example where the links of a loop are in line: residual and error estimate at its ends are
-//! correct, and a path between them does not exist. The motion in between violates the equations. For a smooth motion δ is
-//! the error of the dense output, with S stages O(h^(S+1)), of the cubic O(h⁴). Violations at the ends are no defect of the step, and neither is the correction of
-//! those at its start, which does not become smaller with the step: up to its size nothing is reported.
+//! A solution satisfies the equations at the stages only. A long step can jump between branches of equilibria where they are close
+//! to each other, for example where the links of a loop are aligned. Residual and error estimate at the ends of the step are then
+//! correct although no path between them exists, and only the motion in between violates the equations. For a smooth motion δ is the
+//! error of the dense output: O(h^(S+1)) with S stages, O(h⁴) for the cubic. Constraint violations at the ends are not a defect of
+//! the step. Neither is the correction of the violations at the start, which does not decrease with the step size: defects up to its
+//! size are reported as zero.
 
 use super::{Integrator, dense_output};
 use crate::joints::evaluation_point::{Increments, Point};
@@ -20,11 +21,11 @@ use crate::kinematics::MotionChange;
 use crate::settings::Problem;
 use crate::system::State;
 
-/// Defects below this multiple of the relative violation at the start are its correction: with its accelerations the dense output
-/// overshoots by a fraction of it, and one constraint moves a few coordinates.
+/// Defects below this multiple of the relative violation at the start are attributed to its correction: the accelerations make the
+/// dense output overshoot by a fraction of it, and one constraint affects several coordinates.
 const CORRECTED: f64 = 10.0;
 
-/// Storage for the state in the middle of a step.
+/// Storage for the state within a step.
 pub(super) struct Middle {
     state: State,
     unmoved: Vec<MotionChange>,
@@ -44,8 +45,8 @@ impl Middle {
 }
 
 impl Integrator {
-    /// The largest scaled displacement of the defect in the middle of the last attempt, which led from one of these states to
-    /// the other. NaN if the equations have no value there.
+    /// Largest scaled displacement of the defect within the last attempt, from one of these states to the other. NaN if the
+    /// residual is not finite.
     pub(crate) fn defect(
         &mut self,
         Problem { system, settings }: Problem<'_>,

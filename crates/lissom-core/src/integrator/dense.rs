@@ -1,5 +1,5 @@
-//! Values within a step. The motion of collocation schemes follows from their stages, to the order of the scheme
-//! (`schemes/dense_polynomial.rs`). Other schemes have poses by the cubic Hermite interpolation of the poses and twists at both ends:
+//! Dense output: values within a step. For collocation schemes it follows from the stages, to the order of the scheme
+//! (`schemes/dense_polynomial.rs`). For other schemes poses are interpolated by a cubic Hermite polynomial of poses and twists:
 //!
 //! ```text
 //! stages:  H(x) = H₀ exp(x h V₀) exp D(x),      D(x), q', q'' linear combinations of the increments
@@ -25,7 +25,7 @@ pub(crate) struct DenseOutput<'s> {
     pub(crate) from: &'s State,
     /// The end.
     pub(crate) to: &'s State,
-    /// The stages, if the motion follows from them.
+    /// The stages, for collocation schemes.
     pub(crate) stages: Option<SolvedStages<'s>>,
 }
 
@@ -37,18 +37,18 @@ pub(crate) struct SolvedStages<'s> {
     pub(crate) layout: &'s Layout,
     /// By stage, then by row.
     pub(crate) increments: &'s [Vec<f64>],
-    /// The same of the multipliers [N, N m].
+    /// Multipliers, by stage [N, N m].
     pub(crate) multipliers: &'s [Vec<f64>],
 }
 
 impl DenseOutput<'_> {
-    /// By the stages only if they are `known`.
+    /// Uses the stages only if `known` is true.
     pub(crate) fn known(mut self, known: bool) -> Self {
         self.stages = self.stages.filter(|_| known);
         self
     }
 
-    /// The step fraction farthest from instants at which the equations are satisfied.
+    /// Midpoint of the widest gap between stages, as a step fraction: the equations are satisfied at stages only.
     pub(crate) fn least_determined(&self) -> f64 {
         let Some(stages) = &self.stages else { return 0.5 };
         let ends = stages.table.iter().map(|stage| stage.abscissa);
@@ -57,13 +57,13 @@ impl DenseOutput<'_> {
         widest.map_or(0.5, |(from, to)| 0.5 * (from + to))
     }
 
-    /// Order of the defect of the equations in the step size.
+    /// Order of the defect with respect to the step size.
     #[expect(clippy::cast_possible_wrap, reason = "stages are few")]
     pub(crate) fn order(&self) -> i32 {
         self.stages.as_ref().map_or(CUBIC, |stages| stages.table.len() as i32 + 1)
     }
 
-    /// Writes the state at `time` [s], limited to the step, to `out`.
+    /// Writes the state at `time` [s], clamped to the step, to `out`.
     pub(crate) fn interpolate(&self, time: f64, out: &mut State) {
         let (start, end) = (&self.from.kinematics, &self.to.kinematics);
         let duration = end.time - start.time;
@@ -72,7 +72,7 @@ impl DenseOutput<'_> {
         out.kinematics.time = time;
     }
 
-    /// Writes the state at the step fraction `x`, 1 at the end, to `out`. Beyond the end it is extrapolated.
+    /// Writes the state at the step fraction `x` to `out`; values above 1 extrapolate.
     pub(crate) fn at(&self, x: f64, out: &mut State) {
         match &self.stages {
             Some(stages) => stages.at(self.from, self.to, x, out),
@@ -135,7 +135,7 @@ impl SolvedStages<'_> {
     }
 }
 
-/// The state at the step fraction `x` of the cubic between two states, 1 at its end, or beyond it by extrapolation.
+/// State at the step fraction `x` of the cubic between two states; values above 1 extrapolate.
 pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;
@@ -173,7 +173,7 @@ pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
     out.kinematics.show_multipliers(&out.multipliers);
 }
 
-/// Position and rate at x of the cubic from 0 to `whole` with these rates at its ends.
+/// Value and derivative at x of the cubic from 0 to `whole` with the end derivatives `first` and `last`.
 fn hermite(x: f64, whole: &Vector6, first: &Vector6, last: &Vector6) -> (Vector6, Vector6) {
     let (square, cube) = (x * x, x * x * x);
     let place =

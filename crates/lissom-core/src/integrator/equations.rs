@@ -1,4 +1,4 @@
-//! The equations of one step as Newton's method sees them.
+//! Nonlinear equations of one step for Newton's method.
 
 use lissom_motion::Vector6;
 use lissom_solver::FactorError;
@@ -17,14 +17,13 @@ use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
 
-/// Iterates whose last correction is larger than this are far from equilibrium [-].
+/// Iterates with a last correction above this are far from equilibrium [-].
 pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
-/// Corrections of rotations larger than this are cut short [rad].
+/// Largest correction of a rotation; larger corrections are scaled down [rad].
 const MAX_ROTATION: f64 = 1.0;
-/// Departures from going straight on below this are not resolved for their own sake where states are measured beside
-/// positions [-].
+/// Smallest reference of increments, relative to the drift, for the convergence of first-order states [-].
 const MIN_DEPARTURE: f64 = 1e-5;
-/// Roundings that add up in a force.
+/// Number of round-off errors that accumulate in a force.
 const ROUNDINGS: f64 = 16.0;
 
 /// One step from `start`.
@@ -32,7 +31,7 @@ pub(crate) struct StepEquations<'a> {
     pub(crate) system: &'a System,
     pub(crate) scheme: &'a Scheme,
     pub(crate) scaled: Scaled,
-    /// What the scaling of a new tangent follows from.
+    /// Inputs of the scaling of a new tangent.
     pub(crate) scaling: (&'a ScalingChoice, &'a Representative),
     pub(crate) start: &'a State,
     pub(crate) work: &'a mut Workspace,
@@ -40,7 +39,7 @@ pub(crate) struct StepEquations<'a> {
 }
 
 impl StepEquations<'_> {
-    /// First guess from the scheme, improved by the memory of earlier ones if that is asked for.
+    /// Predicts the increments by the scheme, improved by the error history if extrapolation was requested.
     pub(crate) fn predict(&mut self) {
         let work = &mut *self.work;
         work.newton.correction = f64::INFINITY;
@@ -57,7 +56,7 @@ impl StepEquations<'_> {
         self.update_motions();
     }
 
-    /// Motions at all stages from the increments.
+    /// Computes the motions at all stages from the increments.
     pub(crate) fn update_motions(&mut self) {
         self.watch.begin(Phase::Evaluation);
         let layout = self.system.layout();
@@ -72,7 +71,7 @@ impl StepEquations<'_> {
                 &mut self.work.motions[i],
             );
         }
-        // Beyond the stages there is the end of the step, which has the multipliers of the last one.
+        // The motion after the last stage is the end of the step; it has the multipliers of the last stage.
         let Workspace { motions, multipliers, .. } = &mut *self.work;
         for (i, motion) in motions.iter_mut().enumerate() {
             motion.at.show_multipliers(&multipliers[i.min(multipliers.len() - 1)]);
@@ -90,7 +89,7 @@ impl StepEquations<'_> {
         self.watch.begin(Phase::Rest);
     }
 
-    /// The step as those see it whose strains and violations are integrated.
+    /// Evaluation point of the whole step, for elements and joints whose strains and violations are integrated.
     pub(crate) fn step_point(&self, tableau: &Tableau) -> Option<StepPoint<'_>> {
         let work = &*self.work;
         let [first, second, end] = &work.motions[..] else { return None };
@@ -128,7 +127,7 @@ impl StepEquations<'_> {
         }
     }
 
-    /// Violations at the end of the step, from the final increments.
+    /// Constraint violations at the end of the step, from the final increments.
     pub(crate) fn final_violations(&self, out: &mut [f64]) {
         let last = self.scheme.stages.len() - 1;
         let mut point = self.point(last);
@@ -163,7 +162,7 @@ impl StepEquations<'_> {
         }
     }
 
-    /// Round-off of forces: strains come from places, which are rounded, times the largest stiffness.
+    /// Round-off of forces [N]: that of positions times the largest stiffness, since strains are computed from positions.
     fn force_round_off(&self) -> f64 {
         let layout = self.system.layout();
         let stiffness = (0..layout.coordinate_count())
@@ -174,7 +173,7 @@ impl StepEquations<'_> {
         ROUNDINGS * f64::EPSILON * far * stiffness
     }
 
-    /// Linearises at the last stage: the values of the tangents of all decoupled systems before equilibration.
+    /// Linearises at the last stage: stores the tangent values of all decoupled systems, before equilibration.
     pub(crate) fn linearize(&mut self) {
         let mut stiffness = std::mem::take(&mut self.work.stiffness);
         for (index, system) in self.scheme.coupling.systems.iter().enumerate() {
@@ -185,7 +184,7 @@ impl StepEquations<'_> {
         self.work.stiffness = stiffness;
     }
 
-    /// Hands the derivatives at the last stage to `out`.
+    /// Passes the derivatives at the last stage to `out`.
     pub(crate) fn assemble_tangent(&mut self, out: &mut TangentAssembler<'_>) {
         let last = self.scheme.stages.len() - 1;
         let mut scratch = self.work.evaluation.scratch.take().unwrap_or_default();
@@ -212,7 +211,7 @@ impl StepEquations<'_> {
             && self.work.options.disabled.allows(SolverFeature::StartStresses)
     }
 
-    /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
+    /// Tangent operators of the nodes' total increments since the start of the step, drift included.
     fn whole_increments(&self, stage: usize, nodes: &mut [IncrementTangent]) {
         let work = &*self.work;
         let straight = if self.scheme.dynamic { self.scheme.stages[stage].abscissa } else { 0.0 };
@@ -226,9 +225,8 @@ impl StepEquations<'_> {
         }
     }
 
-    /// Applies the corrections. Places are measured by the largest scaled correction; multipliers by
-    /// their largest correction relative to the largest multiplier, in the same units: they may still
-    /// change where the places are found already.
+    /// Applies the corrections. Positions are measured by the largest scaled correction; multipliers by their largest correction
+    /// relative to the largest multiplier, in the same units, because they may still change after the positions have converged.
     fn add_corrections(&mut self) -> Correction {
         let places = self.measure_places();
         self.work.newton.correction = places.size;
@@ -258,26 +256,26 @@ impl StepEquations<'_> {
         let (of_impulses, most) = self.measure_impulses();
         (change, largest) = (change.max(of_impulses), largest.max(most));
         let Correction { size, reference } = places;
-        // Where nothing bears a load yet, as before the first wave arrives, or bears it no longer, as in free flight,
-        // multipliers are nothing but round-off: of strains, and of the forces that accelerate the masses.
+        // Without loads, for example before the arrival of the first wave or in free flight, multipliers are only round-off: of
+        // strains, and of the forces that accelerate the masses.
         let inertial = self.scaled.multiplier_factor() * reference * self.scaling.1.length;
         let round_off = work.round_off.force.max(self.roundings() * f64::EPSILON * inertial);
         let is_known = largest > 0.0 && change > round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
-        // What a joint sees change is rounded as the whole way that parts go in the step, of which accelerations are a part.
+        // Relative increments at joints are rounded like the whole displacement in the step, to which accelerations contribute.
         let is_travel = multipliers > size && change <= self.travel_round_off();
         let multipliers = if is_travel { 0.0 } else { multipliers };
         self.with_states(Correction { size: size.max(multipliers), reference })
     }
 
-    /// Round-off of multipliers from how far parts go straight on in the step.
+    /// Round-off of multipliers from the drift of the parts in the step.
     fn travel_round_off(&mut self) -> f64 {
         let round_off = self.work.round_off.travel.unwrap_or_else(|| self.round_off_of_travel());
         self.work.round_off.travel = Some(round_off);
         round_off * self.scaled.multiplier_factor() * self.scaling.1.length
     }
 
-    /// Round-off of displacements from how far parts go straight on in the step, scaled.
+    /// Scaled round-off of displacements from the drift of the parts in the step.
     fn round_off_of_travel(&self) -> f64 {
         let work = &*self.work;
         let travel = work
@@ -289,14 +287,14 @@ impl StepEquations<'_> {
         self.roundings() * f64::EPSILON * travel
     }
 
-    /// Roundings that add up in an acceleration: those of the increments, times their weights.
+    /// Accumulated round-off factor of an acceleration: the sum of the weights of the increments.
     fn roundings(&self) -> f64 {
         let weights =
             |stage: &Stage| stage.curvature.increments.iter().map(|weight| weight.abs()).sum::<f64>();
         self.scheme.stages.iter().map(weights).fold(ROUNDINGS, f64::max)
     }
 
-    /// The largest correction of a force of a constraint between velocities, and the largest such force [N].
+    /// Largest correction of a force of a velocity constraint, and the largest such force [N].
     fn measure_impulses(&self) -> (f64, f64) {
         let layout = self.system.layout();
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
@@ -312,8 +310,8 @@ impl StepEquations<'_> {
         (change, largest)
     }
 
-    /// The same with first-order states: corrections of each relative to what the step has to find out about it, as if
-    /// they were corrections of places.
+    /// Extends the convergence measure to first-order states: corrections relative to the increment of the state in the step, scaled
+    /// to the reference of the positions.
     fn with_states(&self, places: Correction) -> Correction {
         let layout = self.system.layout();
         if layout.state_count() == 0 {
@@ -333,7 +331,7 @@ impl StepEquations<'_> {
         Correction { size, reference }
     }
 
-    /// Adds corrections of all stages, times `share`.
+    /// Adds the corrections of all stages times `share`.
     fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
         let factor = self.scaled.multiplier_factor();
         let Workspace {
@@ -366,12 +364,12 @@ impl StepEquations<'_> {
         largest
     }
 
-    /// Records how the tangent in use is scaled.
+    /// Stores the scaling of the tangent in use.
     fn note_scales(&mut self) {
         self.work.note_scales(self.system.layout(), &self.scaled);
     }
 
-    /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
+    /// Replaces a failure after a fallback to the pivoting solver by the vanished pivot that caused the fallback.
     pub(crate) fn unforgiven(&self, failure: Failure) -> Failure {
         match self.work.tangent.fell_back() {
             Some((unknown, pivot)) if failure != Failure::Interrupted => {
@@ -381,13 +379,12 @@ impl StepEquations<'_> {
         }
     }
 
-    /// The first signal that is not finite at the last iterate, if there is one.
+    /// First signal that is not finite at the last iterate, if any.
     pub(crate) fn signal_error(&self) -> Option<crate::signals::SignalError> {
         self.work.motions.iter().find_map(|motion| self.system.signals().check(&motion.at).err())
     }
 
-    /// Name of the unknown with the largest entry in the last corrections, or the first that is not
-    /// finite.
+    /// Name of the unknown with the largest entry in the last corrections, or the first that is not finite.
     pub(crate) fn worst_unknown(&self) -> Subject {
         let layout = self.system.layout();
         let corrections = self.work.residuals.iter().flat_map(|residual| {
@@ -397,7 +394,7 @@ impl StepEquations<'_> {
                 .map(|(row, value)| (row, self.work.units.coordinates[row] * value.abs()))
         });
         let mut worst = (0, -1.0);
-        // States are measured apart, as in `with_states`.
+        // States are measured relative to their own increments, as in `with_states`.
         let least = MIN_DEPARTURE;
         let states: Vec<(usize, f64)> = layout
             .states()
@@ -507,7 +504,7 @@ impl Equations for StepEquations<'_> {
     }
 }
 
-/// What joints see of a stage.
+/// Increments at a stage as used by joints.
 pub(crate) fn joint_changes<'a>(
     start: &'a Kinematics,
     motion: &'a StageMotion,

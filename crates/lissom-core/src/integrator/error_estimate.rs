@@ -1,5 +1,5 @@
-//! The estimated error of a step, filtered once through the tangent, so that motions faster than the step are damped as by the scheme
-//! itself.
+//! Local error estimate of a step, filtered once through the tangent so that motions faster than the step are damped as by the
+//! scheme itself.
 //!
 //! Legend: e linear combination of the increments and the start of the step that the scheme declares (`ErrorEstimate`), k its
 //! order, p order of the scheme, J tangent in use with its constraints, so that constrained directions have no error, w₂ M its
@@ -11,8 +11,9 @@
 //!
 //! If N steps of size h = 1/N have errors of h^(p+1) each, positions at the end have errors of h^p, and so of τ, with every scheme.
 //! ε is the size of the step over that of a step with the largest allowed error. The filter is that of [Hairer and Wanner 1996,
-//! IV.8]. A scheme of several stages has two estimates, of which the larger ε counts. The norm is the largest entry, with lengths relative to ℓ_r. The reference is the largest displacement or rotation of
-//! a node since the start, or that of a drive within the longest step, at most 1.
+//! IV.8]. A scheme of several stages has two estimates, of which the larger ε is used. The norm is the maximum norm, with lengths
+//! relative to ℓ_r. The reference is the largest displacement or rotation of a node since the start, or that of a drive within the
+//! longest step, at most 1.
 
 use super::Integrator;
 use crate::elements::contribution::CoordinateMass;
@@ -94,8 +95,8 @@ pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out
 }
 
 impl Integrator {
-    /// Stores an estimated error of the last attempt, which ended at `end`, in the workspace, unfiltered and filtered. Forces may have
-    /// switched at its start.
+    /// Stores the estimated error of the last attempt, which ended at `end`, in the workspace, unfiltered and filtered. It is not
+    /// filtered if forces have switched at the start of the step (`has_switched`).
     pub(crate) fn estimate_error(
         &mut self,
         problem: Problem<'_>,
@@ -118,7 +119,7 @@ impl Integrator {
         }
         let (motion, constraints) = work.error.filtered.split_at_mut(work.error.unfiltered.len());
         if has_switched {
-            // The filter would hide a motion that the switch has just started, such as an impact on a stiff stop.
+            // The filter would suppress a motion that the switch has just started, such as an impact on a stiff stop.
             motion.copy_from_slice(&work.error.unfiltered);
             system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
             return;

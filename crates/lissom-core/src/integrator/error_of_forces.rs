@@ -1,15 +1,14 @@
-//! Error of the accelerations, and so of the forces, at the end of a step: that of the forces which the estimated error of the
-//! positions causes.
+//! Error of the accelerations, and so of the forces, at the end of a step, from the forces that the estimated position error causes.
 //!
-//! Legend: e, ê error of the positions and the same filtered through the tangent (`error_estimate`), M, K, G mass, stiffness and
+//! Legend: e, ê position error and the same filtered through the tangent (`error_estimate`), M, K, G mass, stiffness and
 //! constraints, J tangent of the step with its constraints, w₂ its weight of M.
 //!
 //! ```text
 //! J x = w₂ M ê,      K ê ≈ w₂ M (ê - x)  up to constraint forces,      error of accelerations = Re(w₂) (ê - x)/h²
 //! ```
 //!
-//! ê satisfies the constraints, so that they contribute nothing. Relative to the largest acceleration this is, of a vibration, the
-//! error relative to its own amplitude, however small its displacements are.
+//! ê satisfies the constraints, so that they do not contribute. Relative to the largest acceleration, this is the relative error of a
+//! vibration's amplitude, however small its displacements are.
 
 use super::Integrator;
 use super::error_estimate::inertial_part;
@@ -18,8 +17,8 @@ use crate::round_off;
 use crate::settings::Problem;
 
 impl Integrator {
-    /// The largest scaled error of an acceleration at the end of the last attempt, whose error has been estimated, and the largest
-    /// scaled acceleration at its ends [1/s²].
+    /// Largest scaled error of an acceleration at the end of the last attempt, whose position error has been estimated, and
+    /// largest scaled acceleration at its ends [1/s²].
     pub(crate) fn error_of_forces(
         &mut self,
         Problem { system, settings }: Problem<'_>,

@@ -1,4 +1,4 @@
-//! The memory of one-stage schemes depends on the step size: an attempt of another size starts from a converted state.
+//! The history of one-stage schemes depends on the step size: an attempt with another size starts from a converted state.
 //!
 //! Legend: a algorithmic acceleration, h step size, r ratio of the new to the old one, v velocities, B gradient of the
 //! constraints.
@@ -8,9 +8,9 @@
 //! v ← v + (r² - 1) v_B,          v_B = M⁻¹Bᵀ (B M⁻¹ Bᵀ)⁻¹ (B v + ∂c/∂t)
 //! ```
 //!
-//! a approximates the acceleration δ h after the state [Arnold and Brüls 2007]. In the direction of the constraint
-//! gradients the velocity error of an index-3 scheme is a multiple of h² for the step size in use. Without the second
-//! change multipliers lose an order when the step size changes.
+//! a approximates the acceleration at the time δ h after the state [Arnold and Brüls 2007]. In the direction of the constraint
+//! gradients the velocity error of an index-3 scheme is proportional to h². Without the second conversion multipliers lose an order
+//! when the step size changes.
 
 use lissom_solver::SolverKind;
 
@@ -20,19 +20,19 @@ use crate::kinematics::LOCKED;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// If the step grows by more than this at once, for example after one that ended at an event, ȧ and v_B may be round-off
-/// of a short step, which would grow by r² from step to step. Then a is kept, and velocities are made consistent.
+/// If the step grows by more than this factor at once, for example after one that ended at an event, ȧ and v_B may be round-off of a
+/// short step, which r² would amplify from step to step. Then a is kept, and the velocities are projected onto the constraints.
 const MAX_RATIO: f64 = 2.0;
 
-/// Converts the memory of a state.
+/// Converts the history part of a state to another step size.
 pub(crate) struct IntegratorHistory {
     initial: ConsistentInitialConditions,
-    /// Step size to which the memory belongs [s].
+    /// Step size of the history [s].
     step: f64,
     /// ȧ by row; v_B for the present step size by row.
     slope: Vec<f64>,
     across: Vec<f64>,
-    /// Whether these two belong to the present state.
+    /// Whether ȧ and v_B belong to the present state.
     is_known: bool,
     has_constraints: bool,
 }
@@ -56,31 +56,31 @@ impl IntegratorHistory {
         }
     }
 
-    /// The memory as plain numbers.
+    /// The history as plain values, for snapshots.
     pub(crate) fn to_numbers(&self) -> (f64, bool, Vec<f64>, Vec<f64>) {
         (self.step, self.is_known, self.slope.clone(), self.across.clone())
     }
 
-    /// Restores the memory.
+    /// Restores the history from plain values.
     pub(crate) fn set_numbers(&mut self, (step, is_known, slope, across): &(f64, bool, Vec<f64>, Vec<f64>)) {
         (self.step, self.is_known) = (*step, *is_known);
         self.slope.copy_from_slice(slope);
         self.across.copy_from_slice(across);
     }
 
-    /// Records that the state is a new one, found with a step of this size.
+    /// Records that the state is a new one, computed with a step of this size [s].
     pub(crate) fn renew(&mut self, step: f64) {
         self.step = step;
         self.is_known = false;
     }
 
-    /// Whether the memory belongs to steps of this size [s].
+    /// Whether the history belongs to steps of this size [s].
     pub(crate) fn is_of(&self, step: f64) -> bool {
         step == self.step
     }
 
-    /// Writes `state` with the memory of steps of another size to `out`. `previous` is the state before the last step, or
-    /// equal to `state` if there was none; `scratch` is overwritten.
+    /// Writes `state` with the history of steps of size `step` [s] to `out`. `previous` is the state before the last step, or equal
+    /// to `state` if there was none; `scratch` is overwritten.
     ///
     /// # Errors
     /// If the velocities cannot be decomposed.
@@ -124,7 +124,7 @@ impl IntegratorHistory {
                 *slope = (now - before) / elapsed;
             }
         } else if delay != 0.0 {
-            // At the start the memory is the acceleration shortly after it.
+            // At the start the algorithmic acceleration is that shortly after it.
             self.slope.copy_from_slice(&state.algorithmic);
             for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
                 for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {

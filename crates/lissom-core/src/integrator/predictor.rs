@@ -1,13 +1,14 @@
-//! First guesses of a step: the scheme's own, plus what it will miss, as far as that follows from what it missed at the
-//! steps before: linear prediction [Makhoul 1975], with the same coefficients for all numbers. It continues whatever
-//! obeys a linear recurrence: polynomials, and the oscillations of stiff members as well, several at once.
+//! Predictor of the increments and multipliers of a step: the extrapolation of the scheme plus an estimate of its error from the
+//! errors of earlier steps, by linear prediction [Makhoul 1975] with the same coefficients for all unknowns. It reproduces every
+//! sequence with a linear recurrence: polynomials, and oscillations of stiff members, several at once.
 //!
 //! ```text
-//! d_n  what the scheme's guess missed at step n
+//! d_n  error of the scheme's extrapolation at step n (solution - extrapolation)
 //! d_{n+1} ≈ Σ_{j<K} c_j d_{n-j},   c = argmin Σ_m φ^m |d_{n-m} - Σ_j c_j d_{n-m-1-j}|²
 //! ```
 //!
-//! After a step that this did not help, as where a motion jumps, the next guess is the scheme's alone.
+//! If the correction did not reduce the error of a step, for example at a jump of the motion, the next step uses the scheme's
+//! extrapolation only.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -17,43 +18,43 @@ use super::corrections::{Processor, SIDE_BY_SIDE, sum};
 use crate::round_off;
 use crate::tuning::{Tuning, TuningParameter};
 
-/// Steps that are looked back at most, K.
+/// Maximum order of the linear prediction, K.
 const MAX_STEPS: usize = 8;
-/// A prediction that would have left more than this fraction of what the scheme's own guess missed is not followed: where
-/// motion has just jumped, or constraints lose their rank, it leads to other branches.
+/// A prediction is rejected if it would have left more than this fraction of the error of the scheme's extrapolation. After a jump
+/// of the motion, or where constraints lose rank, it leads to other solution branches.
 const CREDIBLE: f64 = 0.5;
 
 type Block = [f64; SIDE_BY_SIDE];
 
-/// Numbers that are guessed together.
+/// Linear prediction of a set of unknowns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Predictor {
-    /// Squared weight of each number's error, zero beyond the last number of a stage.
+    /// Squared weight of each unknown's error, zero in the padding of a stage's last block.
     weights: Vec<Block>,
-    /// What was missed at the last steps, each at its place in turn.
+    /// Errors d of the last steps: a ring buffer per block of unknowns.
     missed: Vec<[Block; MAX_STEPS]>,
-    /// Where the oldest stands, and the next one goes.
+    /// Ring buffer slot of the oldest error, which the next one replaces.
     oldest: usize,
-    /// Products of what was missed so many steps ago and so many.
+    /// Weighted inner products of the errors, `[i][j]` = d_{n-i} · d_{n-j}.
     products: [[f64; MAX_STEPS]; MAX_STEPS],
-    /// Left-hand and right-hand sides of the normal equations.
+    /// Matrix and right-hand side of the normal equations.
     matrix: [[f64; MAX_STEPS]; MAX_STEPS],
     vector: [f64; MAX_STEPS],
-    /// c, by steps ago, and by place.
+    /// Coefficients c by age of the error, and by ring buffer slot (zero while the prediction is rejected).
     coefficients: [f64; MAX_STEPS],
     shares: [f64; MAX_STEPS],
-    /// Lengths of the last two steps, in lengths of the next.
+    /// Sizes of the last two steps, relative to the next.
     lengths: [f64; 2],
-    /// Whether these coefficients have served a step: they serve two.
+    /// Whether the coefficients have been used for a step. They are renewed every second step.
     is_used: bool,
-    /// Steps that are looked back: a few numbers determine few coefficients.
+    /// Order of the prediction: few unknowns determine few coefficients.
     most: usize,
     #[serde(skip)]
     processor: Processor,
 }
 
 impl Predictor {
-    /// Nothing in memory, for stages of numbers whose errors have these weights.
+    /// An empty history, for `stages` stages of unknowns whose errors have these weights.
     pub(crate) fn new(stages: usize, weights: &[f64]) -> Self {
         let blocks = weights.len().div_ceil(SIDE_BY_SIDE);
         let squares: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
@@ -74,7 +75,7 @@ impl Predictor {
         }
     }
 
-    /// Forgets everything: the step size changes, or the motion is interrupted.
+    /// Discards the history: the step size changes, or the motion is interrupted.
     pub(crate) fn forget(&mut self) {
         self.missed.fill([[0.0; SIDE_BY_SIDE]; MAX_STEPS]);
         (self.products, self.matrix) = ([[0.0; MAX_STEPS]; MAX_STEPS], [[0.0; MAX_STEPS]; MAX_STEPS]);
@@ -83,11 +84,10 @@ impl Predictor {
         self.is_used = true;
     }
 
-    /// Goes over to steps that are `ratio` times as long, which miss `ratio` to the power of `order` times as much.
-    /// Coefficients belong to steps of one size: of what was missed the last two are kept, and continued in a straight line.
+    /// Converts the history to steps that are `ratio` times as long, with errors that are larger by `ratio` to the power of `order`.
+    /// Coefficients are valid for one step size only, so the last two errors are kept and extrapolated linearly.
     ///
-    /// Legend: h_n size of the next step, J_n what step n misses over the power of its size, found about a quarter after its
-    /// start.
+    /// Legend: h_n size of the next step, J_n error of step n over the power of its size, located at about a quarter of the step.
     ///
     /// ```text
     /// J_n ≈ J_{n-1} + ρ (J_{n-1} - J_{n-2}),   ρ = (h_n + 3 h_{n-1})/(h_{n-1} + 3 h_{n-2})
@@ -112,7 +112,7 @@ impl Predictor {
             }
         }
         let [one, two] = self.lengths;
-        // Before the second step there is one length only.
+        // Only one step size is available before the second step.
         let further = if self.products[1][1] > 0.0 { (1.0 + 3.0 * one) / (one + 3.0 * two) } else { 0.0 };
         (self.coefficients, self.shares) = ([0.0; MAX_STEPS], [0.0; MAX_STEPS]);
         (self.coefficients[0], self.coefficients[1]) = (1.0 + further, -further);
@@ -122,17 +122,17 @@ impl Predictor {
         self.is_used = true;
     }
 
-    /// Takes over what another one has learned.
+    /// Copies the history of another predictor.
     pub(crate) fn restore(&mut self, from: &Self) {
         self.clone_from(from);
     }
 
-    /// Adds to the scheme's guess, given stage by stage, what it is expected to miss.
+    /// Adds the predicted error to the scheme's extrapolation, given by stage.
     pub(crate) fn improve(&self, guess: &mut [Vec<f64>]) {
         self.processor.0.dispatch(Improve { memory: self, guess });
     }
 
-    /// Records the solution, and so the error of the scheme's guess, given by stage.
+    /// Records the error of the scheme's extrapolation from the solution, both by stage, and updates the coefficients.
     pub(crate) fn learn<'a>(
         &mut self,
         found: &[Vec<f64>],
@@ -152,7 +152,7 @@ impl Predictor {
         self.processor.0.dispatch(Learn { memory: self, products, tuning });
     }
 
-    /// |d - Σ c_j d_j|² of a step that has missed d, by the products of d with what was missed before, and with itself.
+    /// |d - Σ c_j d_j|² of a step with error d, from the products of d with earlier errors (`toward`) and with itself (`whole`).
     #[inline(always)]
     fn left(&self, toward: &[f64; MAX_STEPS], whole: f64) -> f64 {
         let mut left = whole;
@@ -164,14 +164,14 @@ impl Predictor {
         left
     }
 
-    /// Place of what was missed so many steps before the last one.
+    /// Ring buffer slot of the error that is `ago` steps older than the latest.
     #[inline(always)]
     fn place(&self, ago: usize) -> usize {
         (self.oldest + MAX_STEPS - 1 - ago) % MAX_STEPS
     }
 }
 
-/// Eight numbers, zeros beyond the last.
+/// Block of eight values, padded with zeros.
 #[inline(always)]
 fn numbers(of: &[f64], block: usize) -> Block {
     let rest = &of[block * SIDE_BY_SIDE..];
@@ -211,8 +211,8 @@ impl pulp::WithSimd for Improve<'_> {
     }
 }
 
-/// Records one stage, whose first block is `first`; returns the products of what was missed now with what was
-/// missed before, by place, and with itself.
+/// Records the errors of one stage, whose first block is `first`. Returns the products of the new errors with the earlier ones, by
+/// slot, and with themselves.
 struct Note<'a> {
     memory: &'a mut Predictor,
     first: usize,
@@ -249,7 +249,7 @@ impl pulp::WithSimd for Note<'_> {
     }
 }
 
-/// Finds the coefficients for the next step.
+/// Updates the coefficients for the next step.
 struct Learn<'a> {
     memory: &'a mut Predictor,
     products: [f64; MAX_STEPS + 1],
@@ -264,7 +264,7 @@ impl pulp::WithSimd for Learn<'_> {
         let Learn { memory, products, tuning } = self;
         let fading = tuning.of(TuningParameter::PredictionFading);
         memory.lengths = [1.0, memory.lengths[0]];
-        // The oldest was looked back at for the last time.
+        // The oldest error is still part of these products; it is overwritten afterwards.
         let toward: [f64; MAX_STEPS] = std::array::from_fn(|ago| products[memory.place(ago)]);
         for i in 0..MAX_STEPS {
             memory.vector[i] = fading * memory.vector[i] + toward[i];
@@ -292,7 +292,8 @@ impl pulp::WithSimd for Learn<'_> {
     }
 }
 
-/// Solves the normal equations for the first `most` coefficients, the others are zero.
+/// Solves the normal equations for the first `most` coefficients by elimination. Coefficients with negligible pivots are zero, as are
+/// the others.
 #[inline(always)]
 fn coefficients(
     matrix: &[[f64; MAX_STEPS]; MAX_STEPS],
@@ -368,7 +369,7 @@ mod tests {
     fn oscillations_are_continued() {
         let alternating = |step: usize| if step.is_multiple_of(2) { 1.0 } else { -1.0 };
         assert!((guessed(alternating, 20) - 1.0).abs() < 1e-9);
-        // Two frequencies that two numbers have different shares of.
+        // Two frequencies with different amplitudes in the two unknowns.
         let of = |step: f64| vec![(0.9 * step).cos() + (2.2 * step).sin(), (0.9 * step + 0.3).cos()];
         let mut guess = Predictor::new(1, &[1.0, 3.0]);
         for step in 0..40 {
@@ -383,7 +384,7 @@ mod tests {
 
     #[test]
     fn what_is_missed_goes_over_to_steps_of_other_sizes() {
-        // Two stages that miss h³ (10 + t + h/4) and eight times that.
+        // Two stages with the errors h³ (10 + t + h/4) and eight times that.
         let miss = |time: f64, size: f64| size.powi(3) * (10.0 + time + 0.25 * size);
         let mut guess = Predictor::new(2, &[1.0; 9]);
         let (mut time, mut size) = (0.0, 1.0);

@@ -1,4 +1,4 @@
-//! Velocities made consistent after a step of a scheme that leaves the constraints a little.
+//! Projection of the velocities onto the constraints after a step of a scheme that does not satisfy them exactly.
 
 use lissom_solver::SolverKind;
 
@@ -9,8 +9,8 @@ use crate::scaling::Representative;
 use crate::schemes::Tableau;
 use crate::system::{State, System};
 
-/// Takes away what the velocities have across the constraints after a step that is not stiffly accurate: the
-/// projection is orthogonal in the kinetic energy, which therefore falls; the share 1 - α of that is given back by
+/// Removes the velocity components that violate the constraints after a step that is not stiffly accurate. The projection is
+/// orthogonal with respect to the kinetic energy, which therefore decreases; the fraction 1 - α of the decrease is restored by
 /// scaling all velocities.
 pub(crate) struct Projection {
     initial: ConsistentInitialConditions,
