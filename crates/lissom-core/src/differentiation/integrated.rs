@@ -1,16 +1,16 @@
-//! Derivatives of the residuals of a step whose strains and violations are integrated from their rates. What elements and
-//! joints add there has no derivatives of its own, so the residuals are differentiated along the direction in which the start
-//! of the step, its increments and its multipliers vary.
+//! Derivatives of the residuals of a step whose strains and violations are integrated from their rates. The contributions of elements
+//! and joints to it have no analytic derivatives, so the residuals are differentiated numerically along the variation of the start of
+//! the step, its increments and its multipliers.
 //!
-//! Legend: x start of the step, z increments, μ multipliers, δ their variations with a number θ of the model, r residuals at the
-//! stages, σ a share.
+//! Legend: x start of the step, z increments, μ multipliers, δ their variations with a model parameter θ, r residuals at the stages, σ
+//! step length of the difference.
 //!
 //! ```text
 //! ∂r = Σ_k w_k r(x + k σ δx, z + k σ δz, μ + k σ δμ; θ) / σ + Σ_i w_i r(x, z, μ; θ_i),      k = ±1, ±2
 //! ```
 //!
-//! with the weights w_k of a central difference of fourth order. The share moves the model by the same distance whatever the
-//! number: nothing is compared between runs, and what rounding leaves is that of a step and not of a run.
+//! with the weights w_k of a central difference of fourth order. σ displaces the model by the same distance whatever the parameter.
+//! The differences are those of single steps, not of runs, so that their round-off does not accumulate.
 
 use std::sync::Arc;
 
@@ -27,26 +27,26 @@ use crate::schemes::Tableau;
 use crate::simulation::Simulation;
 use crate::system::{State, StepPoint, System};
 
-/// Displacement of places over which residuals are differentiated, by the length of the model [-, rad].
+/// Largest displacement in a difference, relative to the length of the model [-, rad].
 const PLACES: f64 = 1e-3;
-/// The same of what a step changes, by how far anything moves in it: strains that rates miss are shared among the stages by
-/// squares of rates, which are far from linear. With 1e-3 derivatives of a double pendulum are wrong by 1e-5, with 1e-4 by 1e-9;
-/// those of a turbine whose blades hardly bend by 2e-7 of round-off, and by 6e-7.
+/// Largest change of increments in a difference, relative to the largest motion in the step: strain corrections are distributed among
+/// the stages by squares of rates, which are strongly nonlinear. Relative errors of derivatives: of a double pendulum 1e-5 with 1e-3,
+/// and 1e-9 with 1e-4; of a turbine whose blades hardly bend 2e-7 and 6e-7, by round-off.
 const CHANGES: f64 = 2e-4;
-/// Shares of the variation, and their weights in its derivative.
+/// Multiples of σ, and the weights of the central difference.
 const SIDES: [(f64, f64); 4] =
     [(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)];
 
-/// A model beside the one that is differentiated.
+/// A perturbed model.
 pub(super) struct Neighbour {
     pub(super) system: Arc<System>,
-    /// Of its residuals in their derivative by the number.
+    /// Finite-difference weight of its residuals.
     pub(super) weight: f64,
     /// Its representative length [m].
     pub(super) length: f64,
 }
 
-/// Room for a step beside the one that was taken.
+/// Storage for a perturbed step.
 pub(super) struct IntegratedStep {
     tableau: Tableau,
     start: State,
@@ -55,16 +55,16 @@ pub(super) struct IntegratedStep {
     increments: Vec<Vec<f64>>,
     multipliers: Vec<Vec<f64>>,
     motions: Vec<StageMotion>,
-    /// Violations at the start do not change with numbers of the model.
+    /// Zero: violations at the start do not depend on model parameters.
     violations: Vec<f64>,
     residuals: Vec<Vec<f64>>,
-    /// How long the rates at the stages last, see [`StepStages`] [s].
+    /// Durations of the rates at the stages, see [`StepStages`] [s].
     durations: [[f64; STAGES]; STAGES],
     lasting: [f64; STAGES],
 }
 
 impl IntegratedStep {
-    /// None where strains are evaluated where a stage is.
+    /// None if strains are evaluated at the stages.
     pub(super) fn new(base: &Simulation) -> Option<Self> {
         let (layout, work) = (base.system.layout(), &base.integrator.work);
         Some(Self {
@@ -82,7 +82,7 @@ impl IntegratedStep {
         })
     }
 
-    /// Sets `out` to the derivatives of the residuals by the number of a lane at the motion of the last step of `base`.
+    /// Adds the derivatives of the residuals by the parameter of a lane, at the motion of the last step of `base`, to `out`.
     pub(super) fn differ(
         &mut self,
         base: &Simulation,
@@ -125,7 +125,7 @@ impl IntegratedStep {
         }
     }
 
-    /// Motions at the stages and at the end, from the start and the increments.
+    /// Computes the motions at the stages and at the end from the start and the increments.
     fn move_stages(&mut self, base: &Simulation) {
         let (layout, scheme, scaled) = (base.system.layout(), &base.settings.scheme, &base.integrator.scaled);
         scaled.to_unit_step(layout, scheme, &self.start, &mut self.unit);
@@ -144,7 +144,7 @@ impl IntegratedStep {
         (self.durations, self.lasting) = scaled.durations(&self.tableau);
     }
 
-    /// Residuals at the stages, without the augmented term, which vanishes with the violations.
+    /// Evaluates the residuals at the stages, without the augmented term, which vanishes with the violations.
     fn evaluate(&mut self, system: &System, length: f64) {
         let start = &self.start.kinematics;
         system.begin_step(start, &mut self.joints);
@@ -177,12 +177,12 @@ impl IntegratedStep {
     }
 }
 
-/// What rounding leaves of derivatives of increments in the lane.
+/// Round-off of the derivatives of increments in a lane.
 pub(super) fn round_off(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
     round_off::INCREMENT / share(base, lanes, lane)
 }
 
-/// The share of the variation in a lane over which residuals are differentiated.
+/// Step length σ of the difference in a lane.
 fn share(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
     let work = &base.integrator.work;
     let largest = |of: &mut dyn Iterator<Item = (f64, f64)>| {
@@ -200,6 +200,6 @@ fn share(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
         .fold(straight, |most, values| most.max(largest(&mut sizes().zip(values.iter().copied()))));
     let within = |room: f64, extent: f64| if extent > 0.0 { room / extent } else { f64::INFINITY };
     let share = within(PLACES, place.max(change)).min(within(CHANGES * travel, change));
-    // Where nothing varies but multipliers, in which the residuals are linear, any share will do.
+    // If only multipliers vary, in which the residuals are linear, any step length is exact.
     if share.is_finite() && share > 0.0 { share } else { 1.0 }
 }

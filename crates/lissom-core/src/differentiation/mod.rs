@@ -1,18 +1,18 @@
-//! Direct differentiation: how the state changes with numbers of the model is carried along the steps of a run, as linear
-//! unknowns of equations that have the tangent of the step for their matrix.
+//! Direct differentiation: sensitivities of the state to model parameters are propagated along the steps of a run. They solve linear
+//! equations whose matrix is the tangent of the step.
 //!
-//! Legend: z increments of a step, μ multipliers, θ a number of the model; η, ν, α variations of places, twists and accelerations
-//! at a stage, which follow linearly from δz and from the variations at the start (`node_maps`); K, D, M derivatives of the
-//! forces by places, twists and accelerations; B gradient, c violations of the constraints; f forces.
+//! Legend: z increments of a step, μ multipliers, θ a model parameter; η, ν, α variations of positions, twists and accelerations at a
+//! stage, which follow linearly from δz and from the variations at the start (`node_maps`); K, D, M derivatives of the forces by
+//! positions, twists and accelerations; B gradient, c violations of the constraints; f forces.
 //!
 //! ```text
 //! K η + D ν + M α + Bᵀ δμ + ∂f/∂θ = 0,      B η + ∂c/∂θ = 0
 //! ```
 //!
-//! at each stage. Violations are those of the places themselves, as carried violations add up to. Of one stage the tangent that
-//! is made at the solution is the matrix of these equations; for two stages it stands for both, and corrections are repeated.
-//! Where strains are integrated over a step, the left-hand sides are differences of residuals along the variation
-//! (`integrated`). Numbers of the model go through the solver side by side.
+//! at each stage. The violations are those of the positions themselves, since carried violations add up. With one stage, the tangent
+//! factored at the solution is the matrix of these equations. With two stages it is used for both, and corrections are iterated.
+//! If strains are integrated over a step, the left-hand sides are finite differences of residuals along the variation
+//! (`integrated`). Several parameters are solved simultaneously as multiple right-hand sides.
 
 mod integrated;
 mod node_maps;
@@ -35,41 +35,41 @@ use integrated::Neighbour;
 use stages::{Stages, largest_found};
 use variation::Variation;
 
-/// Corrections of one stage after the first are made where the second is larger than this part of the first.
+/// One-stage corrections are iterated if the second is larger than this fraction of the first.
 const EXACT: f64 = 1e-10;
-/// Corrections still to come, by their contraction, may be this part of the first, and of what they find out.
+/// Remaining corrections, estimated from the contraction rate, relative to the first one and to the solution.
 const REMAINING_CORRECTION: f64 = 1e-10;
-/// A better contraction than this is not believed.
+/// Lower bound of the contraction rate used in that estimate.
 const CREDIBLE: f64 = 1e-5;
-/// Corrections that shrink by less than this are round-off, if they are small.
+/// Corrections that contract by less than this are round-off if they are small.
 const STALLED: f64 = 0.5;
-/// Increments below this part of how far the state moves are rounded by it.
+/// Lower bound of the increments' reference relative to the derivative of the state, whose round-off they have.
 const ROUNDED: f64 = 1e-3;
-/// Most corrections.
+/// Maximum number of corrections.
 const MAX_CORRECTIONS: usize = 40;
 
-/// Derivatives of the state of a simulation by numbers of its model.
+/// Sensitivities of the state of a simulation to parameters of its model.
 pub struct Sensitivities {
     numbers: Vec<Number>,
     variations: Vec<Lanes>,
     stages: Stages,
-    /// Step size that the scheme's memory belongs to [s].
+    /// Step size of the scheme's history, if it depends on one [s].
     remembered: Option<f64>,
     /// Steps so far.
     steps: usize,
-    /// Whether the first correction has been seen to be enough.
+    /// Whether one correction has been sufficient so far.
     is_exact: bool,
     corrections: usize,
 }
 
-/// What a number of the model changes where nothing moves otherwise.
+/// Explicit dependence of the equations on a model parameter, at fixed motion.
 struct Number {
     difference: ParameterDifference,
-    /// The neighbouring models themselves.
+    /// The perturbed models.
     neighbours: Vec<Neighbour>,
 }
 
-/// What is carried for as many numbers as there are lanes.
+/// Sensitivities to as many parameters as there are SIMD lanes.
 struct Lanes {
     now: Variation,
     /// Derivatives of increments and multipliers of the last step, by stage.
@@ -78,8 +78,8 @@ struct Lanes {
 }
 
 impl Sensitivities {
-    /// Of no number yet. None where the steps of `base` cannot be differentiated in this way: with velocities that are projected
-    /// after a step, steps of chosen size, feedback, wheels that roll or creep.
+    /// No parameters yet. None if the steps of `base` cannot be differentiated directly: with projected velocities, adaptive step
+    /// size, feedback, or wheels that roll or creep.
     pub fn new(base: &Simulation) -> Option<Self> {
         let settings = base.settings();
         let layout = base.system.layout();
@@ -99,8 +99,8 @@ impl Sensitivities {
         })
     }
 
-    /// Adds a number, from the simulations of neighbouring models with the weights of a difference, all at their start as
-    /// `base`. False where its derivatives cannot be found in this way: fixed places that differ, signals.
+    /// Adds a parameter, given by simulations of perturbed models with their finite-difference weights, all at their start like
+    /// `base`. False if it cannot be differentiated directly: fixed positions or signals depend on it.
     pub fn add(&mut self, base: &Simulation, neighbours: &[(&Simulation, f64)]) -> bool {
         let layout = base.system.layout();
         let lane = self.numbers.len() % WIDTH;
@@ -132,13 +132,13 @@ impl Sensitivities {
         true
     }
 
-    /// Corrections so far, of all numbers that stand side by side together.
+    /// Number of corrections so far, those of simultaneous parameters counted once.
     pub fn corrections(&self) -> usize {
         self.corrections
     }
 
-    /// How far the state moves with a unit of the number of this index [-, rad]: the largest derivative of a place, or of a rate or
-    /// acceleration over a step.
+    /// Largest derivative of the state by the parameter of this index: of a position, or of a rate or acceleration over a step
+    /// [-, rad per unit of the parameter].
     pub fn extent(&self, base: &Simulation, index: usize) -> f64 {
         self.variations[index / WIDTH]
             .now
@@ -146,16 +146,16 @@ impl Sensitivities {
             [index % WIDTH]
     }
 
-    /// Moves a copy of the state of `base` by `share` of its derivative by the number of this index.
+    /// Displaces a copy of the state of `base` by `share` times its derivative by the parameter of this index.
     pub fn displace(&self, base: &Simulation, index: usize, share: f64, out: &mut State) {
         out.clone_from(&base.state);
         self.variations[index / WIDTH].now.displace(index % WIDTH, base.system.layout(), share, out);
     }
 
-    /// Takes the step that `base` has taken last. False if there is no such step, as after one that was taken in parts.
+    /// Differentiates the last step of `base`. False if there is no such step, for example after one that was subdivided.
     ///
     /// # Errors
-    /// If its tangent has no factors, or corrections do not converge.
+    /// If its tangent is singular, or corrections do not converge.
     pub fn advance(&mut self, base: &mut Simulation) -> Result<bool, StepError> {
         if self.remembered.is_some_and(|size| size != base.integrator.scaled.step_size()) {
             return Ok(false);
@@ -177,7 +177,7 @@ impl Sensitivities {
     }
 }
 
-/// One step of several numbers: corrections made, and whether the first one was enough.
+/// Differentiates one step by several parameters. Returns the number of corrections, and whether the first was sufficient.
 fn step(
     stages: &mut Stages,
     base: &mut Simulation,
@@ -215,7 +215,7 @@ fn step(
             is_exact = (0..WIDTH).all(|lane| sizes[lane] <= EXACT * reference[lane]);
         }
         let left = |lane| if is_integrated { integrated::round_off(base, lanes, lane) } else { 0.0 };
-        // What is still to come follows from the contraction; what no longer contracts is round-off.
+        // The remaining correction follows from the contraction rate; corrections that no longer contract are round-off.
         let is_done = |lane: usize| {
             let contraction = sizes[lane] / before[lane].max(f64::MIN_POSITIVE);
             if contraction > STALLED {
@@ -241,7 +241,7 @@ fn step(
     Ok((made, is_exact))
 }
 
-/// What a violation weighs in the augmented term.
+/// Weights of the violations in the augmented term.
 fn relative_weights(base: &Simulation) -> Vec<f64> {
     let layout = base.system.layout();
     let augmentation = base.integrator.scaled.augmentation();

@@ -1,8 +1,8 @@
-//! How variations of a node at a stage follow from those at the start of the step and of the increments: what
-//! `node_motion` computes, differentiated.
+//! Variations of a node at a stage as linear functions of those at the start of the step and of the increments: the derivatives of
+//! `node_motion`.
 //!
-//! Legend: η, ν, α variations of place, twist and its derivative, at the start η₀, ν₀; z increment, V₀ twist at the start, t time
-//! since then; ζ rate and κ curvature of the increment, A = Ad(exp(-z)), E = exp(V₀ t), T tangent operator, U = A V₀.
+//! Legend: η, ν, α variations of pose, twist and its time derivative, at the start η₀, ν₀; z increment, V₀ twist at the start, t time
+//! since the start; ζ rate and κ second derivative of the increment, A = Ad(exp(-z)), E = exp(V₀ t), T tangent operator, U = A V₀.
 //!
 //! ```text
 //! from the start:  η = Ad(exp(-ψ)) η₀ + T(ψ) (t ν₀ + δz),  ψ = V₀ t + z,      ν = ν₀ + δζ,      α = δκ
@@ -20,7 +20,7 @@ use lissom_motion::{
 use super::variation::NOTHING;
 use crate::schemes::Increments;
 
-/// Six components of a node, side by side.
+/// Six components of a node, each for all lanes.
 pub(super) type Six = [Block; 6];
 
 /// A node's motion at a stage.
@@ -35,7 +35,7 @@ pub(super) struct NodeStage {
     pub(super) curvature: Vector6,
 }
 
-/// Variations that those at the stage follow given.
+/// Variations at the start of the step and of the increments: the arguments of the map.
 pub(super) struct Given {
     pub(super) place: Six,
     pub(super) twist: Six,
@@ -44,12 +44,12 @@ pub(super) struct Given {
     pub(super) curvature: Six,
 }
 
-/// The linear map of a node at a stage.
+/// Linear map from the given variations to those of a node at a stage.
 #[derive(Clone, Debug)]
 pub(super) struct NodeMap {
-    /// Place by η₀, ν₀ and δz.
+    /// Derivatives of the pose by η₀, ν₀ and z.
     place: [Matrix6; 3],
-    /// Rate by ν₀, δz and δζ, and acceleration by ν₀, δz, δζ and δκ, of departures.
+    /// Derivatives of the twist by ν₀, z and ζ, and of the acceleration by ν₀, z, ζ and κ, for increments relative to the drift.
     departure: Option<Box<([Matrix6; 3], [Matrix6; 4])>>,
 }
 
@@ -69,7 +69,7 @@ impl NodeMap {
         let bracket = lie_bracket_matrix(&carried);
         let gained = operator.times(rate);
         let by_gain = lie_bracket_matrix(&gained);
-        // δU by ν₀ and δz, δW by δz and δζ.
+        // Derivatives of U by ν₀ and z, of W by z and ζ.
         let (seen, turned) = (back, bracket * by_increment);
         let (bent, grown) = (operator.derivative(rate), by_increment);
         let rates = [seen, turned + bent, grown];
@@ -94,7 +94,7 @@ impl NodeMap {
         Self { place: places, departure: Some(Box::new((rates, accelerations))) }
     }
 
-    /// Variations of place, twist and acceleration at the stage.
+    /// Variations of pose, twist and acceleration at the stage.
     #[inline(always)]
     pub(super) fn apply(&self, given: &Given) -> [Six; 3] {
         let mut place = [NOTHING; 6];

@@ -1,4 +1,4 @@
-//! Products of the linearised equations with variations, several numbers of the model side by side.
+//! Products of the linearised equations with variations, for several model parameters at once.
 //!
 //! ```text
 //! K η + D ν + M α      in the rows of the coordinates,      B η      in those of the multipliers
@@ -19,20 +19,20 @@ struct Inertial {
     by_acceleration: f64,
 }
 
-/// The linearised equations at a stage, row after row, so that sums stay in registers.
+/// The linearised equations at a stage, stored by rows so that the sums of a row stay in registers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Products {
-    /// Position of every entry's mirror image: the pattern is symmetric, and values stand by columns.
+    /// Position of the transposed entry of every entry: the pattern is symmetric, and values are stored by columns.
     mirrored: Vec<u32>,
     /// K, and B in the rows of the multipliers, by rows.
     by_place: Vec<f64>,
-    /// What is not zero of D and M, which is little, and where each row's entries end.
+    /// Nonzero entries of D and M, which are few, and the end of each row's entries.
     inertial: Vec<Inertial>,
     ends: Vec<u32>,
 }
 
 impl Products {
-    /// Takes over a linearisation.
+    /// Copies a linearisation.
     pub(super) fn enter(&mut self, pattern: &Pattern, parts: &Linearization) {
         if self.mirrored.is_empty() {
             self.mirrored = mirrored(pattern);
@@ -59,7 +59,7 @@ impl Products {
         }
     }
 
-    /// Adds the products with places, rates, accelerations and multipliers.
+    /// Adds the products with variations of positions, rates, accelerations and multipliers to `out`.
     pub(super) fn add(
         &self,
         processor: pulp::Arch,
@@ -72,11 +72,11 @@ impl Products {
     }
 }
 
-/// Position of the mirror image of every entry of a symmetric pattern.
+/// Position of the transposed entry of every entry of a symmetric pattern.
 fn mirrored(pattern: &Pattern) -> Vec<u32> {
     let mut next = pattern.column_starts().to_vec();
     let mut mirrored = vec![0; pattern.entries()];
-    // Columns ascend, and so do the rows of the columns that they are the mirror images of.
+    // Columns ascend, and so do the rows of the transposed entries.
     for column in 0..pattern.size() {
         for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
             let row = pattern.row_indices()[position];

@@ -1,16 +1,16 @@
-//! Steps of a neighbouring model: one whose numbers differ by a little takes the same steps as another has taken, and its
-//! equations are solved with that one's tangent, made at its solution. Differences of two such neighbours on both sides are
-//! derivatives by the number.
+//! Steps of a perturbed model: a model with slightly different parameters takes the same steps as the base model. Its equations are
+//! solved with the base model's tangent, factored at the base solution. Differences of two such models, perturbed in opposite
+//! directions, are derivatives by the parameter.
 //!
-//! Legend: z solution of a step, x state at its start, θ a number of the model, r residual, J tangent.
+//! Legend: z solution of a step, x state at its start, θ a model parameter, r residual, J tangent.
 //!
 //! ```text
 //! J δz = -r(z; x ± δx, θ ± δθ)
 //! ```
 //!
-//! is the linear equation of direct differentiation, with the derivatives of r by x and θ as differences. It is iterated with
-//! the same J, which is not exact for every scheme, until what is still to come is round-off of the derivative: three corrections
-//! where J is exact.
+//! is the linear equation of direct differentiation, with the derivatives of r by x and θ as finite differences. It is iterated with
+//! the same J, which is not exact for every scheme, until the remaining correction is below the round-off of the derivative: three
+//! corrections if J is exact.
 
 use crate::errors::StepError;
 use crate::integrator::{Start, step_equations};
@@ -20,22 +20,22 @@ use crate::settings::Problem;
 use crate::settings::Unwatched;
 use crate::simulation::Simulation;
 
-/// Most corrections of a neighbour's step.
+/// Maximum number of corrections of a perturbed model's step.
 const MAX_CORRECTIONS: usize = 12;
-/// Corrections still to come, by their contraction, may be this part of the first one. The derivatives of reactions err by more:
-/// a small displacement is a large force across a constraint.
+/// Remaining correction, estimated from the contraction rate, relative to the first one. The derivatives of reactions have larger
+/// errors: across a constraint a small displacement is a large force.
 const REMAINING_CORRECTION: f64 = 1e-11;
-/// A contraction that is worse than this is no information about the next one.
+/// Largest contraction rate from which the next correction is estimated.
 const CONTRACTS: f64 = 0.1;
-/// A neighbour whose last correction is larger has not found its solution.
+/// Largest relative correction at which the step is considered converged.
 const FOUND: f64 = 1e-9;
 
 impl Simulation {
-    /// Makes the tangent of the last step anew, at its solution, and keeps it in use. Gives false if there is no such step: before
-    /// the first one, after one that failed, one that was taken in parts.
+    /// Factors the tangent of the last step again, at its solution, and keeps it in use. Returns false if there is no such step:
+    /// before the first one, after a failure, or after a step that was subdivided.
     ///
     /// # Errors
-    /// If the tangent has no factors.
+    /// If the tangent is singular.
     pub fn renew_at_solution(&mut self) -> Result<bool, StepError> {
         if !self.is_last_step_known {
             return Ok(false);
@@ -47,8 +47,8 @@ impl Simulation {
         Ok(true)
     }
 
-    /// Takes the step that `base` has taken last, from the state of this simulation and with its own system, by corrections
-    /// of the solution of `base` with the tangent of `base`. Gives the number of corrections.
+    /// Takes the last step of `base` from the state of this simulation and with its own system: corrects the solution of `base` with
+    /// the tangent of `base`. Returns the number of corrections.
     ///
     /// # Errors
     /// If the corrections do not converge: the models differ too much.
@@ -89,7 +89,7 @@ impl Simulation {
                 && is_found
                 && contraction <= CONTRACTS
                 && contraction * correction.size <= REMAINING_CORRECTION * first;
-            // What no longer shrinks is round-off.
+            // A correction that no longer contracts is round-off.
             let is_done = is_exact
                 || relative <= round_off::CORRECTION
                 || correction.size == 0.0

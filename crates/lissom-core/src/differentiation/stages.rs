@@ -1,5 +1,5 @@
-//! The stages of a step as their derivatives see them: residuals of the linear equations, corrections, and what comes of them
-//! at the end of the step.
+//! Differentiated stages of a step: residuals of the linear equations, corrections, and the resulting variations at the end of the
+//! step.
 
 use lissom_motion::{Block, Vector6, WIDTH};
 
@@ -25,7 +25,7 @@ struct AtStage {
     acceleration: Vec<Block>,
 }
 
-/// What is known of the stages of a step, and room to work in.
+/// Linearised stages of a step, and scratch storage.
 pub(super) struct Stages {
     moving: Vec<NodeId>,
     parts: Linearization,
@@ -36,7 +36,7 @@ pub(super) struct Stages {
     explicit: Vec<Vec<Block>>,
     residuals: Vec<Vec<Block>>,
     at: Vec<AtStage>,
-    /// Of a scheme, by row.
+    /// Variation of the scheme's algorithmic accelerations, by row.
     memory: Vec<Block>,
     scratch: [Vec<f64>; 2],
     weights: Vec<f64>,
@@ -70,7 +70,7 @@ impl Stages {
         }
     }
 
-    /// Records the last step of `base`, whose tangent has been made at its solution.
+    /// Linearises the last step of `base`, whose tangent has been factored at its solution.
     pub(super) fn enter(&mut self, base: &mut Simulation) {
         self.weights = relative_weights(base);
         let Simulation { system, settings, integrator, previous, .. } = base;
@@ -113,7 +113,7 @@ impl Stages {
         }
     }
 
-    /// Derivatives of the residuals by numbers of the model, at given motion.
+    /// Computes the explicit derivatives of the residuals by the model parameters, at fixed motion.
     pub(super) fn reach(&mut self, base: &Simulation, numbers: &[Number]) {
         if let Some(integrated) = &mut self.integrated {
             for explicit in &mut self.explicit {
@@ -138,7 +138,7 @@ impl Stages {
         }
     }
 
-    /// Residuals of the linear equations of `count` numbers with what is known of increments and multipliers.
+    /// Computes the residuals of the linear equations of `count` parameters with the present increments and multipliers.
     pub(super) fn evaluate(&mut self, base: &Simulation, lanes: &Lanes, count: usize) {
         if let Some(integrated) = &mut self.integrated {
             for (residual, explicit) in self.residuals.iter_mut().zip(&self.explicit) {
@@ -166,7 +166,7 @@ impl Stages {
         }
     }
 
-    /// Variations at a stage.
+    /// Computes the variations at a stage.
     fn vary(&mut self, base: &Simulation, lanes: &Lanes, index: usize) {
         self.processor.dispatch(Vary {
             base,
@@ -178,12 +178,12 @@ impl Stages {
         });
     }
 
-    /// Solves for corrections and applies them: their size in each lane.
+    /// Solves for corrections and applies them. Returns the largest scaled correction in each lane.
     pub(super) fn correct(&mut self, base: &mut Simulation, lanes: &mut Lanes) -> Block {
         let layout = base.system.layout();
         let (count, work) = (layout.coordinate_count(), &mut *base.integrator.work);
         let factor = base.integrator.scaled.multiplier_factor();
-        // The tangent has the augmented term, which vanishes with the violations.
+        // The tangent contains the augmented term, which vanishes with the violations: subtract it from the multipliers.
         for (residual, multipliers) in self.residuals.iter().zip(&mut lanes.multipliers) {
             for ((value, violation), weight) in
                 multipliers.iter_mut().zip(&residual[count..]).zip(&self.weights)
@@ -235,7 +235,7 @@ impl Stages {
         sizes
     }
 
-    /// Variations at the end of the step.
+    /// Stores the variations at the end of the step.
     pub(super) fn leave(&mut self, base: &Simulation, lanes: &mut Lanes) {
         let last = self.residuals.len() - 1;
         self.vary(base, lanes, last);
@@ -258,7 +258,7 @@ impl Stages {
 }
 
 impl Stages {
-    /// Accelerations at the end where velocities are integrated: h V̇ = Σ_j (A⁻¹)_j (V_j - V_0).
+    /// Computes the accelerations at the end for schemes that integrate velocities: h V̇ = Σ_j (A⁻¹)_j (V_j - V_0).
     fn integrate_rates(&mut self, weights: &[f64], start: &[Block], size: f64) {
         let last = self.at.len() - 1;
         for row in 0..start.len() {
@@ -325,7 +325,7 @@ impl pulp::WithSimd for Vary<'_> {
     }
 }
 
-/// What stands in the rows of a node.
+/// Values in the rows of a node, zero for locked degrees of freedom.
 #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 #[inline(always)]
 fn six(rows: &[u32; 6], values: &[Block]) -> Six {
@@ -338,7 +338,7 @@ fn six(rows: &[u32; 6], values: &[Block]) -> Six {
     six
 }
 
-/// A scheme's linear combination of increments and of the start of a step of unit length, times a factor, in all rows.
+/// A scheme's linear combination of increments and of the start of a unit step, times a factor, in all rows.
 #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 #[inline(always)]
 fn combine(combination: &Combination, lanes: &Lanes, size: f64, factor: f64, out: &mut [Block]) {
@@ -363,7 +363,7 @@ fn combine(combination: &Combination, lanes: &Lanes, size: f64, factor: f64, out
     }
 }
 
-/// The largest derivative of an increment in each lane.
+/// Largest scaled derivative of an increment in each lane.
 pub(super) fn largest_found(base: &Simulation, lanes: &Lanes) -> Block {
     let mut largest = NOTHING;
     for increments in &lanes.increments {
@@ -384,7 +384,7 @@ fn multiply(values: &mut [Block], factors: &[f64]) {
     }
 }
 
-/// The larger magnitude; not a number if one is not.
+/// The larger magnitude; NaN if one of them is.
 fn larger(most: f64, value: f64) -> f64 {
     if value.abs() <= most || most.is_nan() { most } else { value.abs() }
 }

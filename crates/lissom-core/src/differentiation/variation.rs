@@ -1,24 +1,24 @@
-//! How a state changes with numbers of the model: variations of places, rates, accelerations and what a scheme remembers,
-//! by row, for several numbers side by side.
+//! Sensitivities of a state to model parameters: variations of positions, rates, accelerations and the scheme's history, by row, for
+//! several parameters at once.
 
 use lissom_motion::{Block, Motion, Vector6, WIDTH};
 
 use crate::kinematics::{CoordinateMotion, Kinematics, LOCKED, Layout, NodeMotion};
 use crate::system::State;
 
-/// Nothing in any lane.
+/// Zero in all lanes.
 pub(super) const NOTHING: Block = [0.0; WIDTH];
 
-/// Derivatives of a state by as many numbers as there are lanes. Those of a node are in its body axes.
+/// Derivatives of a state by as many parameters as there are lanes. Those of a node are in its body axes.
 #[derive(Clone, Debug)]
 pub(super) struct Variation {
-    /// Of places: body variations η with δH = H η̃, and values of coordinates; by row.
+    /// Of positions: body variations η of nodes with δH = H η̃, and values of coordinates; by row.
     pub(super) place: Vec<Block>,
     /// Of the components of twists, and of rates of coordinates.
     pub(super) rate: Vec<Block>,
     /// Of their time derivatives.
     pub(super) acceleration: Vec<Block>,
-    /// Of the scheme's memory.
+    /// Of the scheme's algorithmic accelerations.
     pub(super) algorithmic: Vec<Block>,
     /// Of the multipliers.
     pub(super) multipliers: Vec<Block>,
@@ -36,8 +36,7 @@ impl Variation {
         }
     }
 
-    /// Enters the difference of neighbouring states of `base`, with its weights. False where a locked freedom differs, which has
-    /// no row.
+    /// Adds the weighted differences of perturbed states from `base`. False if a locked degree of freedom differs, which has no row.
     pub(super) fn enter(
         &mut self,
         lane: usize,
@@ -101,7 +100,7 @@ impl Variation {
         }
     }
 
-    /// The largest derivative in each lane: of a place by its size, of a rate or acceleration over `duration` [s].
+    /// Largest derivative in each lane: of a scaled position, or of a rate or acceleration over `duration` [s].
     pub(super) fn extents(&self, sizes: &[f64], duration: f64) -> Block {
         let mut largest = NOTHING;
         let of = [(&self.place, 1.0), (&self.rate, duration), (&self.acceleration, duration * duration)];
@@ -115,7 +114,7 @@ impl Variation {
         largest
     }
 
-    /// Moves `state` by `share` of the variation in a lane.
+    /// Displaces `state` by `share` times the variation in a lane.
     pub(super) fn displace(&self, lane: usize, layout: &Layout, share: f64, state: &mut State) {
         let own = |values: &[Block], rows: &[u32; 6]| {
             Vector6::from_fn(
