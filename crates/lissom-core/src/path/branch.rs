@@ -1,7 +1,7 @@
-//! Going over to another path at a bifurcation [Riks 1979; Keller 1977].
+//! Branch switching at a bifurcation [Riks 1979; Keller 1977].
 //!
-//! Legend: φ null vector of the stiffness there, less its part along the path and of length 1, W metric of the path.
-//! The first equilibrium of the branch is sought where φᵀW²(q - q_b) = ε: the path that was followed does not come there.
+//! Legend: φ null vector of the stiffness there, orthogonal to the path and of length 1, W metric of the path. The first equilibrium
+//! of the branch is solved for with φᵀW²(q - q_b) = ε, a condition that the primary path does not satisfy.
 
 use super::equations::Condition;
 use super::{CriticalKind, CriticalPoint, EquilibriumPath, PathError, PathStep, Solution, Tangent};
@@ -9,36 +9,36 @@ use crate::errors::StepError;
 use crate::kinematics::Subject;
 use crate::system::State;
 
-/// First distances ε that are tried, in their order [-].
+/// Distances ε of the first equilibrium on a branch, in the order of the attempts [-].
 const DISTANCES: [f64; 6] = [0.02, 0.05, 0.01, 0.1, 0.005, 0.2];
-/// Distances beside the bifurcation, over the step, at which the mode is found.
+/// Offsets from the bifurcation at which the mode is computed, as step fractions.
 const ASIDE: [f64; 8] = [0.0, -1e-7, 1e-7, -1e-6, 1e-6, -1e-5, -1e-4, -1e-3];
-/// The part of a step that goes on along the path that was followed is at most this.
+/// Largest component of the first step along the primary path, relative to its length.
 const MAX_STRAIGHT_ON: f64 = 0.9;
 
-/// Which branch is to be followed.
+/// Branch to follow.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BranchChoice {
-    /// The bifurcation at which the path is left, counted from 1; 0 to stay on it.
+    /// Number of the bifurcation at which the path is left, counted from 1; 0 to stay on the primary path.
     pub number: usize,
-    /// Whether the branch is followed in the other sense: that in which the largest part of the mode is negative.
+    /// Whether the branch is followed in the opposite direction, in which the largest component of the mode is negative.
     pub is_reversed: bool,
 }
 
-/// The bifurcation from which a branch is to be found.
+/// Bifurcation at which the path is to be left.
 pub(super) struct Departure {
-    /// Direction of the branch; none of the load factor.
+    /// Direction of the branch; the load factor is constant along it.
     pub(super) tangent: Tangent,
-    /// Of the path that is left.
+    /// Direction of the primary path.
     along: Vec<f64>,
 }
 
 impl EquilibriumPath {
-    /// Counts bifurcations among the `critical` points of a step. At the one to be left, goes there and not farther: the
-    /// points beyond it are taken out. False if it is not among them; `length` is that of the step.
+    /// Counts the bifurcations among the `critical` points of a step of `length`. If the requested one is among them, the step ends
+    /// there, and later points are removed. Returns false otherwise.
     ///
     /// # Errors
-    /// If there is no equilibrium near it whose stiffness has factors.
+    /// If there is no equilibrium near the bifurcation with a regular stiffness.
     pub(super) fn stop_at_bifurcation(
         &mut self,
         start: &State,
@@ -78,8 +78,8 @@ impl EquilibriumPath {
         Ok(false)
     }
 
-    /// The equilibrium at the distance `place`, or beside it, with the softest direction of its stiffness, which has no
-    /// factors at the bifurcation itself.
+    /// The equilibrium at the distance `place`, or close to it, and the softest direction of its stiffness, which is singular at the
+    /// bifurcation itself.
     fn beside(
         &mut self,
         start: &State,
@@ -106,7 +106,7 @@ impl EquilibriumPath {
         }))
     }
 
-    /// Goes to the first equilibrium of the branch.
+    /// Steps to the first equilibrium of the branch.
     pub(super) fn depart(&mut self, departure: &Departure, report: &mut PathStep) -> Result<(), PathError> {
         let start = self.state.clone();
         let mut last = None;

@@ -1,32 +1,32 @@
-//! Limit points, where the load factor turns back, and bifurcations, where the stiffness is singular although it does not.
+//! Critical points: limit points, where the load factor has an extremum, and bifurcations, where the stiffness is singular without one.
 //!
-//! Legend: s distance from the last equilibrium, Λ load factor, K stiffness on the constraints. A limit point has dΛ/ds = 0 and
-//! one more or one less negative pivot on its other side; a bifurcation the same change of pivots without the zero.
+//! Legend: s distance from the last equilibrium, Λ load factor, K stiffness on the constraints. At a limit point dΛ/ds = 0 and the
+//! number of negative pivots changes by one; at a bifurcation the number of negative pivots changes while dΛ/ds is not zero.
 
 use super::equations::Condition;
 use super::{EquilibriumPath, Solution};
 use crate::errors::StepError;
 use crate::system::State;
 
-/// Most evaluations of a search.
+/// Maximum number of evaluations of a search.
 const MAX_TRIALS: usize = 60;
-/// A search ends when it knows the distance to this part of the step.
+/// Width of the bracket at which a search ends, as a step fraction.
 const INTERVAL_TOLERANCE: f64 = 1e-10;
-/// A search ends when the rate is this part of what it is at the ends of the step.
+/// Load rate at which a search ends, relative to the rates at the ends of the step.
 const FLAT: f64 = 1e-11;
 
-/// Trials in a row that may fail.
+/// Maximum number of consecutive failures of evaluations.
 const MAX_FAILURES: usize = 2;
-/// Over this part of the step the signature is straight: the square of it is what its zero errs by.
+/// Width of the bracket within which the signature is linear, as a step fraction; the relative error of its zero is the square.
 const STRAIGHT: f64 = 1e-4;
 
-/// At a singular stiffness the signature on both sides is at most this part of what it is at the ends of the step.
+/// Largest signature at the ends of the bracket of a singular stiffness, relative to the ends of the step.
 const CONTINUOUS: f64 = 1e-2;
 
-/// A critical point is known well where its rate or its place is known to this part of the step.
+/// Accuracy of a critical point that counts as located: relative load rate or signature, or step fraction.
 const LOCATED: f64 = 1e-6;
 
-/// What happens at a critical point.
+/// Kind of a critical point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CriticalKind {
     /// The load factor has an extremum along the path.
@@ -36,7 +36,7 @@ pub enum CriticalKind {
 }
 
 impl CriticalKind {
-    /// Its word in `summary.json`.
+    /// Its name in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Limit => "limit",
@@ -48,7 +48,7 @@ impl CriticalKind {
 /// An equilibrium with a singular stiffness.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CriticalPoint {
-    /// What happens there.
+    /// Kind of the point.
     pub kind: CriticalKind,
     /// Load factor.
     pub load_factor: f64,
@@ -56,11 +56,11 @@ pub struct CriticalPoint {
     pub arc: f64,
     /// Number of unstable directions before and after it.
     pub unstable: [usize; 2],
-    /// Whether its place is known well: if not, the search for it ended early, and it lies somewhere in the step.
+    /// Whether the point is located accurately. If not, the search ended early, and the point is somewhere in the step.
     pub is_located: bool,
 }
 
-/// A point of the search: distance, load factor, load rate, number of unstable directions, signature.
+/// Evaluated point of a search: distance, load factor, load rate, number of unstable directions, signature.
 #[derive(Clone, Copy)]
 struct Trial {
     distance: f64,
@@ -73,14 +73,14 @@ struct Trial {
 /// A change of the number of unstable directions.
 struct ChangeOfCount {
     at: Trial,
-    /// The nearest point known on its far side.
+    /// The nearest evaluated point beyond it.
     beyond: Trial,
     is_located: bool,
-    /// Whether both sides are near enough for other changes to be beyond.
+    /// Whether the bracket is narrow enough for other changes to be outside.
     is_split: bool,
 }
 
-/// A point between two, the load factor by the cubic that has the rates of both.
+/// Interpolated point between two, with the cubic of the load factor through their values and rates.
 fn between(low: Trial, high: Trial, part: f64) -> Trial {
     let width = high.distance - low.distance;
     let change = high.load_factor - low.load_factor;
@@ -97,7 +97,7 @@ fn between(low: Trial, high: Trial, part: f64) -> Trial {
 }
 
 impl EquilibriumPath {
-    /// Critical points between the present equilibrium and `found`, `length` away.
+    /// Critical points between the present equilibrium and `found`, at the distance `length`.
     pub(super) fn critical_points(
         &mut self,
         start: &State,
@@ -168,7 +168,7 @@ impl EquilibriumPath {
         })
     }
 
-    /// Where the load rate vanishes, by the Illinois form of the false position, and whether it is known well.
+    /// Zero of the load rate by the Illinois variant of the false position, and whether it is located accurately.
     fn zero_of_rate(
         &mut self,
         start: &State,
@@ -182,7 +182,7 @@ impl EquilibriumPath {
         for _ in 0..MAX_TRIALS {
             let (a, b) = (weights[0] * low.rate, weights[1] * high.rate);
             let distance = low.distance - a * (high.distance - low.distance) / (b - a);
-            // At the limit itself the stiffness has no factors.
+            // At the limit point itself the stiffness is singular.
             let Ok(next) = self.trial(start, distance, iterations) else { break };
             if next.rate.abs() < best.rate.abs() {
                 best = next;
@@ -203,8 +203,7 @@ impl EquilibriumPath {
         (best, best.rate.abs() <= LOCATED * scale)
     }
 
-    /// Where the number of unstable directions changes, by the zero of the signature held between the counts, and whether it
-    /// is known well.
+    /// Change of the number of unstable directions, from the zero of the signature bracketed by the two counts.
     fn change_of_count(
         &mut self,
         start: &State,
@@ -219,12 +218,12 @@ impl EquilibriumPath {
                 break;
             }
             let mut part = low.signature / (low.signature - high.signature);
-            // Every third time the middle, where the signature is no guide.
+            // Every third time bisect: the signature may be strongly nonlinear.
             if !(part > 0.0 && part < 1.0) || trial % 3 == 2 {
                 part = 0.5;
             }
             let part = part.clamp(1e-3, 1.0 - 1e-3);
-            // At the bifurcation itself the stiffness has no factors: beside it, on one side and then the other.
+            // At the bifurcation itself the stiffness is singular: evaluate to the left of it, then to the right.
             let part = match failures {
                 0 => part,
                 1 => 0.5 * part,
@@ -243,12 +242,12 @@ impl EquilibriumPath {
         let width = high.distance - low.distance;
         let largest = first.signature.abs().max(last.signature.abs());
         let is_singular = low.signature.abs().min(high.signature.abs()) <= LOCATED * largest;
-        // Where the count changes although the stiffness is not singular, the search has gone over to another path.
+        // If the count changes although the stiffness is not singular, the search has jumped to another path.
         let is_continuous = low.signature.abs().max(high.signature.abs()) <= CONTINUOUS * largest;
         let is_straight = low.signature * high.signature < 0.0 && width <= STRAIGHT * last.distance;
         let is_located = is_singular || (is_continuous && (is_straight || width <= LOCATED * last.distance));
         let is_split = width <= STRAIGHT * last.distance;
-        // The signature is proportional to the eigenvalue that vanishes, and straight on so short a way.
+        // The signature is proportional to the vanishing eigenvalue, and linear over so short a distance.
         let at = if low.signature * high.signature < 0.0 && width > 0.0 {
             let part = low.signature / (low.signature - high.signature);
             between(low, high, part)

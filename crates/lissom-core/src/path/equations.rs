@@ -1,5 +1,5 @@
-//! The equations of a step along an equilibrium path as Newton's method sees them: equilibrium, constraints, and one equation
-//! for the load factor. The bordered matrix is solved with the factors of the stiffness and two right-hand sides.
+//! Nonlinear equations of a step along an equilibrium path: equilibrium, constraints, and one equation for the load factor. The
+//! bordered matrix is solved with the factors of the stiffness and two right-hand sides.
 
 use std::sync::Arc;
 
@@ -21,37 +21,37 @@ use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Scratch, State, Sum, System, TangentAssembler};
 
-/// Corrections larger than this are cut short [-, rad].
+/// Largest correction; larger ones are scaled down [-, rad].
 const MAX_CORRECTION: f64 = 0.5;
-/// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
+/// Inverse iterations for the softest direction. One is sufficient at a bifurcation located to 1e-10.
 const INVERSE_ITERATIONS: usize = 4;
 
-/// Entries of the equilibrated tangent that differ from their mirror images by more have no energy.
+/// Largest asymmetry of the equilibrated tangent of a conservative system.
 const ASYMMETRY: f64 = 1e-7;
 
 /// The equation for the load factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Condition {
-    /// The distance from the start of the step.
+    /// Prescribed distance from the start of the step.
     Arc(f64),
-    /// The load factor itself.
+    /// Prescribed load factor.
     Load(f64),
-    /// The part of the way from the start of the step that lies along its tangent.
+    /// Prescribed component of the displacement along the tangent at the start of the step.
     Along(f64),
 }
 
-/// Displacements and multipliers in units of the scaled equations, by row, and the load factor.
+/// Increment of the scaled displacements and multipliers, by row, and of the load factor.
 #[derive(Clone, Debug)]
 struct Change {
     rows: Vec<f64>,
     load: f64,
 }
 
-/// What a step works with, allocated once.
+/// Storage of a step, allocated once.
 pub(super) struct PathWork {
     scaled: Scaled,
     saddle: SaddlePoint<Matrix<f64>>,
-    /// Whether the tangent factored last is symmetric: without that its negative pivots count nothing but the sign of its determinant.
+    /// Whether the last factored tangent is symmetric. Otherwise its negative pivots only determine the sign of its determinant.
     is_symmetric: bool,
     other_values: Vec<f64>,
     scratch: Scratch,
@@ -60,26 +60,26 @@ pub(super) struct PathWork {
     coordinate_changes: Vec<f64>,
     multipliers: Vec<f64>,
     load_factor: f64,
-    /// Sum of all changes since the start of the step.
+    /// Sum of all increments since the start of the step.
     total: Vec<f64>,
     /// Displacements per unit of the load factor, at the last tangent.
     response: Vec<f64>,
     load: Vec<f64>,
     residual: Vec<f64>,
-    /// That of another system.
+    /// Residual of the other system.
     other: Vec<f64>,
-    /// Violations at the start of the step, of the system at hand.
+    /// Violations at the start of the step, of the system in use.
     violations: Vec<f64>,
     last: Change,
     before: Change,
     correction: f64,
-    /// Root of the weight of each row in the distance along the path.
+    /// Square root of the weight of each row in the distance along the path.
     weights: Vec<f64>,
-    /// Scaled size of a unit of each row.
+    /// Scale factor of each row.
     sizes: Vec<f64>,
-    /// Scaled size of a unit of each violation.
+    /// Scale factor of each violation.
     violation_sizes: Vec<f64>,
-    /// A right-hand side in no particular direction.
+    /// Pseudo-random right-hand side.
     probe: Vec<f64>,
 }
 
@@ -124,7 +124,7 @@ impl PathWork {
             weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
             probe: (0..count)
                 .map(|_| {
-                    // Numbers without a pattern [logistic map].
+                    // Pseudo-random numbers [logistic map].
                     noise = (3.9 * 0.5 * noise * (1.0 - 0.5 * noise)).abs().max(1e-3) * 2.0;
                     noise - 1.0
                 })
@@ -133,29 +133,29 @@ impl PathWork {
         }
     }
 
-    /// Product of two displacements in the metric of the path.
+    /// Inner product of two displacements in the metric of the path.
     pub(super) fn inner(&self, a: &[f64], b: &[f64]) -> f64 {
         self.weights.iter().zip(a).zip(b).map(|((weight, a), b)| (weight * a) * (weight * b)).sum()
     }
 
-    /// Distance from the start of the last solution.
+    /// Distance between start and end of the last solution.
     pub(super) fn length_of_last(&self) -> f64 {
         self.inner(&self.total, &self.total).sqrt()
     }
 
-    /// All changes since the start of the last solution, by row.
+    /// Total increment since the start of the last solution, by row.
     pub(super) fn total(&self) -> &[f64] {
         &self.total
     }
 
-    /// The sign of the displacement or rotation that is largest in scaled size.
+    /// Sign of the displacement or rotation with the largest scaled magnitude.
     pub(super) fn sense_of_largest(&self, values: &[f64]) -> f64 {
         let scaled = self.sizes.iter().zip(values).map(|(size, value)| size * value);
         let largest = scaled.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most });
         largest.signum()
     }
 
-    /// Whether the load moves nothing.
+    /// Whether the response to the load is zero.
     pub(super) fn load_is_zero(&self) -> bool {
         self.response.iter().all(|&value| value == 0.0)
     }
@@ -168,8 +168,8 @@ impl PathWork {
     }
 }
 
-/// Whether the rows and columns of the coordinates, those before `count`, of equilibrated values on `pattern` are symmetric: loads that
-/// follow the motion have no energy, and their tangent is not.
+/// Whether the coordinate block (rows and columns below `count`) of equilibrated values on `pattern` is symmetric. The tangent of
+/// follower loads, which are not conservative, is not.
 fn is_symmetric(pattern: &Pattern, values: &[f64], count: usize) -> bool {
     (0..count).all(|column| {
         let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
@@ -187,14 +187,14 @@ pub(super) struct PathEquations<'a> {
     pub(super) settings: &'a PathSettings,
     pub(super) start: &'a State,
     pub(super) start_factor: f64,
-    /// The direction at the start; none for the first equilibrium.
+    /// Tangent of the path at the start; none for the first equilibrium.
     pub(super) tangent: Option<&'a Tangent>,
     pub(super) condition: Condition,
     pub(super) work: &'a mut PathWork,
 }
 
 impl PathEquations<'_> {
-    /// Goes to the first guess.
+    /// Sets the predictor along the tangent.
     pub(super) fn begin(&mut self) {
         let work = &mut *self.work;
         work.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
@@ -267,7 +267,7 @@ impl PathEquations<'_> {
         }
     }
 
-    /// The residual. Under loads also its derivative by their factor. False if there is no system for the value at hand.
+    /// Evaluates the residual, with loads also its derivative by the load factor. False if there is no system for the present value.
     fn evaluate(&mut self) -> bool {
         let value = self.work.load_factor;
         let system = match &mut *self.systems {
@@ -297,8 +297,8 @@ impl PathEquations<'_> {
         true
     }
 
-    /// The derivative of the residual by a number on which the system depends, by differences. False if there are no systems
-    /// beside the one at hand.
+    /// Evaluates the derivative of the residual by a model parameter, by differences. False if there are no systems for neighbouring
+    /// values.
     fn differentiate(&mut self) -> bool {
         let PathSystems::Number(number) = &mut *self.systems else { return true };
         let Some([below, above]) = number.around(self.work.load_factor) else { return false };
@@ -316,7 +316,7 @@ impl PathEquations<'_> {
         true
     }
 
-    /// Linearises at the iterate and factors; then solves for the response to the load.
+    /// Linearises at the iterate and factors the tangent; then solves for the response to the load.
     fn factor(&mut self, stressed_at_start: bool) -> Result<(), FactorError> {
         if !(self.evaluate() && self.differentiate()) {
             return Err(FactorError::NotFinite { unknown: 0 });
@@ -362,21 +362,21 @@ impl PathEquations<'_> {
         Ok(())
     }
 
-    /// Solves with the factored tangent, for a residual in SI.
+    /// Solves with the factored tangent for a right-hand side in SI units.
     fn solve(&mut self, right: &mut [f64]) {
         let work = &mut *self.work;
         work.scaled.scale_residual(self.systems.any().layout(), right);
         work.saddle.solve(self.systems.any().structure(), right);
     }
 
-    /// The state reached, and the direction of the path there.
+    /// The converged state, and the tangent of the path there.
     pub(super) fn finish(&mut self, iterations: usize) -> Result<Solution, StepError> {
         self.factor(false).map_err(|error| self.describe(&Failure::Factor(error)))?;
         let count = self.systems.any().layout().coordinate_count();
         let multiplier_count = self.work.multipliers.len();
         let mut probe = vec![0.0; count + multiplier_count];
         probe[..count].copy_from_slice(&self.work.probe);
-        // Forces in units of the scaled equations: a length of the model counts like an angle.
+        // Forces in units of the scaled equations: the length of the model corresponds to one radian.
         for (value, size) in probe.iter_mut().zip(&self.work.sizes) {
             *value *= size;
         }
@@ -412,13 +412,13 @@ impl PathEquations<'_> {
         }
         state.multipliers.copy_from_slice(&work.multipliers);
         let mut violations = vec![0.0; multiplier_count];
-        // The system of this value was used last: it was linearised here.
+        // The system in use belongs to this value: it was linearised here.
         self.systems.any().stage_violations(&self.point(false), &mut violations);
         state.violations = violations;
         Ok(Solution { state, load_factor: self.work.load_factor, tangent, iterations })
     }
 
-    /// The direction of length 1 in which the stiffness factored last is softest, by inverse iteration.
+    /// Softest direction of the last factored stiffness, of length 1, by inverse iteration.
     pub(super) fn softest_direction(&mut self) -> Vec<f64> {
         let count = self.systems.any().layout().coordinate_count();
         let mut direction = vec![0.0; count + self.work.multipliers.len()];
@@ -436,7 +436,7 @@ impl PathEquations<'_> {
         direction
     }
 
-    /// Nothing was applied: the last correction is the one before.
+    /// Records a zero increment; the last increment becomes the one before.
     fn note_nothing(&mut self) {
         let work = &mut *self.work;
         std::mem::swap(&mut work.before, &mut work.last);
@@ -444,7 +444,7 @@ impl PathEquations<'_> {
         work.last.load = 0.0;
     }
 
-    /// A failure with names.
+    /// Error of a failure, with the names of the unknowns.
     pub(super) fn describe(&self, failure: &Failure) -> StepError {
         let layout = self.systems.any().layout();
         let time = self.start.kinematics.time;
@@ -488,8 +488,8 @@ impl Equations for PathEquations<'_> {
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
         if let Some(compliance) = work.saddle.compliance() {
-            // The compliance is in the factors alone, and violations are corrected whole. What cannot be corrected, because
-            // constraints repeat each other, is round-off, and would accumulate in the multipliers.
+            // The compliance is included in the factors only, so violations are corrected completely. The part that redundant
+            // constraints cannot correct is round-off, and would accumulate in the multipliers.
             let factor = work.scaled.multiplier_factor() * work.scaled.scale();
             let allowances = compliance.allowances(factor, &work.multipliers);
             for ((value, unit), allowance) in
@@ -539,14 +539,14 @@ impl Equations for PathEquations<'_> {
         work.correction = size;
         work.before = std::mem::replace(&mut work.last, change);
         let reference = work.largest(&work.total[..count]);
-        // The load factor counts like a displacement, relative to its size.
+        // The load factor is weighted like a displacement, relative to its magnitude.
         let of_load = work.load_factor.abs().max((work.load_factor - self.start_factor).abs());
         let load = if of_load > 0.0 { work.last.load.abs() / of_load * reference } else { 0.0 };
         Correction { size: size.max(load), reference }
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
-        // The stresses of an iterate far from equilibrium are no guide.
+        // The stresses of an iterate far from equilibrium are meaningless.
         let is_far = self.work.correction > FAR_FROM_EQUILIBRIUM;
         self.factor(is_far)
     }
@@ -566,7 +566,7 @@ impl Equations for PathEquations<'_> {
             *value *= 0.5;
         }
         before.load *= 0.5;
-        // Half of it stands, and is what may be halved again.
+        // Half of the increment remains applied, and may be halved again.
         self.work.last = before;
     }
 }

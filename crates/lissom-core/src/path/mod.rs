@@ -1,10 +1,10 @@
-//! Equilibrium paths under loads multiplied by a load factor, through limit points and snap-back, by arc length
+//! Equilibrium paths under loads multiplied by a load factor, through limit points and snap-back, by arc-length continuation
 //! [Riks 1979; Crisfield 1981].
 //!
 //! The residual at load factor Λ is (1 - Λ) r₀ + Λ r₁, with r₀ that of the system without gravity and loads and r₁ that of the
-//! whole one: no load knows of the factor. Along a number of the model the residual is that of the system for its value, and the
-//! derivative by it a difference; what else is said of Λ is true of the number. Distances along the path are root mean squares of rotations and of displacements over
-//! the model's length; multipliers have no part in them.
+//! whole system: loads do not depend on the factor. Along a model parameter the residual is that of the system for its value, and the
+//! derivative by it a finite difference; statements on Λ apply to the parameter, too. Distances along the path are root mean squares
+//! of rotations and of displacements over the model's length; multipliers do not contribute.
 
 mod branch;
 mod critical;
@@ -29,29 +29,29 @@ use equations::{Condition, PathEquations, PathWork};
 pub use systems::Family;
 use systems::{PathSystems, are_alike};
 
-/// Newton's tolerance is at most this: positions of limit points follow from differences along the path.
+/// Upper bound of Newton's tolerance: limit points are located by differences along the path.
 const TOLERANCE: f64 = 1e-10;
 
-/// A path that has come no farther than this part of its way along the load factor has not left the model without loads.
+/// A path whose load factor has not exceeded this fraction of its end value has not left the unloaded model.
 const UNRESISTED: f64 = 1e-3;
 
-/// The last equilibrium is at most so much farther away than the step that passed it.
+/// Largest distance of the last equilibrium, relative to the step that passed the end.
 const FARTHER: f64 = 1.1;
 
-/// Options of a path besides its systems and its start.
+/// Options of a path, except its systems and its start.
 #[derive(Clone, Copy)]
 pub struct PathSettings {
-    /// First step of the load factor, or of the number; its sign is the direction in which the path begins.
+    /// First step of the load factor, or of the parameter; its sign is the initial direction of the path.
     pub first: f64,
-    /// Load factor, or value, at which the path ends.
+    /// Load factor, or value of the parameter, at which the path ends.
     pub end: f64,
-    /// Most steps.
+    /// Maximum number of steps.
     pub most_steps: usize,
-    /// Which branch is followed.
+    /// Branch to follow.
     pub branch: BranchChoice,
     /// Scaling and augmented term.
     pub scaling: ScalingChoice,
-    /// When Newton's iterations stop.
+    /// Convergence limits of Newton's method.
     pub limits: Limits,
     /// Linear solver.
     pub solver: &'static SolverKind,
@@ -236,33 +236,33 @@ impl From<&StepError> for Value {
     }
 }
 
-/// What the path does at an equilibrium.
+/// Tangent of the path at an equilibrium.
 #[derive(Clone, Debug)]
 struct Tangent {
-    /// Displacements by row, multipliers included, per unit of the path.
+    /// Displacements and multipliers by row, per unit of path length.
     direction: Vec<f64>,
     /// dΛ/ds.
     load_rate: f64,
-    /// Largest displacement over the model's length, or rotation, per unit of the path.
+    /// Largest displacement over the model's length, or rotation, per unit of path length.
     turn: f64,
-    /// Directions in which the equilibrium is not stable, by negative pivots.
+    /// Number of unstable directions of the equilibrium, from negative pivots.
     unstable: usize,
-    /// Changes its sign where the stiffness is singular.
+    /// Quantity that changes sign where the stiffness is singular.
     signature: f64,
 }
 
 /// Result of a step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathStep {
-    /// Newton iterations, those of attempts given up and of the search for critical points included.
+    /// Newton iterations, including those of rejected attempts and of the search for critical points.
     pub iterations: usize,
-    /// Attempts given up.
+    /// Rejected attempts.
     pub rejected: usize,
     /// Limit points and bifurcations passed.
     pub critical: Vec<CriticalPoint>,
 }
 
-/// An equilibrium path as far as it has been followed.
+/// An equilibrium path and its present end.
 pub struct EquilibriumPath {
     systems: PathSystems,
     settings: PathSettings,
@@ -273,11 +273,11 @@ pub struct EquilibriumPath {
     control: ArcControl,
     work: PathWork,
     steps: usize,
-    /// The largest load factor so far, without its sign.
+    /// Largest magnitude of the load factor so far.
     most: f64,
-    /// Bifurcations met.
+    /// Bifurcations passed.
     bifurcations: usize,
-    /// The bifurcation at which it stands, where it is to be left there.
+    /// The bifurcation at which the path has arrived and is to be left.
     departure: Option<Departure>,
     is_finished: bool,
 }
@@ -286,11 +286,11 @@ pub struct EquilibriumPath {
 enum NoStart {
     /// No equilibrium was found.
     Failed(StepError),
-    /// What changes along the path moves nothing.
+    /// The path parameter has no effect.
     Nothing,
 }
 
-/// A solution: state and load factor with the path's direction there.
+/// A solution: state, load factor, and tangent of the path there.
 struct Solution {
     state: State,
     load_factor: f64,
@@ -299,7 +299,7 @@ struct Solution {
 }
 
 impl EquilibriumPath {
-    /// The start of a path: equilibrium at load factor zero near `state`. `unloaded` is `loaded` without gravity and loads.
+    /// Starts a path: equilibrium at load factor zero near `state`. `unloaded` is `loaded` without gravity and loads.
     ///
     /// # Errors
     /// If there is no such equilibrium, or no load.
@@ -323,11 +323,11 @@ impl EquilibriumPath {
         })
     }
 
-    /// The start of a path along a number called `name`, of which `family` has the systems: equilibrium near `state` where it
-    /// has the value `from`.
+    /// Starts a path along the parameter `name` of the systems of `family`: equilibrium near `state` with the value `from` of the
+    /// parameter.
     ///
     /// # Errors
-    /// If there is no such equilibrium, or the number changes nothing.
+    /// If there is no such equilibrium, or the parameter has no effect.
     pub fn along(
         (name, family): (String, Box<dyn Family>),
         from: f64,
@@ -387,12 +387,12 @@ impl EquilibriumPath {
         Ok(path)
     }
 
-    /// The system with its loads; along a number, that of a value near the last equilibrium's.
+    /// The loaded system; along a parameter, that of a value near the last equilibrium's.
     pub fn system(&self) -> &System {
         self.systems.any()
     }
 
-    /// What changes along it, in words.
+    /// Name of the path parameter.
     pub fn name(&self) -> &str {
         self.systems.name()
     }
@@ -407,18 +407,17 @@ impl EquilibriumPath {
         &self.state
     }
 
-    /// Its load factor, or the value of the number.
+    /// Load factor, or value of the parameter, of the last equilibrium.
     pub fn load_factor(&self) -> f64 {
         self.load_factor
     }
 
-    /// Length of the path up to it.
+    /// Length of the path up to the last equilibrium.
     pub fn arc(&self) -> f64 {
         self.arc
     }
 
-    /// Number of directions in which it is not stable, by negative pivots; with follower loads only whether that is odd
-    /// means something.
+    /// Number of unstable directions of the last equilibrium, from negative pivots. With follower loads only its parity is meaningful.
     pub fn unstable(&self) -> usize {
         self.tangent.unstable
     }
@@ -428,15 +427,15 @@ impl EquilibriumPath {
         self.steps
     }
 
-    /// Whether the end is reached.
+    /// Whether the path has reached its end.
     pub fn is_finished(&self) -> bool {
         self.is_finished
     }
 
-    /// Goes on to the next equilibrium. On failure the path stays where it was.
+    /// Advances to the next equilibrium. On failure the path is unchanged.
     ///
     /// # Errors
-    /// If no equilibrium is found nearby, or the number of steps is used up.
+    /// If no equilibrium is found nearby, or the maximum number of steps is reached.
     pub fn advance(&mut self) -> Result<PathStep, PathError> {
         let mut report = PathStep::default();
         if self.is_finished {
@@ -488,7 +487,7 @@ impl EquilibriumPath {
         }
     }
 
-    /// What is to be said of a path that ends where it has left the model without loads by hardly anything.
+    /// Error for a path that ends before it has left the unloaded model noticeably.
     fn unresisted(&self, reason: impl Fn() -> String) -> Option<PathError> {
         let is_along_loads = matches!(self.systems, PathSystems::Loads(_));
         (is_along_loads && self.most <= UNRESISTED * self.settings.end.abs()).then(|| {
@@ -501,13 +500,13 @@ impl EquilibriumPath {
         })
     }
 
-    /// Tries a step; false if it may have left the path.
+    /// Attempts a step. Returns false if the solution may be on another path.
     fn attempt(&mut self, size: f64, report: &mut PathStep) -> Result<bool, StepError> {
         let start = self.state.clone();
         let (from, end) = (self.load_factor, self.settings.end);
         let mut found = self.solve_along(&start, Condition::Arc(size))?;
         report.iterations += found.iterations;
-        // Before the branch the load factor may be beyond the end.
+        // Before the requested bifurcation the load factor may exceed its end value.
         let is_on_branch = self.bifurcations >= self.settings.branch.number;
         let is_last = is_on_branch && (from - end) * (found.load_factor - end) <= 0.0;
         if is_last {
@@ -521,8 +520,8 @@ impl EquilibriumPath {
         let cosine = self.work.inner(&self.tangent.direction, &found.tangent.direction);
         let changes = found.tangent.unstable.abs_diff(self.tangent.unstable);
         let turns = found.tangent.load_rate * self.tangent.load_rate < 0.0;
-        // A limit point changes the count by one: with another number of changes there is a bifurcation in the step as well. Along a
-        // number the model may have no stiffness that could change.
+        // A limit point changes the count by one; any other change means that the step contains a bifurcation as well. Along a
+        // parameter the stiffness may be independent of it.
         let is_along_loads = matches!(self.systems, PathSystems::Loads(_));
         let are_mixed = changes > 2 || (turns && (changes == 2 || (changes == 0 && is_along_loads)));
         let is_long = self.control.is_long(size);
@@ -535,7 +534,7 @@ impl EquilibriumPath {
         let mut critical = Vec::new();
         if turns || changes > 0 {
             critical = self.critical_points(&start, length, &found, &mut report.iterations);
-            // A change that no point of the step explains belongs to another path, on which the step has ended.
+            // A change that no point within the step explains means that the step ended on another path.
             if is_long && critical.iter().any(|point| !point.is_located) {
                 return Ok(false);
             }
@@ -553,8 +552,8 @@ impl EquilibriumPath {
         Ok(true)
     }
 
-    /// Whether the chord of the last solution is not the mean of the tangents at its ends, as on a smooth path: then it may have ended
-    /// on another one.
+    /// Whether the chord of the last solution deviates from the mean of the tangents at its ends, which a smooth path excludes: the
+    /// solution may be on another path.
     fn has_left_the_arc(&self, found: &Solution, cosine: f64) -> bool {
         let chord = self.work.total();
         let length = self.work.length_of_last();
@@ -577,7 +576,7 @@ impl EquilibriumPath {
         self.solve(start, self.load_factor, Some(&tangent), condition)
     }
 
-    /// Solves at a distance along the tangent, and gives the direction in which the stiffness there is softest.
+    /// Solves at a distance along the tangent. Also returns the softest direction of the stiffness there.
     fn solve_for_mode(&mut self, start: &State, distance: f64) -> Result<(Solution, Vec<f64>), StepError> {
         let found = self.solve_along(start, Condition::Arc(distance))?;
         let mut equations = PathEquations {

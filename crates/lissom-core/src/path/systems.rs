@@ -1,51 +1,50 @@
-//! What changes along a path: the factor of all loads, between the systems without and with them, or a number on which the
-//! system depends.
+//! Parameter of a path: the factor of all loads, between the systems without and with them, or a parameter of the model.
 
 use std::sync::Arc;
 
 use super::PathError;
 use crate::system::System;
 
-/// Systems that differ by one number alone, as a stiffness or a length.
+/// Systems that differ by one parameter only, such as a stiffness or a length.
 pub trait Family: Send {
-    /// The system where the number has this `value`.
+    /// The system with this `value` of the parameter.
     ///
     /// # Errors
-    /// In words, if the number cannot have it.
+    /// The reason, if the value is invalid.
     fn system(&mut self, value: f64) -> Result<Arc<System>, String>;
 }
 
-/// Derivatives by the number are differences over twice this part of its size: they err by its square, and by round-off over it.
+/// Relative step of the central differences by the parameter: their truncation error is of its square, their round-off of its inverse.
 const DIFFERENCE_STEP: f64 = 1e-5;
-/// The size of a number is at least this part of the way it goes.
+/// Lower bound of the parameter's magnitude, as a fraction of its range.
 const MIN_SIZE: f64 = 1e-2;
-/// So many systems are kept.
+/// Number of cached systems.
 const KEPT: usize = 4;
 
 /// The systems of a path.
 pub(super) enum PathSystems {
     /// Without and with the loads.
     Loads([Arc<System>; 2]),
-    /// One for each value of a number.
+    /// One for each value of a parameter.
     Number(NumberSystems),
 }
 
-/// Systems by the value of a number.
+/// Systems by the value of a parameter.
 pub(super) struct NumberSystems {
     name: String,
     family: Box<dyn Family>,
-    /// Where the path begins and ends.
+    /// Values at the start and at the end of the path.
     way: [f64; 2],
-    /// By value, the latest last.
+    /// Cached systems by value, the latest last.
     kept: Vec<(f64, Arc<System>)>,
-    /// That of the last value asked for that there is one for: all have its unknowns.
+    /// System of the last valid value requested; all systems have its unknowns.
     last: Arc<System>,
-    /// Why there was no system for the last value asked for.
+    /// Why the last value requested is invalid.
     problem: Option<String>,
 }
 
 impl PathSystems {
-    /// A path along a number called `name`, from `way[0]` to `way[1]`.
+    /// A path along the parameter `name`, from `way[0]` to `way[1]`.
     pub(super) fn of_number(
         name: String,
         mut family: Box<dyn Family>,
@@ -59,7 +58,7 @@ impl PathSystems {
         Ok(Self::Number(NumberSystems { name, family, way, kept, last, problem: None }))
     }
 
-    /// What changes, in words.
+    /// Name of the path parameter.
     pub(super) fn name(&self) -> &str {
         match self {
             Self::Loads(_) => "load factor",
@@ -67,7 +66,7 @@ impl PathSystems {
         }
     }
 
-    /// A system with the unknowns of the path: with its loads, or for the last value that there is one for.
+    /// A system with the unknowns of the path: the loaded one, or that of the last valid value.
     pub(super) fn any(&self) -> &Arc<System> {
         match self {
             Self::Loads([_, loaded]) => loaded,
@@ -75,7 +74,7 @@ impl PathSystems {
         }
     }
 
-    /// The system without loads; along a number there is none apart.
+    /// The system without loads; for a parameter, the same as [`any`](Self::any).
     pub(super) fn unloaded(&self) -> &Arc<System> {
         match self {
             Self::Loads([unloaded, _]) => unloaded,
@@ -83,7 +82,7 @@ impl PathSystems {
         }
     }
 
-    /// Why the last value asked for has no system.
+    /// Why the last value requested is invalid, if it is.
     pub(super) fn problem(&self) -> Option<&str> {
         match self {
             Self::Loads(_) => None,
@@ -93,7 +92,7 @@ impl PathSystems {
 }
 
 impl NumberSystems {
-    /// The system for a value; none if the number cannot have it.
+    /// The system for a value; none if the value is invalid.
     pub(super) fn at(&mut self, value: f64) -> Option<Arc<System>> {
         if let Some((_, system)) = self.kept.iter().find(|(known, _)| *known == value) {
             self.problem = None;
@@ -125,8 +124,7 @@ impl NumberSystems {
         Some(system)
     }
 
-    /// Systems on both sides of a value with their values; on one side it is the value itself where the number cannot have
-    /// another one there.
+    /// Systems for a central difference at a value, with their values. If one of the two is invalid, the difference is one-sided.
     pub(super) fn around(&mut self, value: f64) -> Option<[(f64, Arc<System>); 2]> {
         let [from, to] = self.way;
         let apart = DIFFERENCE_STEP * value.abs().max(MIN_SIZE * (to - from).abs());
