@@ -1,10 +1,10 @@
-//! Closes joints: Gauss-Newton steps of least size, damped where they do not help (Levenberg and Marquardt).
+//! Closes joints by minimum-norm Gauss-Newton steps, damped if they do not reduce the violations (Levenberg and Marquardt).
 //!
 //! ```text
 //! [W Bᵀ; B -μ] [δ; λ] = [-W d; -c]
 //! ```
 //!
-//! with the violations c relative to the model's size, d = 0 while joints close, and then d = the change so far: at the
+//! with the violations c relative to the model's size and d = 0 while joints are being closed. Then d is the change so far: at the
 //! solution W d + Bᵀ λ = 0 and c = 0, so that no smaller change closes the joints.
 
 use lissom_motion::{Motion, Rotation, Vector3};
@@ -18,40 +18,40 @@ use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::system::System;
 
 const MAX_ITERATIONS: usize = 200;
-/// Coordinates of joints follow the parts: their weight only makes them unique.
+/// Weight of joint coordinates, which follow the parts: it only makes them unique.
 const WEIGHT_OF_COORDINATE: f64 = 1e-8;
 /// Largest displacement of a step, relative to the model's size.
 const MAX_SHIFT: f64 = 0.25;
 /// Largest rotation of a step [rad].
 const MAX_TURN: f64 = 0.3;
-/// Damping μ at the start, where it gives up, and that of constraints that repeat each other.
+/// Initial damping μ, the damping at which the iteration is given up, and the minimum, which regularises redundant constraints.
 const DAMPING: [f64; 3] = [1e-6, 1e8, 1e-10];
-/// Joints are closed to this part of the tolerance, as round-off allows.
+/// Fraction of the tolerance to which joints are closed, in view of round-off.
 const CLOSING_SHARE: f64 = 1e-3;
-/// Steps that make the violations smaller by less than this part are slow; so many of them end in a least gap.
+/// Relative decrease of the squared violations below which a step is slow, and number of consecutive slow steps that are allowed.
 const SLOW_PROGRESS: (f64, usize) = (1e-8, 5);
-/// Steps below this, relative to the model's size, no longer change the least change.
+/// Step size relative to the model's size at which the least change has converged.
 const SETTLED: f64 = 1e-9;
 
-/// Up to so many unknowns a dense matrix is faster.
+/// Number of unknowns up to which a dense matrix is faster.
 const DENSE: usize = 60;
 
-/// Where everything is.
+/// Positions of all groups and coordinates.
 #[derive(Clone)]
 pub(super) struct Pose {
-    /// Of every rigid group.
+    /// Frames of the rigid groups.
     pub(super) frames: Vec<Motion>,
-    /// Of every coordinate.
+    /// Values of the coordinates.
     pub(super) coordinates: Vec<f64>,
 }
 
-/// The equations of an assembly.
+/// Equations of an assembly.
 pub(super) struct Closing<'a> {
     columns: Columns<'a>,
     groups: &'a Groups,
     at: Kinematics,
     structure: Structure,
-    /// None where there is nothing to solve for.
+    /// None if there are no unknowns or no equations.
     saddle: Option<SaddlePoint<Matrix<f64>>>,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Closing<'a> {
         let size = columns.count[0] + columns.rows.len();
         let structure = Structure::ungrouped(Pattern::from_entries(size, entries).into());
         let is_empty = columns.count[0] == 0 || columns.rows.is_empty();
-        // Small weights of coordinates cost digits without exchanges of rows, and so does their equilibration.
+        // Without row exchanges, and with equilibration, the small weights of coordinates cost accuracy.
         let sparse = lissom_solver::kind("pivoting").filter(|_| size > DENSE);
         let kind = sparse.or_else(|| lissom_solver::kind("dense"));
         let saddle = kind.filter(|_| !is_empty).map(|kind| {
@@ -78,12 +78,12 @@ impl<'a> Closing<'a> {
         Self { columns, groups, at: at.clone(), structure, saddle }
     }
 
-    /// Size of the model [m].
+    /// Characteristic length of the model [m].
     pub(super) fn length(&self) -> f64 {
         self.groups.length
     }
 
-    /// The pose as drawn, with coordinates as they are at `at`.
+    /// The pose as modelled, with the coordinates of `at`.
     pub(super) fn as_modelled(&self, at: &Kinematics) -> Pose {
         Pose {
             frames: self.groups.all.iter().map(|group| group.frame).collect(),
@@ -91,7 +91,7 @@ impl<'a> Closing<'a> {
         }
     }
 
-    /// Puts all nodes and coordinates to their places.
+    /// Sets the positions of all nodes and coordinates.
     pub(super) fn place(&self, pose: &Pose, at: &mut Kinematics) {
         self.groups.place(&pose.frames, at);
         for (own, &value) in at.coordinates.iter_mut().zip(&pose.coordinates) {
@@ -106,7 +106,7 @@ impl<'a> Closing<'a> {
         }
     }
 
-    /// Violations of the equations that count, relative to the model's size.
+    /// Violations of the equations in use, relative to the model's size.
     fn violations(&mut self, pose: &Pose) -> Vec<f64> {
         self.place_own(pose);
         let Columns { system, rows, .. } = &self.columns;
@@ -115,12 +115,12 @@ impl<'a> Closing<'a> {
         rows.iter().map(|&k| violations[k] * self.columns.row_scale(k)).collect()
     }
 
-    /// The largest of them.
+    /// Largest relative violation.
     pub(super) fn largest(&mut self, pose: &Pose) -> f64 {
         largest(&self.violations(pose))
     }
 
-    /// The gaps beyond `tolerance`, the widest first; small ones beside wide ones are left out.
+    /// Gaps beyond `tolerance`, the widest first, without those that are small relative to the widest.
     pub(super) fn gaps(&mut self, pose: &Pose, tolerance: f64) -> Vec<Gap> {
         let violations = self.violations(pose);
         let Columns { system, rows, .. } = &self.columns;
@@ -148,7 +148,7 @@ impl<'a> Closing<'a> {
         found.into_iter().filter(|(size, _)| *size >= MIN_REPORTED * widest).map(|(_, gap)| gap).collect()
     }
 
-    /// The step δ, then the multipliers; none where the matrix cannot be factored.
+    /// Computes the step δ and the multipliers; none if the matrix is singular.
     fn solve(
         &mut self,
         pose: &Pose,
@@ -186,7 +186,7 @@ impl<'a> Closing<'a> {
         right.iter().all(|value| value.is_finite()).then_some(right)
     }
 
-    /// The pose after a step, which is shortened where it is too long.
+    /// The pose after a step, which is scaled down if it is too long.
     fn moved(&self, pose: &Pose, step: &[f64]) -> Pose {
         let length = self.groups.length;
         let of_group = |index: usize| {
@@ -213,7 +213,7 @@ impl<'a> Closing<'a> {
         moved
     }
 
-    /// Closes the joints as far as they close, with steps of least size.
+    /// Closes the joints as far as possible, with minimum-norm steps.
     pub(super) fn close(&mut self, start: Pose, tolerance: f64) -> Pose {
         let mut pose = start;
         let mut violations = self.violations(&pose);
@@ -239,7 +239,7 @@ impl<'a> Closing<'a> {
         pose
     }
 
-    /// The closed pose nearest to `drawn`, from one that is closed; none where it is not found.
+    /// The closed pose nearest to `drawn`, from a closed `start`; none if it is not found.
     pub(super) fn nearest(&mut self, start: Pose, drawn: &Pose, tolerance: f64) -> Option<Pose> {
         let mut pose = start;
         for _ in 0..MAX_ITERATIONS {
@@ -255,7 +255,7 @@ impl<'a> Closing<'a> {
         None
     }
 
-    /// What has changed since `drawn`, by column; coordinates have no part in it.
+    /// Change since `drawn`, by column; that of coordinates is zero.
     fn change(&self, pose: &Pose, drawn: &Pose) -> Vec<f64> {
         let mut change = vec![0.0; self.columns.count[0]];
         for (index, (now, before)) in pose.frames.iter().zip(&drawn.frames).enumerate() {
@@ -272,7 +272,7 @@ impl<'a> Closing<'a> {
     }
 }
 
-/// The largest size; a value that is not a number is the largest of all.
+/// Maximum norm; infinite if a value is NaN.
 fn largest(values: &[f64]) -> f64 {
     let size = |value: &f64| if value.is_nan() { f64::INFINITY } else { value.abs() };
     values.iter().map(size).fold(0.0, f64::max)

@@ -1,5 +1,5 @@
-//! Which column and row of an assembly's equations belongs to what: translations and rotations of rigid groups, coordinates,
-//! and the equations of joints and relations, all relative to the model's size.
+//! Columns and rows of an assembly's equations: translations and rotations of rigid groups, coordinates, and the equations of joints
+//! and relations, all relative to the model's size.
 
 use lissom_motion::Vector3;
 
@@ -7,25 +7,25 @@ use super::groups::Groups;
 use crate::kinematics::{CoordinateId, GROUND, LOCKED, NodeId, Quantity};
 use crate::system::System;
 
-/// What a row of the system's equations of motion belongs to.
+/// Node or coordinate of a row of the system's equations of motion.
 #[derive(Clone, Copy)]
 enum Owner {
     Node(NodeId, usize),
     Coordinate(CoordinateId),
 }
 
-/// Columns and rows.
+/// Column and row indices.
 pub(super) struct Columns<'a> {
     pub(super) system: &'a System,
     pub(super) groups: &'a Groups,
     owners: Vec<Owner>,
     /// Columns of the translations and rotations of every group.
     pub(super) of_group: Vec<[Option<usize>; 6]>,
-    /// Column of every coordinate; they come last.
+    /// Column of every coordinate, after those of the groups.
     pub(super) of_coordinate: Vec<Option<usize>>,
-    /// The multipliers whose equations count; those of drives do not, for driven coordinates are held.
+    /// Multipliers of the equations in use. Those of drives are excluded, because driven coordinates are held.
     pub(super) rows: Vec<usize>,
-    /// Number of columns, and of those of groups.
+    /// Number of all columns, and of those of groups.
     pub(super) count: [usize; 2],
 }
 
@@ -59,7 +59,7 @@ impl<'a> Columns<'a> {
         Self { system, groups, owners, of_group, of_coordinate, rows, count }
     }
 
-    /// What a violation is multiplied by to be relative to the model's size.
+    /// Factor that makes a violation relative to the model's size.
     pub(super) fn row_scale(&self, multiplier: usize) -> f64 {
         let layout = self.system.layout();
         match layout.quantities()[layout.coordinate_count() + multiplier] {
@@ -68,7 +68,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// What a coordinate changes by for a unit of its column [m, rad].
+    /// Change of a coordinate per unit of its column [m, rad].
     pub(super) fn unit(&self, coordinate: CoordinateId) -> f64 {
         match self.system.layout().coordinate_quantity(coordinate) {
             Quantity::Angle => 1.0,
@@ -76,7 +76,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Hands out the entries of B: row, column, value. Without `values`, of the system's pattern, where entries may be.
+    /// Passes the entries of B to `hand`: row, column, value. Without `values`, those of the system's sparsity pattern.
     pub(super) fn each_entry(&self, values: Option<&[f64]>, mut hand: impl FnMut(usize, usize, f64)) {
         let layout = self.system.layout();
         let pattern = self.system.pattern();
@@ -103,7 +103,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// What a derivative by a freedom of a node is by those of its group.
+    /// Converts a derivative by a degree of freedom of a node to those of its group.
     fn of_node(&self, (node, freedom): (NodeId, usize), value: f64, hand: &mut dyn FnMut(usize, f64)) {
         let (index, place) = self.groups.of_node[node.index()];
         let group = &self.groups.all[index];

@@ -1,4 +1,4 @@
-//! What moves as one rigid body: a node, or the nodes of beams that share nodes.
+//! Rigid bodies of an assembly: a node, or the nodes of beams that share nodes.
 
 use lissom_motion::{Motion, Vector3};
 
@@ -7,13 +7,13 @@ use crate::system::System;
 
 /// A rigid body of the assembly.
 pub(super) struct RigidGroup {
-    /// Its nodes, and their frames seen from the group's.
+    /// Its nodes, and their frames relative to the group's.
     pub(super) nodes: Vec<(NodeId, Motion)>,
-    /// Its frame as drawn: at the centre of its points, with the axes of its first node.
+    /// Its frame as modelled: at the centre of its points, with the axes of its first node.
     pub(super) frame: Motion,
     /// ρ, root mean square distance of its points from their centre [m].
     pub(super) radius: f64,
-    /// Which translations and rotations are free, in its axes.
+    /// Free translations and rotations, in its axes.
     pub(super) free: [bool; 6],
 }
 
@@ -24,10 +24,10 @@ impl RigidGroup {
     }
 }
 
-/// All rigid bodies.
+/// All rigid bodies of an assembly.
 pub(super) struct Groups {
     pub(super) all: Vec<RigidGroup>,
-    /// The group of every node, and its place there.
+    /// The group of every node, and the index of the node there.
     pub(super) of_node: Vec<(usize, usize)>,
     /// Size of the model: root mean square distance of all points from their centre [m].
     pub(super) length: f64,
@@ -74,7 +74,7 @@ impl Groups {
         Self { all, of_node, length }
     }
 
-    /// Puts the nodes of all groups that can move to their places.
+    /// Sets the positions of the nodes of all groups that can move.
     pub(super) fn place(&self, frames: &[Motion], at: &mut Kinematics) {
         for (group, frame) in self.all.iter().zip(frames).filter(|(group, _)| !group.is_fixed()) {
             for &(node, place) in &group.nodes {
@@ -92,7 +92,7 @@ fn group(system: &System, at: &Kinematics, node: NodeId, points: &[Vector3], len
     RigidGroup {
         nodes: Vec::new(),
         frame: if turns { Motion::new(frame.rotation, center) } else { frame },
-        // A part of a single point turns as easily as one of the model's size.
+        // A part with a single point has the rotation weight of one of the model's size.
         radius: if radius > 0.0 { radius } else { length },
         free,
     }
@@ -105,7 +105,7 @@ fn center_and_radius(points: &[Vector3]) -> (Vector3, f64) {
     (center, square.sqrt())
 }
 
-/// The first of the nodes that move together with `node`.
+/// The first of the nodes that are rigidly connected to `node`.
 fn root(first: &[NodeId], mut node: NodeId) -> NodeId {
     while first[node.index()] != node {
         node = first[node.index()];

@@ -1,4 +1,4 @@
-//! Assembly: positions that are given approximately are changed as little as possible until all joints close.
+//! Assembly: changes approximate initial positions as little as possible so that all joints close.
 //!
 //! Parts move as rigid bodies. With the displacement u of the centre of a part's points and its rotation vector θ, the
 //! change is measured by
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! which is the mean square displacement of the points, up to the direction of the axis of rotation: it needs no masses and
-//! does not depend on units or axes. The points of a part are its nodes and the places of its joints.
+//! does not depend on units or axes. The points of a part are its nodes and the positions of its joints.
 
 mod closing;
 mod columns;
@@ -24,28 +24,28 @@ use crate::joints::{JointCoordinates, Relative};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Subject};
 use crate::system::System;
 
-/// Held angles are changed by no more than this between two closings [rad], so that a loop stays in its assembly mode.
+/// Largest change of a held angle between two closings [rad], so that a loop stays in its assembly mode.
 const TURN: f64 = 0.1;
-/// Held displacements likewise, relative to the size of the model.
+/// Largest change of a held displacement between two closings, relative to the size of the model.
 const SHIFT: f64 = 0.05;
-/// Most changes of held coordinates on the way to their values.
+/// Maximum number of stages in which held coordinates are moved to their values.
 const MOST_STAGES: f64 = 1000.0;
-/// Gaps below this part of the largest gap are not reported.
+/// Smallest gap that is reported, relative to the largest.
 const MIN_REPORTED: f64 = 0.05;
-/// Most joints that an error names.
+/// Maximum number of joints that an error names.
 const MAX_LISTED: usize = 6;
 
-/// What is asked of an assembly.
+/// Request of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request<'a> {
     /// Sets of nodes that move together as a rigid body, such as the nodes of each beam; a node may be in several.
     pub rigid: Vec<&'a [NodeId]>,
     /// Nodes that stay where they are.
     pub fixed: Vec<NodeId>,
-    /// Coordinates of joints and the values they are brought to [rad, m]. Driven coordinates are brought to what their
-    /// drives prescribe at the start, unless they are named here.
+    /// Coordinates of joints and the values to which they are moved [rad, m]. Driven coordinates are moved to the initial values of
+    /// their drives, unless they are listed here.
     pub values: Vec<(CoordinateId, f64)>,
-    /// Gap that counts as closed, relative to the size of the model; for angles [rad].
+    /// Largest gap of a closed joint, relative to the size of the model; for angles [rad].
     pub tolerance: f64,
 }
 
@@ -54,9 +54,9 @@ pub struct Request<'a> {
 pub struct Gap {
     /// Name of the joint.
     pub joint: String,
-    /// Its violated lengths, as one distance [m]; none where they hold.
+    /// Its violated lengths, as one distance [m]; none if they are satisfied.
     pub distance: Option<f64>,
-    /// Its violated angles, as one angle [rad]; none where they hold.
+    /// Its violated angles, as one angle [rad]; none if they are satisfied.
     pub angle: Option<f64>,
 }
 
@@ -74,13 +74,13 @@ impl std::fmt::Display for Gap {
 /// Result of an assembly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembled {
-    /// The gaps before, those of round-off left out.
+    /// Gaps before the assembly, except for round-off.
     pub gaps: Vec<Gap>,
-    /// The largest violation that is left [m, rad].
+    /// Largest remaining violation [m, rad].
     pub left: f64,
-    /// Displacement [m] and turn [rad] of every node.
+    /// Displacement [m] and rotation [rad] of every node.
     pub moved: Vec<(f64, f64)>,
-    /// Whether no smaller change closes the joints, nearby; not looked for where coordinates were brought to values.
+    /// Whether no smaller change nearby closes the joints. Always false if coordinates were moved to values.
     pub is_least: bool,
 }
 
@@ -127,10 +127,10 @@ fn in_words(gaps: &[Gap]) -> String {
     named.join(", ") + &rest
 }
 
-/// Moves the places of `at` until all joints and relations hold and the coordinates have the values asked for.
+/// Moves nodes and coordinates of `at` until all joints and relations are satisfied and the coordinates have the requested values.
 ///
 /// # Errors
-/// If no such places are found; `at` is then as it was.
+/// If no such positions are found; `at` is then unchanged.
 pub fn assemble(
     system: &System,
     at: &mut Kinematics,
@@ -191,7 +191,7 @@ pub fn assemble(
     })
 }
 
-/// The values asked for, and those that drives prescribe at the start.
+/// The requested values, and the initial values of drives.
 fn held_values(system: &System, at: &Kinematics, request: &Request<'_>) -> Vec<(CoordinateId, f64)> {
     let mut values = request.values.clone();
     for drive in system.drives() {
@@ -203,7 +203,7 @@ fn held_values(system: &System, at: &Kinematics, request: &Request<'_>) -> Vec<(
     values
 }
 
-/// In how many stages the coordinates are brought to their values.
+/// Number of stages in which the coordinates are moved to their values.
 fn stages(system: &System, pose: &Pose, values: &[(CoordinateId, f64)], length: f64) -> usize {
     let of = |&(coordinate, value): &(CoordinateId, f64)| {
         let way = (value - pose.coordinates[coordinate.index()]).abs();
@@ -213,11 +213,11 @@ fn stages(system: &System, pose: &Pose, values: &[(CoordinateId, f64)], length: 
         }
     };
     let most = values.iter().map(of).fold(0.0, f64::max);
-    // Counts are small and not negative; a value that is not a number asks for none and leaves a gap.
+    // Counts are small and not negative; a value that is NaN requires no stage and leaves a gap.
     most.min(MOST_STAGES).ceil() as usize
 }
 
-/// A joint whose equations for angles hold only because sines of half a turn vanish: their gradient has lost its rank.
+/// Joint whose angle equations are satisfied only because sines of half a turn vanish: their gradient has lost rank.
 fn upside_down(system: &System, at: &Kinematics) -> Option<String> {
     const LOST: f64 = 1e-3;
     let least = |joint: &AttachedJoint, configuration: &(Relative, JointCoordinates)| {
@@ -235,7 +235,7 @@ fn upside_down(system: &System, at: &Kinematics) -> Option<String> {
     system.joints().iter().find(is_lost).map(|joint| joint.name.clone())
 }
 
-/// A gap of this distance and angle, of which counts what is beyond the tolerance; what is not a number counts.
+/// Gap of this distance and angle, of which the values beyond the tolerance are kept; NaN is kept.
 fn gap(joint: &str, (distance, angle): (f64, f64), (length, tolerance): (f64, f64)) -> Option<Gap> {
     let beyond = |value: f64, unit: f64| if value <= tolerance { None } else { Some(value * unit) };
     let (distance, angle) = (beyond(distance, length), beyond(angle, 1.0));

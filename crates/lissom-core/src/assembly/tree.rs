@@ -1,5 +1,5 @@
-//! What hangs on a joint: joints from the ground outwards, as a tree. Bringing a coordinate to a value turns or shifts all that
-//! hangs on its joint as one rigid body.
+//! Spanning tree of the joints, from the ground outwards. Moving a coordinate to a value rotates or shifts everything beyond its joint
+//! as one rigid body.
 
 use lissom_motion::{Motion, Vector6};
 use nalgebra::{DMatrix, DVector};
@@ -11,7 +11,7 @@ use crate::joints::{JointCoordinates, Relative};
 use crate::kinematics::{CoordinateId, Quantity};
 use crate::system::System;
 
-/// Iterations that put a single joint into place; a joint that needs more is closed with all others.
+/// Maximum number of iterations that place a single joint; otherwise it is closed together with all others.
 const MAX_ITERATIONS: usize = 30;
 
 /// A tree of rigid groups.
@@ -22,14 +22,14 @@ pub(super) struct Tree<'a> {
 }
 
 impl<'a> Tree<'a> {
-    /// Joints of the coordinates in `first` are in the tree before all others.
+    /// Joints of the coordinates in `first` are added to the tree before all others.
     pub(super) fn new(system: &System, groups: &'a Groups, first: &[CoordinateId]) -> Self {
         let joints = system.joints();
         let is_first = |joint: &AttachedJoint| joint.coordinates.iter().any(|own| first.contains(own));
         let mut order: Vec<usize> = (0..joints.len()).collect();
         order.sort_by_key(|&index| !is_first(&joints[index]));
         let count = groups.all.len();
-        // All that is fixed is one.
+        // All fixed groups are one.
         let mut root: Vec<usize> = (0..count).collect();
         let fixed: Vec<usize> = (0..count).filter(|&group| groups.all[group].is_fixed()).collect();
         for &group in &fixed {
@@ -64,7 +64,7 @@ impl<'a> Tree<'a> {
                 }
             }
         }
-        // From the leaves inwards: what hangs on a group hangs on its own joint, too.
+        // From the leaves inwards: the groups beyond a group are beyond its own joint, too.
         let mut hanging: Vec<Vec<usize>> = (0..count).map(|group| vec![group]).collect();
         for (group, parent, joint) in visited.into_iter().rev() {
             let own = hanging[group].clone();
@@ -75,7 +75,7 @@ impl<'a> Tree<'a> {
         Self { groups, beyond }
     }
 
-    /// Brings a coordinate to a value. Where its joint closes a loop the coordinate alone is changed.
+    /// Moves a coordinate to a value. If its joint closes a loop, only the coordinate is changed.
     pub(super) fn bring(
         &self,
         system: &System,
@@ -116,7 +116,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// The relative motion nearest to `start` that satisfies the equations of a joint with its coordinates at `own`.
+/// Relative motion nearest to `start` that satisfies the equations of a joint with the coordinates `own`.
 fn in_place(joint: &AttachedJoint, start: Motion, own: &JointCoordinates, length: f64) -> Option<Motion> {
     let equations = joint.equations();
     let unit = |k: usize| if k < 3 { length } else { 1.0 };
