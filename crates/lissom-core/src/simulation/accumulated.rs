@@ -1,5 +1,5 @@
-//! Numbers that depend on the whole way of a model and not on where it is: work, angles that go on beyond half a turn.
-//! They are carried in the state, so that snapshots and steps in parts have them, and change nothing of the motion.
+//! Quantities that depend on the history of the motion, not on the present positions only: work, angles beyond half a turn. They are
+//! part of the state, so that snapshots and subdivided steps include them, and do not affect the motion.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::simulation::Simulation;
 use crate::simulation::{Need, Recovery};
 use crate::system::{ElementId, State, System};
 
-/// A number that grows from step to step; zero at the start.
+/// A quantity that is accumulated from step to step; zero at the start.
 pub trait Accumulated: Send + Sync {
     /// Its name in the model.
     fn name(&self) -> &str;
@@ -24,41 +24,41 @@ pub trait Accumulated: Send + Sync {
         false
     }
 
-    /// Its value at the end of a step, from the one at its start; not finite where that cannot be determined.
+    /// Its value at the end of a step, from the one at its start; not finite if it cannot be determined.
     fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64;
 }
 
-/// A step that was accepted.
+/// An accepted step.
 pub struct AcceptedStep<'s> {
     /// The model.
     pub system: &'s System,
-    /// Its start.
+    /// State at its start.
     pub start: &'s State,
-    /// Its Gauss points, of a motion in time; none of a load step.
+    /// States at its Gauss points; none for a load step.
     pub within: Option<&'s [State]>,
-    /// Its end.
+    /// State at its end.
     pub end: &'s State,
-    /// Whether velocities, accelerations and multipliers at the Gauss points follow from the positions there.
+    /// Whether velocities, accelerations and multipliers at the Gauss points are consistent with the positions there.
     pub has_consistent_rates: bool,
 }
 
 impl AcceptedStep<'_> {
-    /// Work of an element's forces on the rest of the model [J]. In motion by Gauss's rule over the power, in load steps by the
-    /// trapezoidal rule along the way:
+    /// Work of an element's forces on the rest of the model [J]. In motion by Gaussian quadrature of the power, in load steps by the
+    /// trapezoidal rule along the displacement:
     ///
     /// ```text
     /// W = h/2 Σ wᵢ P(τᵢ)
     /// ```
     ///
-    /// Steps end where forces jump. There a force has two values, and the rule asks for neither.
+    /// Steps end at jumps of forces, and Gauss points do not include the ends, where a force would have two values.
     pub fn work_of_element(&self, element: ElementId) -> f64 {
         let (start, end) = (&self.start.kinematics, &self.end.kinematics);
         let Some(within) = self.within else { return self.system.work_of(element, start, end) };
         self.integral(within, |state| self.system.power(element, &state.kinematics))
     }
 
-    /// Work of a drive of a coordinate [J]: by Gauss's rule as above if multipliers within the step are known, otherwise as if its force
-    /// changed linearly in time.
+    /// Work of a drive of a coordinate [J]: by Gaussian quadrature if multipliers within the step are available, otherwise for a force
+    /// that is linear in time.
     pub fn work_of_drive(&self, drive: usize) -> f64 {
         let drive = &self.system.drives()[drive];
         if let Some(within) = self.within.filter(|_| self.has_consistent_rates) {
@@ -75,26 +75,26 @@ impl AcceptedStep<'_> {
         0.5 * self.duration() * sum
     }
 
-    /// How long it is [s].
+    /// Duration of the step [s].
     pub fn duration(&self) -> f64 {
         self.end.kinematics.time - self.start.kinematics.time
     }
 }
 
-/// What a simulation accumulates.
+/// Accumulated quantities of a simulation.
 #[derive(Default)]
 pub(crate) struct Accumulation {
     pub(crate) numbers: Vec<Arc<dyn Accumulated>>,
-    /// Room for the Gauss points of a step, where there are any.
+    /// Storage for the states at the Gauss points of a step.
     within: Vec<State>,
-    /// Makes velocities, accelerations and multipliers there consistent with the positions, if numbers depend on them.
+    /// Makes velocities, accelerations and multipliers there consistent with the positions, if quantities depend on them.
     rates: Option<Box<Recovery>>,
-    /// Room for the values after a step.
+    /// Values after a step.
     after: Vec<f64>,
 }
 
 impl Accumulation {
-    /// Of these numbers, from zero, from the present state of a simulation on.
+    /// Starts these quantities at zero at the present state of a simulation.
     pub(crate) fn new(numbers: Vec<Arc<dyn Accumulated>>, simulation: &Simulation) -> Self {
         let state = simulation.state();
         let points = gauss_legendre(simulation.settings().scheme.stages.len().max(2)).len();
@@ -104,7 +104,7 @@ impl Accumulation {
         Self { within, rates, after: Vec::with_capacity(numbers.len()), numbers }
     }
 
-    /// Takes a step into account that is being accepted.
+    /// Accumulates over a step that is being accepted.
     pub(crate) fn follow(
         &mut self,
         problem: Problem<'_>,
@@ -127,7 +127,7 @@ impl Accumulation {
         attempt.end.accumulated.copy_from_slice(&self.after);
     }
 
-    /// The numbers at `end`, an instant of a `step`, go to `after`.
+    /// Computes the quantities at `end`, an instant of a `step`, and stores them in `after`.
     fn integrate(&mut self, problem: Problem<'_>, step: &DenseOutput<'_>, end: &State) {
         let Problem { system, settings } = problem;
         let Self { numbers, within, rates, after } = self;
@@ -158,8 +158,8 @@ impl Accumulation {
 }
 
 impl Simulation {
-    /// The state at `time` [s] within the last step, as [`interpolate`](Self::interpolate) does, with the accumulated numbers
-    /// there; `out` must be a state of this system.
+    /// The state at `time` [s] within the last step, as by [`interpolate`](Self::interpolate), with the accumulated quantities there;
+    /// `out` must be a state of this system.
     pub fn state_within(&mut self, time: f64, out: &mut State) {
         self.interpolate(time, out);
         if self.accumulation.numbers.is_empty() {

@@ -1,13 +1,12 @@
-//! Length of the next step along an equilibrium path: as long as Newton's method converges easily, no node rotates too far,
-//! and the path does not bend too much.
+//! Step length control along an equilibrium path: limited by Newton's convergence, the rotation of nodes and the curvature of the path.
 
-/// Iterations of a step of suitable length.
+/// Newton iterations of a step of suitable length.
 const EASY: f64 = 7.0;
 /// Smallest and largest ratio of consecutive steps.
 const CHANGE: (f64, f64) = (0.5, 1.7);
 /// Longest step: largest displacement over the model's length, and rotation, of any node [-, rad].
 const MAX_TURN: f64 = 0.2;
-/// Cosine of the angle by which the direction may turn in a step; below the second value the step is rejected.
+/// Cosine of the angle between the tangents of a step: below the first the next step is halved, below the second it is rejected.
 const BENT: (f64, f64) = (0.96, 0.8);
 /// Allowed angle between the chord of a step and the mean of its tangents: a fraction of the angle between these, plus a constant
 /// [rad].
@@ -17,7 +16,7 @@ const WORTH_REFINING: f64 = 1e-3;
 /// Steps shorter than this fraction of the longest one so far are not tried.
 const SHORTEST: f64 = 1e-9;
 
-/// The length of the next step [-].
+/// Length control [-].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ArcControl {
     size: f64,
@@ -25,7 +24,7 @@ pub(crate) struct ArcControl {
 }
 
 impl ArcControl {
-    /// With the length of the first step.
+    /// Starts with the length of the first step.
     pub(crate) fn new(size: f64) -> Self {
         Self { size, longest: size }
     }
@@ -35,12 +34,12 @@ impl ArcControl {
         self.size = size;
     }
 
-    /// The next step; `turn` is the largest displacement or rotation on a unit of the path.
+    /// Length of the next step; `turn` is the largest displacement or rotation per unit of path length.
     pub(crate) fn propose(&self, turn: f64) -> f64 {
         self.size.min(MAX_TURN / turn)
     }
 
-    /// Whether the path has turned in a step by an angle, given by its cosine, at which it may have changed to another one.
+    /// Whether the angle between the tangents of a step, given by its cosine, is so large that the step may have changed paths.
     pub(crate) fn is_too_bent(cosine: f64) -> bool {
         cosine < BENT.1
     }
@@ -57,7 +56,7 @@ impl ArcControl {
         size > WORTH_REFINING * self.longest
     }
 
-    /// Records that a step of that length converged in this number of iterations.
+    /// Records a converged step of this length and its number of iterations.
     pub(crate) fn accept(&mut self, size: f64, iterations: usize, cosine: f64) {
         let ease = (EASY / iterations.max(1) as f64).sqrt();
         let factor = if cosine < BENT.0 { ease.min(CHANGE.0) } else { ease };
@@ -65,7 +64,7 @@ impl ArcControl {
         self.longest = self.longest.max(self.size);
     }
 
-    /// Records that a step of that length was not found. Whether a shorter one may be tried.
+    /// Records that a step of this length failed. Returns whether a shorter one may be tried.
     pub(crate) fn reject(&mut self, size: f64) -> bool {
         self.size = 0.5 * size;
         self.size > SHORTEST * self.longest

@@ -1,9 +1,9 @@
 //! Steps that end at breakpoints (kinks and jumps) of functions of time: of loads, and of prescribed motions.
 //!
-//! A step across a jump sees it at one of its stages, late or early by a fraction of the step: an error of first order in every
-//! velocity. So a step ends as close before it as floating-point numbers allow, and its last stage does not see it either.
-//! Accelerations, and the scheme's memory of them, then jump as forces do. At a kink, which changes only the slope, a step ends,
-//! and nothing jumps.
+//! A step across a jump would include it at one of its stages, late or early by a fraction of the step: an error of first order in
+//! every velocity. Therefore a step ends as close before it as floating-point numbers allow, and no stage includes it. Accelerations,
+//! and the scheme's history of them, then jump as forces do. A step also ends at a kink, where only the slope changes, without any
+//! jump.
 
 use crate::instants::TIME_TOLERANCE;
 use crate::registry::Function;
@@ -12,7 +12,7 @@ use crate::system::System;
 
 /// A value jumps if it changes by more than this multiple of the change expected from the slopes on both sides [-].
 const STEEP: f64 = 10.0;
-/// A step ends this many roundings of the time before a jump.
+/// A step ends before a jump by this multiple of the round-off of the time.
 const ROUNDINGS: f64 = 8.0;
 
 /// An instant at which a function of time is not smooth.
@@ -22,7 +22,7 @@ pub(crate) struct Breakpoint {
     pub(crate) time: f64,
     /// Whether a value jumps, not only its slope.
     jumps: bool,
-    /// The first instant known to be behind it [s]: `time`, or if a function may still have its former value there, the next number.
+    /// The first instant after it [s]: `time`, or the next floating-point number if a function may still have its former value there.
     behind: f64,
 }
 
@@ -62,7 +62,7 @@ pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     let has = |times: &[f64], time: f64| times.binary_search_by(|probe| probe.total_cmp(&time)).is_ok();
     let mut breakpoints: Vec<Breakpoint> = Vec::new();
     for time in system.breakpoints() {
-        // For a function without a name this is unknown.
+        // For a function without a name it is unknown whether it jumps.
         let (jumps, is_known) = (has(&jumps, time), has(&known, time));
         let behind = if is_known && !has(&late, time) { time } else { time.next_up() };
         let jumps = jumps || !is_known;
@@ -76,7 +76,7 @@ pub(crate) fn of(system: &System, step: f64) -> Vec<Breakpoint> {
     breakpoints
 }
 
-/// Whether a function jumps at `breakpoint`, seen from both sides.
+/// Whether a function jumps at `breakpoint`, by its values on both sides.
 fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
     let [before, after] = [breakpoint - aside, breakpoint + aside];
     let change = (function.value(after) - function.value(before)).abs();
@@ -85,14 +85,14 @@ fn jumps_at(function: &Function, breakpoint: f64, aside: f64) -> bool {
     change > STEEP * 2.0 * aside * slope + round_off::FUNCTION * size
 }
 
-/// Whether a function has its former value at `breakpoint`, and jumps right behind it.
+/// Whether a function has its former value at `breakpoint`, and jumps immediately after it.
 fn jumps_behind(function: &Function, breakpoint: f64) -> bool {
     let [at, next] = [breakpoint, breakpoint.next_up()].map(|time| function.value(time));
     (next - at).abs() > round_off::FUNCTION * at.abs().max(next.abs())
 }
 
-/// The breakpoint at which a step from the time `now` [s] has to end before `limit` [s]. A jump at `limit` itself counts,
-/// because forces see it: an equilibrium before a jump is independent of it. `longest` is the longest step [s].
+/// The breakpoint at which a step from the time `now` [s] has to end before `limit` [s]. A jump at `limit` itself is included, because
+/// forces contain it: an equilibrium before a jump is independent of it. `longest` is the longest step [s].
 pub(crate) fn stop_time(
     breakpoints: &[Breakpoint],
     [now, limit]: [f64; 2],

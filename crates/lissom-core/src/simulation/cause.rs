@@ -1,4 +1,4 @@
-//! Why a step has no solution however short: what can be seen of it where the motion stands.
+//! Likely cause of a failed step, from the present state.
 
 use crate::errors::StepError;
 use crate::errors::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE};
@@ -8,8 +8,8 @@ use crate::settings::Problem;
 use crate::simulation::Simulation;
 
 impl Simulation {
-    /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
-    /// force that switches. `no_part` is true if the shortest parts of the step were tried too.
+    /// Replaces the failure of a step by its likely cause: a joint or a closed loop close to a singularity, or a switching force.
+    /// `no_part` is true if the shortest parts of the step were tried too.
     pub(crate) fn with_cause(&mut self, error: StepError, no_part: bool) -> StepError {
         let time = match &error {
             StepError::NotConverged { time, .. }
@@ -46,8 +46,7 @@ impl Simulation {
         }
     }
 
-    /// What changes its side between the state and the last iterate, in words: steps of planned size look for no
-    /// side that can stay.
+    /// The switch whose branch changes between the state and the last iterate, if any. Steps of planned size do not iterate branches.
     fn switching(&self) -> Option<Subject> {
         let reached = &self.integrator.work.motions.last()?.at;
         let [before, after] = [&self.state.kinematics, reached].map(|at| {
@@ -64,8 +63,7 @@ impl Simulation {
         Some(self.system.name_of_switch(which))
     }
 
-    /// The node that turns further in a part of a step, as short as the last one tried, than any step resolves; with the
-    /// angle [rad].
+    /// The node that rotates by more than any step resolves in the shortest part of a step that was tried, and the angle [rad].
     fn turns_in_a_part(&self) -> Option<(String, f64)> {
         if !self.settings.scheme.dynamic {
             return None;
@@ -79,8 +77,8 @@ impl Simulation {
     }
 }
 
-/// Of the failures of a step and of its parts the more specific one: the first, unless it states only that numbers did not
-/// converge and a later one states why.
+/// The more specific one of the failures of a step and of its parts: the first, unless it reports only missing convergence and a later
+/// one reports the reason.
 pub(crate) fn more_specific(first: Option<StepError>, later: StepError) -> StepError {
     let is_generic =
         |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });

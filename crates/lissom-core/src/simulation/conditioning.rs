@@ -1,7 +1,7 @@
-//! How well a tangent determines the corrections: its condition number, under any scaling.
+//! Condition number of the tangent, under any scaling.
 //!
-//! Small tangents are measured truly, in the 2-norm and far beyond 1e16; of large ones the 1-norm is
-//! estimated. Knows no scheme but through its tangent.
+//! The 2-norm condition number of small tangents is computed from singular values, far beyond 1e16; that of large ones is estimated in
+//! the 1-norm. Independent of the scheme, except for its tangent.
 
 use lissom_solver::{Pattern, Structure, condition_estimate, condition_number, kind};
 
@@ -12,10 +12,10 @@ use crate::schemes::StageSystem;
 use crate::simulation::Simulation;
 use crate::system::{Sum, TangentAssembler};
 
-/// Tangents with at most so many real unknowns are measured truly; a complex unknown counts twice.
+/// Maximum number of real unknowns for which singular values are computed; a complex unknown counts twice.
 pub const MAX_MEASURED: usize = 120;
 
-/// How a condition number was found.
+/// Method by which a condition number was computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConditionMethod {
     /// Largest over smallest singular value, in extended precision.
@@ -25,7 +25,7 @@ pub enum ConditionMethod {
 }
 
 impl ConditionMethod {
-    /// What tables call it.
+    /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::SingularValues => "2-norm",
@@ -39,12 +39,12 @@ impl ConditionMethod {
 pub struct Condition {
     /// κ(J), at least 1; infinite for a singular tangent.
     pub value: f64,
-    /// How it was found.
+    /// Method by which it was computed.
     pub method: ConditionMethod,
 }
 
 impl TangentValues {
-    /// Brings rows and columns to one size, see [`Equilibration`].
+    /// Scales rows and columns to equal magnitude, see [`Equilibration`].
     fn equilibrate(&mut self, pattern: &Pattern, coordinate_count: usize) {
         let mut equilibration = Equilibration::new(pattern.size(), coordinate_count);
         match self {
@@ -53,8 +53,8 @@ impl TangentValues {
         }
     }
 
-    /// What takes the derivatives for the tangent of the scaled equations; `stiffness`, if it has room, takes the
-    /// diagonal of those by place.
+    /// Assembler of the tangent of the scaled equations; `stiffness`, if it is not empty, receives the diagonal of the derivatives
+    /// by position.
     pub(crate) fn receiver<'a>(
         &'a mut self,
         scaled: &Scaled,
@@ -72,7 +72,7 @@ impl TangentValues {
         }
     }
 
-    /// Its condition number: measured if it is small, estimated if it is large.
+    /// Its condition number: computed if it is small, estimated if it is large.
     pub fn condition(&self, structure: &Structure) -> Condition {
         let real_size = match self {
             Self::Real(_) => structure.pattern.size(),
@@ -98,7 +98,7 @@ impl TangentValues {
     }
 }
 
-/// Of the matrix as it is: neither equilibrated nor with a compliance, for which it has no multipliers.
+/// Estimate for the matrix as it is: neither equilibrated nor with a compliance, which requires multipliers.
 fn estimate<S: SolverOf>(structure: &Structure, values: &[S]) -> f64 {
     let Some(kind) = kind("sparse") else { return f64::INFINITY };
     let mut matrix = Matrix::new(S::solver(kind, structure), structure);
@@ -109,7 +109,7 @@ fn estimate<S: SolverOf>(structure: &Structure, values: &[S]) -> f64 {
         return f64::INFINITY;
     }
     let value = condition_estimate(&mut *saddle.matrices.solver, &structure.pattern, values);
-    // Rounded results of an ill-conditioned solve may be too small by a little: κ is never below 1.
+    // Rounded results of an ill-conditioned solve may be slightly too small: κ is never below 1.
     if value.is_nan() { f64::INFINITY } else { value.max(1.0) }
 }
 
@@ -148,8 +148,8 @@ mod tests {
 
     use super::*;
 
-    /// A mass at the end of a massless arm in the plane, at rest: x, y, angle, two multipliers. The augmented
-    /// term sees the arm's direction through the angle.
+    /// A mass at the end of a massless arm in the plane, at rest: x, y, angle, two multipliers. The augmented term depends on the
+    /// direction of the arm through the angle.
     fn tangent(mass: f64) -> (Structure, TangentValues) {
         let pattern = Pattern::from_cliques(5, [&[0, 1, 2, 3, 4][..]]);
         let mut dense = [[0.0; 5]; 5];

@@ -1,4 +1,4 @@
-//! Starts a simulation, tries steps and accepts them: `control` decides about their length.
+//! Start of a simulation, attempts at steps and their acceptance; `control` determines their length.
 
 use crate::kinematics::Subject;
 use std::sync::Arc;
@@ -48,8 +48,8 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// As [`new`](Self::new); with `known` representative values, where they are not those of `state`. The multipliers of `state` stay
-    /// then.
+    /// Starts like [`new`](Self::new), optionally with `known` representative values instead of those of `state`. In this case the
+    /// multipliers of `state` are kept.
     pub(crate) fn start(
         system: Arc<System>,
         state: State,
@@ -108,7 +108,7 @@ impl Simulation {
         })
     }
 
-    /// The tangent at the solution of the last step; none before the first step and after one that failed.
+    /// The tangent at the solution of the last step; none before the first step and after a failure.
     pub(crate) fn last_tangent(&mut self, scaled: Scaled, of: &StageSystem) -> Option<TangentValues> {
         let Self { system, settings, integrator, previous, .. } = self;
         let problem = Problem { system, settings };
@@ -123,15 +123,15 @@ impl Simulation {
         value.map(|value| value.max(1.0))
     }
 
-    /// A failed factorisation, with names.
+    /// Error of a failed factorisation, with names.
     pub(crate) fn describe_factor(&self, error: &FactorError, time: f64) -> StepError {
         describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, &Subject::nameless(""))
     }
 
-    /// Solves a step of `size` [s] from the state, and judges what it has led to.
+    /// Solves a step of `size` [s] from the state, and checks the result.
     ///
     /// # Errors
-    /// If it has no solution, or one that cannot be believed.
+    /// If it has no solution, or an invalid one.
     pub(crate) fn attempt(&mut self, size: f64, watch: &mut dyn Stopwatch) -> Result<(), StepError> {
         let problem = Problem { system: &self.system, settings: &self.settings };
         let from = Start { previous: &self.previous, state: &self.state };
@@ -140,10 +140,10 @@ impl Simulation {
         self.judge_attempt()
     }
 
-    /// Judges what the last attempt has led to.
+    /// Checks the result of the last attempt.
     ///
     /// # Errors
-    /// If it cannot be believed.
+    /// If it is invalid.
     pub(crate) fn judge_attempt(&mut self) -> Result<(), StepError> {
         let judge = Judge::new(self.problem(), &self.integrator.representative);
         let start = self.attempt.start(&self.state);
@@ -161,7 +161,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Accepts the last attempt: monitors look at it, and its end becomes the state.
+    /// Accepts the last attempt: monitors are updated, and its end becomes the state.
     pub(crate) fn accept_attempt(&mut self) {
         let mut step = Accepted {
             problem: Problem { system: &self.system, settings: &self.settings },
@@ -195,7 +195,7 @@ impl Simulation {
         self.attempt.accept(&mut self.previous, &mut self.state);
     }
 
-    /// Counts a step that was completed.
+    /// Adds a completed step to the totals.
     pub(crate) fn count(&mut self, report: &StepReport) {
         let (totals, work) = (&mut self.totals, &self.integrator.work);
         totals.steps += report.parts;
@@ -211,7 +211,7 @@ impl Simulation {
     }
 }
 
-/// Motions watch events; where steps are chosen, also switches of forces.
+/// Detector of events in motions, with adaptive steps also of switches of forces.
 fn event_detector(system: &System, state: &State, settings: &Settings) -> EventDetector {
     if settings.scheme.dynamic {
         EventDetector::new(system, state, settings.control.is_some())
@@ -220,15 +220,15 @@ fn event_detector(system: &System, state: &State, settings: &Settings) -> EventD
     }
 }
 
-/// Fails where equations hold rates, of which statics know nothing.
+/// Rejects equations that contain rates, which statics does not support.
 fn refuse_rates(system: &System) -> Result<(), InitialError> {
     let of_row = system.layout().rate_rows().next().map(|row| system.layout().subject_of(row));
     let of_creep = || system.sees_multipliers().then(|| Subject::nameless("the creep of a wheel on a rail"));
     of_row.or_else(of_creep).map_or(Ok(()), |state| Err(InitialError::StateInStatics { state }))
 }
 
-/// Makes velocities, accelerations and multipliers of a motion's start consistent. Gives the largest change of a velocity, and what finds
-/// accelerations where they may jump.
+/// Makes velocities, accelerations and multipliers of a motion's start consistent. Returns the largest change of a velocity, and the
+/// solver for jumps of accelerations.
 fn begin_motion(
     system: &System,
     state: &mut State,
@@ -255,7 +255,7 @@ fn begin_motion(
     }
     let given = given.kinematics;
     let rates = initial.constraint_rates(system, state);
-    // Beside given velocities of which nothing remains, what remains is round-off of theirs.
+    // If nothing of the given velocities remains, the rest is their round-off.
     let [specified, used] = [&given, &state.kinematics].map(|at| representative.largest_speed(system, at));
     let negligible = judge::start::negligible(representative, settings.step_size);
     judge::start::rates(system, representative, (&rates, specified.max(used), negligible))?;
@@ -265,7 +265,7 @@ fn begin_motion(
     Ok((velocity_correction, held_values))
 }
 
-/// Whether accelerations may jump: with values that are held, and where functions of time do.
+/// Whether accelerations may jump: with held values or with breakpoints of functions of time.
 fn may_jump(system: &System, state: &State) -> bool {
     let changes = system.functions.iter().any(|(_, function)| !function.is_constant());
     changes || !state.kinematics.held.is_empty() || !system.breakpoints().is_empty()

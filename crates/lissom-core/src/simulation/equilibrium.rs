@@ -1,5 +1,4 @@
-//! Start from static equilibrium: places at which the model would stay at rest under its loads at the first instant.
-//! Velocities that were given stay.
+//! Start from static equilibrium: positions at which the model would remain at rest under its initial loads. Given velocities are kept.
 
 use crate::kinematics::Subject;
 use std::sync::Arc;
@@ -15,12 +14,12 @@ use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::system::{State, System};
 
-/// A state whose unbalanced forces would move it by less than this part of the model's length is held by its constraints.
+/// Largest displacement by unbalanced forces, relative to the model's length, of a state whose constraints balance the loads.
 const HELD: f64 = 1e-9;
 
-/// Gives the start of load steps the multipliers that hold it, where loads act at once and constraints alone bear them: it is an
-/// equilibrium then, whose reactions are reported and whose work begins with them. Otherwise gives the energy that the unbalanced forces
-/// release on the way to equilibrium, by the linear model [J].
+/// Initialises load steps. If loads act at once and are balanced by constraints only, the state is an equilibrium: its multipliers are
+/// computed, reported, and included in the work. Otherwise returns the energy that the unbalanced forces release until equilibrium, by
+/// the linear model [J].
 pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) -> f64 {
     let mut still = state.clone();
     for node in &mut still.kinematics.nodes {
@@ -34,10 +33,10 @@ pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind
     0.0
 }
 
-/// Moves a motion's start into equilibrium, where that is asked for.
+/// Moves a motion's start into equilibrium if this is requested.
 ///
 /// # Errors
-/// As [`at_rest`], and if what was found is free to rest elsewhere.
+/// As [`at_rest`], and if the equilibrium is not unique because a part can move freely.
 pub(crate) fn start_at_rest(
     system: Arc<System>,
     state: State,
@@ -48,7 +47,7 @@ pub(crate) fn start_at_rest(
         return Ok((system, state));
     }
     let (system, state, doubts) = at_rest(system, state, settings)?;
-    // Round-off has decided where it rests, and whether it seems to be unstable.
+    // The position of a free part, and whether it seems to be unstable, is determined by round-off.
     if let Some(free) = free_motion(&system, &state, settings.solver) {
         return Err(InitialError::Free { free });
     }
@@ -56,7 +55,7 @@ pub(crate) fn start_at_rest(
     Ok((system, state))
 }
 
-/// What nothing holds at the places of `state`, in words.
+/// Names of the parts that can move freely at the positions of `state`.
 fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Subject> {
     let mut still = state.clone();
     for node in &mut still.kinematics.nodes {
@@ -68,11 +67,11 @@ fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Su
     LinearModel::of_positions(system, &still, solver).ok()?.free_motion()
 }
 
-/// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Reports if it is
-/// unstable, and if it was found by relaxation.
+/// Moves the positions of `state` into equilibrium, in one load step or, if that has no solution, by relaxation. Warns if it is unstable,
+/// and if it was found by relaxation.
 ///
 /// # Errors
-/// If neither finds one, as where a part is not held.
+/// If neither finds one, for example because a part is not constrained.
 pub fn at_rest(
     system: Arc<System>,
     state: State,
@@ -80,7 +79,7 @@ pub fn at_rest(
 ) -> Result<(Arc<System>, State, Vec<Warning>), InitialError> {
     let time = state.kinematics.time;
     let mut moved = state.clone();
-    // Loads act as they are at the end of the load step, which is the start of the motion.
+    // Loads have their values at the end of the load step, which is the start of the motion.
     let step_size = 1.0;
     moved.kinematics.time -= step_size;
     for node in &mut moved.kinematics.nodes {

@@ -1,9 +1,9 @@
-//! Monitors switching functions, which may change their sign within a step: those of events, and of forces with kinks
-//! or jumps. A step across such an instant is repeated, to end there.
+//! Event detection: monitors switching functions for changes of sign within a step, those of events, and of forces with kinks or
+//! jumps. A step across such an instant is repeated, to end there.
 //!
 //! ```text
 //! g(t*) = 0:    t* on the cubics between the ends of the step by bisection, then
-//!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
+//!               t* ← t* - g/ġ with the step to t* solved again, to 1e-10 of the step
 //! ```
 //!
 //! A function that jumps, such as sign(x), has no slope there. Bisection on the cubics of the step to t*, extrapolated
@@ -13,9 +13,9 @@
 //! the end crosses zero, if the step started at a clearly nonzero value. The next step could detect it only after its first
 //! millionth.
 //!
-//! Between two steps each function has a side, 1 or -1. Functions and forces are continued from their side over the whole
-//! step, so that it is smooth; results beyond the root are not used. At the root the side changes regardless of round-off, so
-//! that the same root is not found again.
+//! Between two steps each function has a branch, the sign 1 or -1. Functions and forces are continued from their branch over the whole
+//! step, so that it is smooth; results beyond the root are not used. At the root the branch changes regardless of round-off, so that
+//! the same root is not found again.
 
 use serde::{Deserialize, Serialize};
 
@@ -31,7 +31,7 @@ use crate::system::{State, System};
 const INSTANTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// Number of intervals of a step in which the minimum of this polynomial is searched for.
 const GRID: usize = 32;
-/// The last of them before the end.
+/// The last of the instants before the end.
 const BEFORE_END: f64 = 0.75;
 /// Values smaller than this fraction of the largest so far have no sign.
 const NOISE: f64 = 1e-9;
@@ -47,17 +47,17 @@ const MAX_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the switching surface.
 const MAX_CROSSINGS: usize = 1000;
 
-/// Maximum number of sides that are corrected at the start of one step: beyond it, the motion slides along a switch.
+/// Maximum number of branch changes at the start of one step: beyond it, the motion slides along a switching surface.
 const MAX_SWITCHES_AT_START: usize = 8;
 
 /// State of the switching functions between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct EventState {
-    /// 1 above zero, -1 below, those of levels, 0 where it is not known yet.
+    /// Branches: 1 above zero, -1 below, the level of laws with levels, 0 if not yet known.
     sides: Vec<f64>,
-    /// The sides before these.
+    /// The branches before the last change.
     before: Vec<f64>,
-    /// The largest magnitude seen.
+    /// Largest magnitude so far.
     largest: Vec<f64>,
     /// Events that happened.
     pub(crate) occurrences: Vec<Occurrence>,
@@ -65,7 +65,7 @@ pub(crate) struct EventState {
     pub(crate) stopped_by: Option<usize>,
     /// Whether a force has switched at the state: the motion may then be much faster than before.
     pub(crate) has_switched: bool,
-    /// Time since which crossings are counted [s], and their number.
+    /// Start of the time window in which crossings are counted [s], and their number.
     recent: (f64, usize),
 }
 
@@ -74,11 +74,11 @@ pub(crate) struct EventState {
 pub(crate) struct LocatedRoot {
     /// Size of the step that ends there [s]; zero if the step begins there.
     pub(crate) size: f64,
-    /// Size of the step in which it was found [s].
+    /// Size of the step in which the root was found [s].
     whole: f64,
     /// Indices of the functions that cross zero.
     pub(crate) indices: Vec<usize>,
-    /// Whether they jump there instead.
+    /// Whether the functions jump there.
     is_jump: bool,
     refinements: usize,
 }
@@ -88,18 +88,18 @@ pub(crate) struct EventDetector {
     pub(crate) known: EventState,
     /// Whether kinks and jumps of forces are monitored in addition to events.
     has_switches: bool,
-    /// Number of sides changed at the start of the present step.
+    /// Number of branch changes at the start of the present step.
     switched_at_start: usize,
     values: Vec<Switch>,
     /// The values at each of the [`INSTANTS`].
     samples: [Vec<Switch>; INSTANTS.len()],
-    /// Step fractions at which signs are checked, with the index of the sample there if there is one.
+    /// Step fractions at which signs are checked, each with the index of its sample if there is one.
     instants: Vec<(f64, Option<usize>)>,
     between: State,
 }
 
 impl EventDetector {
-    /// At the start of a motion; kinks and jumps of forces are monitored if `has_switches`.
+    /// Detector at the start of a motion; kinks and jumps of forces are monitored if `has_switches`.
     pub(crate) fn new(system: &System, start: &State, has_switches: bool) -> Self {
         let mut detector = Self::of_nothing(start);
         detector.has_switches = has_switches;
@@ -112,7 +112,7 @@ impl EventDetector {
         detector
     }
 
-    /// Without motion.
+    /// Empty detector, for studies without motion.
     pub(crate) fn of_nothing(start: &State) -> Self {
         Self {
             known: EventState::default(),
@@ -130,28 +130,28 @@ impl EventDetector {
         self.known.sides.is_empty()
     }
 
-    /// The switching functions of forces.
+    /// Indices of the switching functions of forces.
     fn of_switches(&self, system: &System, at: &Kinematics) -> std::ops::Range<usize> {
         let events = system.signals().events().len();
         let count = if self.has_switches { at.held.len() - system.signals().first_side() } else { 0 };
         events..events + count
     }
 
-    /// Whether all switches are frozen on their known sides.
+    /// Whether all switches are frozen on their known branches.
     pub(crate) fn has_frozen_switches(&self, system: &System, at: &Kinematics) -> bool {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &at.held[system.signals().first_side()..];
         sides == held
     }
 
-    /// Freezes all switches on their known sides.
+    /// Freezes all switches on their known branches.
     pub(crate) fn freeze_switches(&self, system: &System, at: &mut Kinematics) {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &mut at.held[system.signals().first_side()..];
         held.iter_mut().zip(sides).for_each(|(held, side)| *held = *side);
     }
 
-    /// Records the sides of all values that have none yet, or are neither among those `kept` nor `but`.
+    /// Records the branches of all values that have none yet, or are neither in `kept` nor in `but`.
     fn note(&mut self, kept: std::ops::Range<usize>, but: &[usize]) {
         let known = &mut self.known;
         for (k, value) in self.values.iter().enumerate() {
@@ -163,7 +163,7 @@ impl EventDetector {
         }
     }
 
-    /// Whether value `k` has crossed zero in a direction that counts.
+    /// Whether value `k` has crossed zero in a monitored direction.
     fn has_passed(&self, events: &[Event], k: usize) -> bool {
         let (value, side) = (self.values[k].number, self.known.sides[k]);
         let is_clear = value.abs() > NOISE * self.known.largest[k];
@@ -173,7 +173,7 @@ impl EventDetector {
             && events.get(k).is_none_or(|event| event.direction.allows(value > 0.0))
     }
 
-    /// Changes to the side beyond the zero of value `k`.
+    /// Changes the branch of value `k` to that beyond its zero.
     fn cross(&mut self, k: usize) {
         let side = self.known.sides[k];
         self.known.before[k] = std::mem::replace(&mut self.known.sides[k], self.values[k].beyond(side));
@@ -196,7 +196,7 @@ impl EventDetector {
         values_at(system, &self.between, self.has_switches, &mut self.values);
     }
 
-    /// The first instant of the step of `size` [s] at which a function crosses zero.
+    /// First instant of the step of `size` [s] at which a function crosses zero.
     pub(crate) fn crossing(
         &mut self,
         system: &System,
@@ -231,20 +231,20 @@ impl EventDetector {
                 (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
             let are_switches = indices.iter().all(|k| *k >= events.len());
             let share = match after {
-                // The step begins where the force switches: another of zero length would add nothing.
+                // The step begins at the switch: a step of zero length is not needed.
                 after if after < CLOSE && are_switches => 0.0,
                 after if after > 1.0 - ACCURACY => 1.0,
                 after => after.max(CLOSE),
             };
-            // A smooth number is not beyond its noise yet.
+            // A continuous function is still within its noise here.
             let is_jump = self.values[indices[0]].number.abs() > CLOSE * self.known.largest[indices[0]];
             return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
     }
 
-    /// Stores the step fractions at which signs are checked: those of samples after the start, and for each function that keeps
-    /// its side at all of them the minimum beyond zero of the polynomial through its samples, if it has one.
+    /// Stores the step fractions at which signs are checked: those of samples after the start, and for each function that keeps its
+    /// sign at all of them the minimum of the polynomial through its samples, if the polynomial crosses zero there.
     fn find_instants(&mut self, events: &[Event]) {
         let mut instants = std::mem::take(&mut self.instants);
         instants.clear();
@@ -257,7 +257,7 @@ impl EventDetector {
             let samples: [f64; INSTANTS.len()] =
                 std::array::from_fn(|index| side.signum() * self.samples[index][k].number);
             let [low, high] = hull(&samples);
-            // It would have to change by more between two samples than over the step.
+            // The function would have to change by more between two samples than over the whole step.
             if low < -NOISE * self.known.largest[k] || low > high - low {
                 continue;
             }
@@ -271,8 +271,8 @@ impl EventDetector {
         self.instants = instants;
     }
 
-    /// An event whose root is at the end of the step of `size` [s], or so shortly before it that its sign is not clear
-    /// there. The values at the end are those known.
+    /// Event whose root is at the end of the step of `size` [s], or so shortly before it that its sign is uncertain there. The
+    /// present values must be those at the end.
     fn root_at_end(&mut self, system: &System, step: DenseOutput<'_>, size: f64) -> Option<LocatedRoot> {
         let events = system.signals().events();
         let is_doubtful = |detector: &Self, k: usize| {
@@ -293,7 +293,7 @@ impl EventDetector {
         for (k, end) in doubtful {
             let (side, noise) = (self.known.sides[k], NOISE * self.known.largest[k]);
             let rate = (end - beside[k].number) / RATE_OFFSET;
-            // From the side that is known, clearly, towards zero.
+            // The root requires a clearly nonzero value on the known branch, and a rate towards zero.
             if side * self.values[k].number <= noise || side * rate >= 0.0 {
                 continue;
             }
@@ -309,8 +309,8 @@ impl EventDetector {
         Some(LocatedRoot { size: share * size, whole: size, indices, is_jump: false, refinements: 0 })
     }
 
-    /// Changes the sides of forces that switch at the start of the step. Returns false if they switch repeatedly: the
-    /// motion slides along the switch.
+    /// Changes the branches of forces that switch at the start of the step. Returns false if they switch repeatedly: the
+    /// motion slides along the switching surface.
     pub(crate) fn switch_at_start(&mut self, indices: &[usize]) -> bool {
         for &k in indices {
             self.cross(k);
@@ -320,7 +320,7 @@ impl EventDetector {
         self.switched_at_start <= MAX_SWITCHES_AT_START
     }
 
-    /// Whether the step that was solved to end at the root ends there; otherwise the root has moved.
+    /// Whether the step that was solved to end at the root does so. If not, `located` is updated.
     pub(crate) fn is_met(
         &mut self,
         system: &System,
@@ -352,8 +352,7 @@ impl EventDetector {
         !is_moved
     }
 
-    /// Step fraction at which function `which` jumps near the end of a step: 1 if it does so within the accuracy before the
-    /// end.
+    /// Step fraction at which function `which` jumps near the end of a step: 1 if it jumps just before the end, to the accuracy.
     fn jump(&mut self, system: &System, step: DenseOutput<'_>, which: usize, located: &LocatedRoot) -> f64 {
         let events = system.signals().events();
         let unit = located.whole / located.size;
@@ -363,7 +362,7 @@ impl EventDetector {
             detector.has_passed(events, which)
         };
         let is_early = !passes(self, 1.0);
-        // Doubles the distance from the end until it contains the jump.
+        // Double the distance from the end until it contains the jump.
         let (mut near, mut far) = (0.0, accuracy);
         let share = |distance: f64| if is_early { 1.0 + distance } else { 1.0 - distance };
         let bound = if is_early { most } else { 1.0 };
@@ -378,15 +377,14 @@ impl EventDetector {
             let middle = 0.5 * (near + far);
             if passes(self, share(middle)) == is_early { far = middle } else { near = middle }
         }
-        // On the far side of the jump.
+        // The result is just beyond the jump.
         share(if is_early { far } else { near })
     }
 
-    /// Records the end of an accepted step, and the functions that crossed zero there. Returns the events that
-    /// happened.
+    /// Records the end of an accepted step, and the functions that crossed zero there. Returns the events that occurred.
     ///
     /// # Errors
-    /// If a function crosses zero again and again, its index.
+    /// The index of a function that crosses zero too often.
     pub(crate) fn accept(
         &mut self,
         system: &System,
@@ -400,7 +398,7 @@ impl EventDetector {
         values_at(system, state, self.has_switches, &mut self.values);
         self.note(self.of_switches(system, &state.kinematics), indices);
         let time = state.kinematics.time;
-        // A law that goes from level to level does not slide, however often those beside it switch.
+        // A law that moves from level to level does not slide, however often others switch.
         let mut has_progressed = false;
         for &k in indices {
             let before = self.known.before[k];
@@ -427,7 +425,7 @@ impl EventDetector {
         if known.recent.1 > MAX_CROSSINGS { Err(indices[0]) } else { Ok(happened) }
     }
 
-    /// After a law has gone to another level at the state: what depends on it may have jumped to its other side. Whether it has.
+    /// Updates the branches of functions that jumped because a law has changed its level at the state. Returns whether any has.
     pub(crate) fn follow_levels(&mut self, system: &System, state: &State) -> bool {
         values_at(system, state, self.has_switches, &mut self.values);
         let mut has_jumped = false;
@@ -441,12 +439,12 @@ impl EventDetector {
         has_jumped
     }
 
-    /// Whether one of these values is of a law with levels.
+    /// Whether one of these values belongs to a law with levels.
     pub(crate) fn have_levels(&self, indices: &[usize]) -> bool {
         indices.iter().any(|&k| self.values[k].levels.is_some())
     }
 
-    /// After inputs have changed at the state: sides of events change with them, and nothing happens.
+    /// Updates the branches of events after inputs have changed at the state; no event occurs.
     pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
         values_at(system, state, self.has_switches, &mut self.values);
         self.note(self.of_switches(system, &state.kinematics), happened);
@@ -465,7 +463,7 @@ fn quartic(values: &[f64; INSTANTS.len()], at: f64) -> f64 {
     values[0]
 }
 
-/// What is watched, at a state.
+/// Evaluates all monitored functions at a state.
 fn values_at(system: &System, state: &State, has_switches: bool, out: &mut Vec<Switch>) {
     out.clear();
     system.signals().event_values(&state.kinematics, |value| out.push(value.into()));

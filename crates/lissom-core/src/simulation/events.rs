@@ -1,4 +1,4 @@
-//! Steps that end at events and where forces switch.
+//! Steps that end at events and at switches of forces.
 
 use super::event_detector::LocatedRoot;
 use crate::errors::StepError;
@@ -7,10 +7,10 @@ use crate::settings::{Problem, StepReport, Stopwatch};
 use crate::signals::event::Occurrence;
 use crate::simulation::Simulation;
 
-/// Laws with levels whose arguments have levels themselves, so many within each other.
+/// Maximum nesting depth of laws with levels whose arguments have levels themselves.
 const MAX_NESTED_LEVELS: usize = 8;
 
-/// What becomes of an attempt that has a solution.
+/// Decision on an attempt that has a solution.
 pub(crate) enum Verdict {
     /// It can be accepted, and ends at the root if there is one.
     Accept(Option<LocatedRoot>),
@@ -33,8 +33,8 @@ impl Simulation {
     }
 
     /// Checks an attempt of `size` [s] that was solved and can be accepted for zeros of switching functions. If one is within the
-    /// step, the step is solved anew to end there. If a force switches at the start of the step, its side is changed. The attempt
-    /// and its error estimate then have to be repeated, because the force had the wrong side.
+    /// step, the step is solved again to end there. If a force switches at the start of the step, its branch is changed, and the
+    /// attempt and its error estimate have to be repeated.
     ///
     /// # Errors
     /// If the shorter step has no solution, or the motion slides along a switch.
@@ -98,7 +98,7 @@ impl Simulation {
         let graph = self.system.signals();
         let mut at = self.state.kinematics.clone();
         for &event in &happened {
-            // All of them are evaluated before any is set.
+            // All signals are evaluated before any value is set.
             for &(held, signal) in &graph.events()[event].sets {
                 at.held[held.index()] = graph.value(signal, &self.state.kinematics);
             }
@@ -113,7 +113,7 @@ impl Simulation {
         self.freeze_switches()
     }
 
-    /// Freezes signals on the known sides of their switches: forces may jump with them.
+    /// Freezes signals on the known branches of their switches, which may change forces by a jump.
     pub(crate) fn freeze_switches(&mut self) -> Result<(), StepError> {
         if self.events.has_frozen_switches(&self.system, &self.state.kinematics) {
             return Ok(());
@@ -123,7 +123,7 @@ impl Simulation {
         self.events.freeze_switches(&self.system, &mut at);
         let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
         if pairs().all(|(side, held)| side == held || *held == 0.0) {
-            // Sides that become known change nothing else.
+            // Branches that become known change nothing else.
             self.state.kinematics = at;
             return Ok(());
         }
@@ -131,7 +131,7 @@ impl Simulation {
         self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
     }
 
-    /// The same where switches have passed zero: what depends on a law that is on another level now is followed.
+    /// Freezes switches after some have passed zero, and updates laws that depend on those whose level has changed.
     fn freeze_levels(&mut self, passed: &[usize]) -> Result<(), StepError> {
         let mut has_jumped = self.events.have_levels(passed);
         self.freeze_switches()?;

@@ -1,7 +1,7 @@
-//! Held values at the start, and when they change between two steps: inputs that are set, samples that are taken.
+//! Held values at the start, and their changes between two steps: inputs that are set, and samples.
 //!
-//! Forces jump with them, and accelerations by M⁻¹ ΔF. What a scheme remembers of accelerations jumps as well, or it
-//! would see the change late by a part of a step: an error of first order in every velocity.
+//! Forces jump with them, and accelerations by M⁻¹ ΔF. The accelerations in a scheme's history jump as well. Otherwise the scheme would
+//! include the change late by a fraction of a step: an error of first order in every velocity.
 
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
 use crate::diagnostics::diagnostics;
@@ -59,7 +59,7 @@ impl From<InitialError> for InputError {
     }
 }
 
-/// Takes the first samples, and makes the rates of states, accelerations and multipliers fit places and velocities.
+/// Takes the first samples, and makes rates of states, accelerations and multipliers consistent with positions and velocities.
 pub(crate) fn settle(
     system: &System,
     state: &mut State,
@@ -67,7 +67,7 @@ pub(crate) fn settle(
     settings: &Settings,
 ) -> Result<(), InitialError> {
     if system.has_readings() {
-        // Accelerations and multipliers that the first samples read are those without these samples.
+        // The first samples read accelerations and multipliers computed without these samples.
         system.signals().set_values_before_first_sample(&mut state.kinematics);
         initial.set_state_rates(system, &mut state.kinematics);
         initial.accelerations(system, state)?;
@@ -86,11 +86,10 @@ pub(crate) fn settle(
 }
 
 impl Simulation {
-    /// Sets inputs, all at once, from now on [SI]. Before the first step samples and initial accelerations are made to fit.
+    /// Sets inputs simultaneously [SI]. Before the first step samples and initial accelerations are recomputed.
     ///
     /// # Errors
-    /// If there is no such input, if a value is not finite, or if there are no consistent accelerations with them. The
-    /// simulation is then as it was.
+    /// If there is no such input, a value is not finite, or there are no consistent accelerations. The simulation is then unchanged.
     pub fn set_inputs<'n>(
         &mut self,
         inputs: impl IntoIterator<Item = (&'n str, f64)>,
@@ -135,7 +134,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// Whether a latch that was free holds with the held values of `at`.
+    /// Whether a latch that was free engages with the held values of `at`.
     fn engages(&self, at: &Kinematics) -> bool {
         let is_new = |input: &HeldId| {
             holds(at.held[input.index()]) && !holds(self.state.kinematics.held[input.index()])
@@ -143,7 +142,7 @@ impl Simulation {
         self.system.latches.iter().any(is_new)
     }
 
-    /// Whether a latch engages or lets go with the held values of `at`.
+    /// Whether a latch engages or disengages with the held values of `at`.
     fn switches_latch(&self, at: &Kinematics) -> bool {
         let is_other = |input: &HeldId| {
             holds(at.held[input.index()]) != holds(self.state.kinematics.held[input.index()])
@@ -151,17 +150,17 @@ impl Simulation {
         self.system.latches.iter().any(is_other)
     }
 
-    /// Goes over to the held values of `at`, which is the present state otherwise: accelerations, multipliers, and the
-    /// rates of states jump, and where a latch engages velocities, by an impact without rebound.
+    /// Changes to the held values of `at`, which is otherwise the present state: accelerations, multipliers and the rates of states
+    /// jump. If a latch engages, velocities jump as well, by an inelastic impact.
     ///
     /// # Errors
-    /// If there are no consistent accelerations; the state is then as it was.
+    /// If there are no consistent accelerations; the state is then unchanged.
     pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
         let engages = self.engages(&at);
         let switches = self.switches_latch(&at);
         if switches {
-            // The tangent of the equation that the latch had would solve the one it has to the tolerance alone, and leave that
-            // much of a force where there is none.
+            // With the tangent of the latch's former equation, the new one would be solved to the tolerance only, and leave a force of
+            // that size where there is none.
             self.integrator.jacobian_state.has_tangent = false;
         }
         let Some(initial) = &mut self.held_values else {
@@ -169,7 +168,7 @@ impl Simulation {
             return Ok(());
         };
         if !switches {
-            // Held values change forces, and the matrix only where a latch switches.
+            // The matrix changes only if a latch switches.
             initial.factor(&self.system, &self.state, Inertias::All)?;
             let jump = initial.acceleration_jump(&self.system, &self.state, &at.held)?;
             self.state.kinematics.held = at.held;
@@ -197,8 +196,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Lets accelerations, multipliers and the rates of states jump by what forces change between two instants close to
-    /// each other, of functions of time that jump there.
+    /// Adds to accelerations, multipliers and the rates of states the jump that forces have between two instants close to each other,
+    /// from functions of time.
     ///
     /// # Errors
     /// If there are no consistent accelerations.
@@ -229,14 +228,14 @@ impl Simulation {
         for (&row, own) in layout.coordinate_rows.iter().zip(&mut kinematics.coordinates) {
             let jump = &mut jump[row as usize];
             if layout.quantities[row as usize] == Quantity::State {
-                // In the place of an acceleration stands what the rate lacks.
+                // The entry of a first-order state is the change of its rate.
                 own.rate += std::mem::take(jump);
             } else {
                 own.acceleration += *jump;
             }
         }
         let (motion, constraints) = jump.split_at(layout.coordinate_count());
-        // The one before as well: their difference shows how accelerations change between jumps.
+        // The previous state as well: the difference of the two is the change of accelerations between jumps.
         for memory in [&mut self.previous.algorithmic, &mut self.state.algorithmic] {
             memory.iter_mut().zip(motion).for_each(|(value, jump)| *value += jump);
         }

@@ -1,4 +1,4 @@
-//! Whether steps resolve scalar laws. A pulse between the stages of a step, or an oscillation with the step as its period,
+//! Resolution of scalar laws by the steps. A pulse between the stages of a step, or an oscillation with the step as its period,
 //! appears in no residual and in no error estimate: it would be ignored or misinterpreted without notice. The same applies to
 //! jumps that are neither known in advance nor switches.
 //!
@@ -8,8 +8,8 @@
 //! f(σ) = f(t(σ), x(σ)),      x(σ) cubic on the dense output,      |f - H| ≤ part · max |f|
 //! ```
 //!
-//! The law is sampled by bisection of the step, as long as the bounds of its values over the range of its arguments, and those of
-//! its second derivative, allow more than the samples show:
+//! The step is bisected until bounds of the values over the range of the arguments, or of the second derivative, exclude features
+//! that the samples do not show:
 //!
 //! ```text
 //! |f - line through its ends| ≤ max |f''(σ)| (σ₁ - σ₀)²/8
@@ -31,26 +31,26 @@ use crate::system::{State, System};
 /// A law that deviates by more than this fraction of its largest value from the interpolation of a step's ends is not
 /// resolved: a sine with 4.4 steps a period.
 pub(crate) const DEPARTURE: f64 = 0.01;
-/// If bounds are narrower than this fraction of the largest value, nothing is missed between the samples.
+/// If bounds are narrower than this fraction of the largest value, no feature is missed between the samples.
 const NARROW_BOUNDS: f64 = 0.1;
 /// Maximum number of intervals within one step.
 pub(crate) const MAX_INTERVALS: usize = 256;
 /// Bisections of an interval after which the remaining feature is a jump.
 const MAX_HALVINGS: usize = 30;
-/// Values at the ends of an interval are evaluated by this fraction inside: a jump at an end belongs to the neighbour.
+/// Inset of the values at the ends of an interval, as a fraction of it: a jump at an end belongs to the neighbour.
 const INSIDE: f64 = 1e-6;
 /// Distance of the values that determine the slope at an end, as a fraction of the interval.
 const SLOPE_OFFSET: f64 = 1e-3;
-/// Values beyond those at the ends of a planned step by more than this fraction of the law's magnitude are reported: a sine with
-/// five steps a period.
+/// Law values beyond those at the ends of a planned step by more than this fraction of its magnitude are reported: a sine with five
+/// steps a period.
 const EXCESS: f64 = 0.2;
-/// A jump before this step fraction in a step that was to end at its switch has been passed over.
+/// A jump before this step fraction, in a step that should end at the switch, has been missed.
 const NEAR_END: f64 = 0.9;
 /// Arguments that depart by more than this fraction of their range from a cubic are not smooth.
 const ARGUMENT_DEPARTURE: f64 = 0.05;
 /// Number of steps over which the second derivative of a function of time is bounded at once.
 const SPAN: f64 = 32.0;
-/// Number of steps ahead whose times count for the magnitude of a law that is not bounded.
+/// Number of future steps that contribute to the magnitude of an unbounded law.
 const STEPS_AHEAD: u32 = 64;
 /// Step fractions at which arguments are evaluated.
 const SAMPLES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
@@ -95,7 +95,7 @@ pub(crate) enum Found {
     Nothing,
     /// A feature that the ends of shorter intervals determine.
     Hidden,
-    /// A jump, at the first number after it.
+    /// A jump, located at the first floating-point number after it.
     Jump(f64),
 }
 
@@ -109,7 +109,7 @@ impl<'l> Course<'l> {
         self.time[0] + share * self.time[1]
     }
 
-    /// Value at a parameter.
+    /// Value at the parameter σ.
     pub(crate) fn value(&self, share: f64) -> f64 {
         let mut arguments = [0.0; MAX_ARGUMENTS];
         for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
@@ -118,7 +118,7 @@ impl<'l> Course<'l> {
         self.law.value(self.time(share), &arguments[..self.arguments.len()])
     }
 
-    /// Bounds over an interval.
+    /// Bounds of the value over an interval.
     fn bounds(&self, [from, to]: Interval) -> Option<Interval> {
         let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
         for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
@@ -160,7 +160,7 @@ impl<'l> Course<'l> {
         magnitude
     }
 
-    /// Width of the bounds within an interval, if any are known.
+    /// Width of the bounds within an interval, if they are available.
     fn width(&self, [from, to]: Interval) -> Option<f64> {
         let inside = INSIDE * (to - from);
         self.bounds([from + inside, to - inside]).map(|[low, high]| high - low)
@@ -179,7 +179,7 @@ impl<'l> Course<'l> {
         Some(bend(enclosure.second, to - from))
     }
 
-    /// Whether values within an interval may differ from those at its ends and between them by more than `least`.
+    /// Whether values within an interval may deviate from those at its ends by more than `least`.
     fn may_hide(&self, within: Interval, least: f64) -> bool {
         let is_wide = |width: f64| width > least;
         self.width(within).is_some_and(is_wide) && self.bend(within).is_none_or(is_wide)
@@ -203,7 +203,7 @@ impl<'l> Course<'l> {
         search(whole, is_found, may_be)
     }
 
-    /// Features within an interval that its values and slopes there do not determine to `part` of its `magnitude`.
+    /// Features within an interval that the values and slopes at its ends do not determine to `part` of its `magnitude`.
     pub(crate) fn found(&self, whole: Interval, magnitude: f64, part: f64) -> Found {
         let is_flat = || self.width(whole).is_some_and(|width| width <= part * magnitude);
         if magnitude == 0.0 || is_flat() {
@@ -211,7 +211,7 @@ impl<'l> Course<'l> {
         }
         let expected = self.interpolated(whole);
         let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
-        // A law with kinks may act between two samples only, in a contact for example.
+        // A law with kinks, for example of a contact, may act between two samples only.
         let least = if self.law.is_smooth() { NARROW_BOUNDS } else { part } * magnitude;
         let may_be = |within: Interval| self.may_hide(within, least);
         if search(whole, is_found, may_be) {
@@ -221,7 +221,7 @@ impl<'l> Course<'l> {
         }
     }
 
-    /// The first number after a jump: where part of an interval is determined by the ends of no interval, however short.
+    /// First floating-point number after a jump: a feature that the ends of no interval determine, however short.
     fn jump(&self, [mut from, mut to]: Interval, magnitude: f64) -> Option<f64> {
         for _ in 0..MAX_HALVINGS {
             let middle = 0.5 * (from + to);
@@ -268,11 +268,11 @@ impl<'l> Course<'l> {
             let expected = at(cubic, ((parameter - from) / (to - from)).clamp(0.0, 1.0));
             (self.value(parameter) - expected).abs()
         };
-        // A value that is not finite is reported elsewhere.
+        // Values that are not finite are reported elsewhere.
         [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
     }
 
-    /// The longest interval from `from` on of `size` or, obtained by halving, less, that is resolved, except for jumps.
+    /// Longest interval from `from` that is resolved except for jumps: `size`, or less by halving.
     pub(crate) fn longest(&self, [from, mut size]: [f64; 2], magnitude: f64, part: f64) -> f64 {
         for _ in 0..MAX_HALVINGS {
             if self.found([from, from + size], magnitude, part) != Found::Hidden {
@@ -284,9 +284,9 @@ impl<'l> Course<'l> {
     }
 }
 
-/// Whether `is_found` in one of the parts of an interval, which is bisected where there `may_be` more.
+/// Whether `is_found` is true in a part of an interval, which is bisected where `may_be` is true.
 fn search(whole: Interval, is_found: impl Fn(Interval) -> bool, may_be: impl Fn(Interval) -> bool) -> bool {
-    // As many as pending halves of an interval that is bisected so often.
+    // Capacity for the pending halves of an interval that is bisected MAX_HALVINGS times.
     let mut open = [whole; MAX_HALVINGS + 2];
     let (mut last, mut looks) = (1, 0);
     while last > 0 {
@@ -305,42 +305,42 @@ fn search(whole: Interval, is_found: impl Fn(Interval) -> bool, may_be: impl Fn(
     false
 }
 
-/// What is known of laws from the steps so far.
+/// Magnitudes of all laws, from the steps so far.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Magnitudes {
     functions: Vec<FunctionMagnitude>,
     laws: Vec<Magnitude>,
 }
 
-/// Largest magnitude so far, or the possible one if it is bounded.
+/// Largest magnitude so far, or over all arguments for bounded laws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Magnitude {
     value: f64,
     is_bounded: bool,
 }
 
-/// A function of time.
+/// Magnitude and curvature of a function of time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct FunctionMagnitude {
     magnitude: f64,
-    /// Times between which its second derivative is bounded [s], and the largest one there; infinite if it is not known.
+    /// Interval over which its second derivative is bounded [s], and the bound of its magnitude; infinite if unknown.
     span: Interval,
     curvature: f64,
 }
 
-/// The scalar laws of a system along its steps.
+/// Resolution checks of the scalar laws of a system.
 pub(crate) struct Laws {
     pub(crate) magnitudes: Magnitudes,
     between: State,
-    /// Arguments of all laws at each of the samples, one sample after the other, and at the middle of the step.
+    /// Arguments of all laws, one sample after the other, and at the middle of the step.
     arguments: Vec<f64>,
     middle: Vec<f64>,
     cubics: Vec<Cubic>,
 }
 
 impl Laws {
-    /// At the start, with steps of up to `longest` [s]. Functions of time that are not bounded are evaluated over the first steps:
-    /// the first values of a function that starts smoothly may be round-off.
+    /// Initial magnitudes, for steps of up to `longest` [s]. Unbounded functions of time are evaluated over the first steps: the
+    /// first values of a function that starts smoothly may be round-off.
     pub(crate) fn new(system: &System, start: &State, longest: f64) -> Self {
         let now = start.kinematics.time;
         let magnitude = |function: &Function| {
@@ -395,8 +395,8 @@ impl Laws {
         is_small(curvature) || is_small(bound(step))
     }
 
-    /// The longest part of a solved step in which its ends determine all laws of the motion, as a step fraction: 1, or less by
-    /// halving, or up to a jump. A jump at its start may belong to a switch there if one `has_switched`.
+    /// Longest fraction of a solved step whose ends determine all laws of the motion: 1, or less by halving, or up to a jump. With
+    /// `has_switched`, a jump at the start of the step is attributed to the switch there.
     pub(crate) fn longest_resolved(
         &mut self,
         system: &System,
@@ -408,7 +408,7 @@ impl Laws {
         let find = |course: &Course<'_>, magnitude| {
             let longest = match course.found([begin, 1.0], magnitude, part) {
                 Found::Hidden => begin + course.longest([begin, 0.5], magnitude, part),
-                // Switches before it were passed and returned to. Close to the end the next attempt will find it.
+                // A switch was missed: its detection is likely if the next attempt ends shortly after the jump.
                 Found::Jump(share) if share < NEAR_END && !course.law.is_smooth() => share / NEAR_END,
                 Found::Nothing | Found::Jump(_) => 1.0,
             };
@@ -432,7 +432,7 @@ impl Laws {
         self.examine(system, step, find).map(|(index, _)| index)
     }
 
-    /// Determines the cubics of all arguments of laws of the motion over a solved step. Whether there are any laws.
+    /// Fits the cubics of all arguments of laws of the motion over a solved step. Returns whether there are any laws.
     fn sample(&mut self, system: &System, (from, to): (&State, &State)) -> bool {
         self.arguments.clear();
         self.cubics.clear();
@@ -450,7 +450,7 @@ impl Laws {
                 system.laws(&self.between.kinematics, &mut gather);
             }
             if arguments.is_empty() {
-                // There may be laws of time alone, such as signals.
+                // There may be laws that depend on time only, such as signals.
                 return laws > 0;
             }
         }
@@ -464,8 +464,8 @@ impl Laws {
     }
 
     /// The law of the motion with the smallest step fraction that `find` returns for its course and its magnitude, with its index.
-    /// Where it returns one, arguments are verified: those that jump, such as angles at half a turn, are no cubics, and their laws
-    /// are not examined.
+    /// The arguments of such a law are verified: if they jump, such as angles at half a turn, cubics do not represent them, and the law
+    /// is skipped.
     fn examine(
         &mut self,
         system: &System,
@@ -516,7 +516,7 @@ impl Laws {
     }
 }
 
-/// Whether a cubic has about this value in its middle.
+/// Whether a cubic has approximately this value in its middle.
 fn passes_through(cubic: &Cubic, value: f64) -> bool {
     let [low, high] = range(cubic, [0.0, 1.0]);
     let allowed = ARGUMENT_DEPARTURE * (high - low) + round_off::FUNCTION * high.abs().max(low.abs());
@@ -620,7 +620,7 @@ mod tests {
         let by_time = course(&BY_TIME, &moving);
         assert_eq!(by_time.found([0.0, 1.7], 1.0, DEPARTURE), Found::Hidden);
         assert_eq!(by_time.found([0.0, 0.999], 1.0, DEPARTURE), Found::Nothing);
-        // At rest there is nothing to be found.
+        // At rest there is no feature.
         assert_eq!(
             course(&BY_MOTION, &[[0.2, 0.0, 0.0, 0.0]]).found([0.0, 1.0], 1.0, DEPARTURE),
             Found::Nothing

@@ -1,4 +1,4 @@
-//! A system on its way through time: its state, and what takes it to the next one.
+//! Time stepping of a system: the state, and the solution of steps.
 
 pub mod accumulated;
 mod arc;
@@ -46,7 +46,7 @@ use crate::settings::Totals;
 use crate::simulation::accumulated::{Accumulated, Accumulation};
 use crate::system::{State, System};
 
-/// A system on its way through time.
+/// A system and its state, which is advanced step by step.
 pub struct Simulation {
     pub(crate) system: Arc<System>,
     pub(crate) settings: Settings,
@@ -55,42 +55,42 @@ pub struct Simulation {
     pub(crate) previous: State,
     /// Energy and work up to the state.
     pub(crate) energy_balance: EnergyBalance,
-    /// Where and how the simulation began.
+    /// Start of the simulation.
     pub(crate) origin: Origin,
     /// Solves steps.
     pub(crate) integrator: Integrator,
     /// The last attempt at a step.
     pub(crate) attempt: Attempt,
-    /// Decides how long steps are.
+    /// Determines the length of steps.
     pub(crate) control: Box<dyn Control>,
-    /// Instants at which steps end that are known before the step.
+    /// Ends of steps that are known in advance.
     pub(crate) stops: Stops,
-    /// Those that are found within it.
+    /// Ends of steps that are detected within them.
     pub(crate) events: EventDetector,
-    /// For held values that change between steps.
+    /// Solver for jumps of accelerations where held values change between steps.
     pub(crate) held_values: Option<ConsistentInitialConditions>,
-    /// Numbers that depend on the whole motion.
+    /// Quantities that depend on the whole motion.
     pub(crate) accumulation: Accumulation,
     pub(crate) monitors: Monitors,
     /// Warnings about the motion up to the state.
     pub(crate) warnings: Vec<Warning>,
     pub(crate) totals: Totals,
-    /// Whether the integrator still holds the step that led to the state.
+    /// Whether the integrator still contains the step that ended at the state.
     pub(crate) is_last_step_known: bool,
 }
 
-/// Where and how a simulation began.
+/// Start of a simulation.
 pub(crate) struct Origin {
-    /// Where the first step began.
+    /// Motion at the start of the first step.
     pub(crate) kinematics: Kinematics,
     /// Largest change made to the given initial twists to satisfy the constraints [m/s, rad/s].
     pub(crate) velocity_correction: f64,
-    /// Whether a first load step without solution is looked for by relaxation, which takes load steps itself.
+    /// Whether a first load step without solution is solved by relaxation, which takes load steps itself.
     pub(crate) may_relax: bool,
 }
 
 impl Simulation {
-    /// System and state, given back.
+    /// Returns system and state.
     pub(crate) fn into_parts(self) -> (Arc<System>, State) {
         (self.system, self.state)
     }
@@ -105,15 +105,15 @@ impl Simulation {
         Problem { system: &self.system, settings: &self.settings }
     }
 
-    /// How long the last step was [s]; 0 before the first.
+    /// Duration of the last step [s]; 0 before the first.
     pub fn last_step(&self) -> f64 {
         self.state.kinematics.time - self.previous.kinematics.time
     }
 
-    /// How long the step was from which velocities, accelerations and multipliers of the state follow [s]; 0 where they were made
-    /// consistent since, as after an event.
+    /// Size of the step from which velocities, accelerations and multipliers of the state result [s]; 0 if they have been made
+    /// consistent since, for example after an event.
     pub fn step_of_rates(&self) -> f64 {
-        // A side that was not known before is no change.
+        // A branch that becomes known is no change.
         let first_side = self.system.signals().first_side();
         let is_jump = |(index, (now, before)): (usize, (&f64, &f64))| {
             now != before && (index < first_side || *before != 0.0)
@@ -123,7 +123,7 @@ impl Simulation {
         if has_jumped { 0.0 } else { self.last_step() }
     }
 
-    /// A shared handle on the system.
+    /// A shared reference to the system.
     pub fn shared_system(&self) -> Arc<System> {
         Arc::clone(&self.system)
     }
@@ -143,19 +143,19 @@ impl Simulation {
         &self.warnings
     }
 
-    /// Stability of the equilibria of load steps: from which load parameter on [s] they are unstable in how many
-    /// directions; none where that cannot be determined.
+    /// Stability of the equilibria of load steps: load parameters [s] from which they have this number of unstable directions; none if
+    /// it cannot be determined.
     pub fn stability(&self) -> &[(f64, Option<usize>)] {
         self.monitors.get::<Stability>().map_or(&[], |stability| &stability.changes)
     }
 
-    /// Directions in which the equilibrium that was reached last is unstable; none where that cannot be determined: in motion,
-    /// where the stiffness is singular, and where it belongs to no energy, as with loads that turn with the model.
+    /// Number of unstable directions of the last equilibrium; none if it cannot be determined: in motion, with a singular stiffness,
+    /// and with forces that have no potential, such as loads that rotate with the model.
     pub fn unstable_directions(&self) -> Option<usize> {
         unstable_directions(self.problem(), &self.state)
     }
 
-    /// Accumulates numbers from here on, from zero: [`State::accumulated`] has them in this order.
+    /// Accumulates quantities from zero from now on: [`State::accumulated`] contains them in this order.
     pub fn accumulate(&mut self, numbers: Vec<Arc<dyn Accumulated>>) {
         let Attempt { converted, end, .. } = &mut self.attempt;
         for state in [&mut self.previous, &mut self.state, end, converted] {
@@ -179,12 +179,12 @@ impl Simulation {
         &self.integrator.representative
     }
 
-    /// The scaling in force.
+    /// The present scaling.
     pub fn scaled(&self) -> &Scaled {
         &self.integrator.scaled
     }
 
-    /// Stored numbers of the tangent's factors.
+    /// Number of stored entries of the tangent's factors.
     pub fn factor_entries(&self) -> usize {
         self.integrator.work.tangent.matrices.entries()
     }

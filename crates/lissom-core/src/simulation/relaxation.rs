@@ -1,8 +1,9 @@
-//! Equilibrium where Newton's method does not find it: by steps that inertia resists, longer and longer, each from rest.
+//! Relaxation: computes an equilibrium if Newton's method fails, by steps of increasing length that are damped by inertia, each from
+//! rest.
 //!
-//! A cable without tension has nearly no stiffness across itself, so that the first correction of a load step is far too
-//! large however small the load. Steps of [`relaxation`] go downhill instead, under loads and drives as they are at one
-//! instant, until a step without inertia ends near where it begins.
+//! A cable without tension has nearly no transverse stiffness, so that the first correction of a load step is far too large however
+//! small the load. Steps of [`relaxation`] decrease the energy instead, under the loads and drives of one instant, until a step without
+//! inertia ends near its start.
 
 use std::sync::Arc;
 
@@ -20,30 +21,29 @@ use crate::simulation::Simulation;
 use crate::solver_features::SolverFeature;
 use crate::system::{State, System};
 
-/// Steps until there is no equilibrium to be found.
+/// Maximum number of steps.
 const MAX_STEPS: usize = 300;
-/// Steps that end less far than this from where they begin, relative to the representative length, are followed by one without
-/// inertia …
+/// Displacement of a step, relative to the representative length, below which one without inertia is tried.
 const SHORT_STEP: f64 = 0.03;
-/// … which must end as near as this.
+/// Largest displacement of that step if it is the equilibrium.
 const SETTLED_LENGTH: f64 = 0.1;
-/// A step without inertia that failed is repeated after steps so many times as long, or after so many steps of any length: it costs
-/// as much as several others, and fails as long as inertia and not the stiffness limits the steps.
+/// A failed step without inertia is repeated if steps have become longer by this factor, or after this number of steps: it is as
+/// expensive as several others, and fails as long as inertia and not the stiffness limits the steps.
 const RETRY_LENGTH: f64 = 4.0;
 const RETRY_STEPS: usize = 16;
-/// A model that has moved by so many lengths is not held.
+/// Displacement of a model that is not constrained, relative to the representative length.
 const MAX_TRAVEL: f64 = 1e3;
 /// The first step, in units of the time √(m/k) of the stiffest parts.
 const FIRST: f64 = 10.0;
-/// Iterations of a step, which is tried again shorter if they are not enough.
+/// Maximum number of iterations of a step before it is shortened.
 const ITERATIONS: usize = 15;
-/// Steps without solution until there is no equilibrium to be found.
+/// Maximum number of steps without solution.
 const MAX_FAILURES: usize = 60;
-/// The next step over the last, and the same after a step without solution.
+/// Ratio of the next step to the last, and after a step without solution.
 const LONGER: f64 = 2.0;
 const SHORTER: f64 = 0.125;
 
-/// Whether relaxation may find what a load step that ended so did not.
+/// Whether relaxation may find the equilibrium after a load step with this failure.
 pub(crate) fn may_help(error: &StepError) -> bool {
     matches!(
         error,
@@ -51,8 +51,8 @@ pub(crate) fn may_help(error: &StepError) -> bool {
     )
 }
 
-/// The equilibrium downhill from the positions of `state`, under loads and drives as they are at `time` [s], and its
-/// warnings; none if it is not found. Adds Newton's iterations to `iterations`.
+/// The equilibrium of lower energy near the positions of `state`, under the loads and drives at `time` [s], and its warnings; none if it
+/// is not found. Adds Newton's iterations to `iterations`.
 pub(crate) fn relax(
     system: &Arc<System>,
     state: &State,
@@ -62,7 +62,7 @@ pub(crate) fn relax(
 ) -> Option<(State, Vec<Warning>)> {
     let mut settings =
         Settings { scheme: relaxation(), control: None, from_equilibrium: false, ..settings.clone() };
-    // A shorter step costs less than iterations that do not lead to the end of a long one, and than its parts.
+    // A shorter step is cheaper than iterations of a long one that do not converge, and than its subdivision.
     settings.limits.max_iterations = settings.limits.max_iterations.min(ITERATIONS);
     settings.limits.disabled = settings.limits.disabled.and(SolverFeature::StepBisection);
     let mut reached = state.clone();
@@ -72,7 +72,7 @@ pub(crate) fn relax(
     let length = representative.length;
     let shortest = (representative.mass / representative.stiffness).sqrt();
     let mut step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
-    // Number and size of the next step after which one without inertia is tried.
+    // Index and size of the next step after which one without inertia is tried.
     let (mut next_try, mut long_enough) = (0, 0.0);
     for step in 0..MAX_STEPS {
         settings.scheme = relaxation();
@@ -119,8 +119,8 @@ pub(crate) fn relax(
 }
 
 impl Simulation {
-    /// Leaves the equilibrium that relaxation finds a step of `size` [s] after the start as the last attempt, where the first load step
-    /// ended with `error`.
+    /// Stores the equilibrium found by relaxation, a step of `size` [s] after the start, as the last attempt. The first load step
+    /// failed with `error`.
     pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
         let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
         if !(self.origin.may_relax && is_first && may_help(error)) {
@@ -135,7 +135,7 @@ impl Simulation {
         self.integrator.resize(problem, size);
         self.integrator.jacobian_state = JacobianState::default();
         (self.attempt.size, self.attempt.is_converted, self.attempt.end) = (size, false, reached);
-        // That of a step of unit length has lost digits.
+        // The time of a step of unit length has lost digits.
         self.attempt.end.kinematics.time = time;
         self.judge_attempt()?;
         for doubt in doubts {
@@ -145,7 +145,7 @@ impl Simulation {
     }
 }
 
-/// A step of the settings' size that ends at `time` begins at rest.
+/// Starts a step of the settings' size from rest that ends at `time` [s].
 fn begin(
     system: &Arc<System>,
     state: &State,
@@ -169,7 +169,7 @@ fn begin(
     Some(simulation)
 }
 
-/// The longest way of a node [m].
+/// Largest displacement of a node [m].
 fn distance(from: &Kinematics, to: &Kinematics) -> f64 {
     let ways = from.nodes.iter().zip(&to.nodes).map(|(a, b)| (b.frame.position - a.frame.position).norm());
     ways.fold(0.0, |most, way| if way.is_finite() { most.max(way) } else { f64::INFINITY })

@@ -5,7 +5,7 @@ use crate::instants;
 use crate::simulation::Simulation;
 
 impl Simulation {
-    /// Time of the state [s], with the remainder of earlier roundings.
+    /// Time of the state [s], including its accumulated round-off.
     pub(crate) fn now(&self) -> f64 {
         self.state.kinematics.time + self.state.time_remainder
     }

@@ -31,9 +31,9 @@ struct Progress<'p> {
 
 /// Target of the next attempts.
 struct Stop {
-    /// From here [s].
+    /// Distance from the present time [s].
     distance: f64,
-    /// Time to which the clock is set there [s]; none if it remains unchanged.
+    /// Time to which the clock is set there [s]; none if it is not set.
     clock: Option<f64>,
     /// The breakpoint that is crossed there.
     crossing: Option<StopTime>,
@@ -56,9 +56,8 @@ impl Simulation {
         self.step_watched(f64::INFINITY, &mut Unwatched)
     }
 
-    /// Takes one step as [`step`](Self::step) does, with step-size control not beyond the time `limit` [s]. It ends exactly at
-    /// `limit` if it reaches it, as does a planned step that ends there up to round-off. Calls `watch` at the beginning of each
-    /// part of the work.
+    /// Takes one step like [`step`](Self::step); with step-size control not beyond the time `limit` [s]. It ends exactly at `limit` if
+    /// it reaches it, as does a planned step that ends there up to round-off. Calls `watch` at the beginning of each phase of the work.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -93,8 +92,8 @@ impl Simulation {
         step.known(self.is_last_step_known).interpolate(time, out);
     }
 
-    /// The sequence of a step: a planned one is solved to its end, through all stops within it; an adaptive one ends with the
-    /// first attempt that is accepted.
+    /// The sequence of a step: a planned one is solved to its end, through all stops within it; an adaptive one ends with the first
+    /// accepted attempt.
     fn advance(&mut self, limit: f64, progress: &mut Progress<'_>) -> Result<(), StepError> {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
@@ -122,7 +121,7 @@ impl Simulation {
                 break;
             }
         }
-        // Only the last part's data of the integrator describe the present state.
+        // The integrator contains the last part only.
         self.is_last_step_known &= progress.report.parts == 1;
         // Sums of step sizes would drift away from the planned instants.
         if planned.is_some() && self.is_at(limit, longest) {
@@ -131,7 +130,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// The first of samples, breakpoints and the end of the step, which is `rest` [s] from here; `limit` [s] is the end of an
+    /// The first of samples, breakpoints and the end of the step, which is at the distance `rest` [s]; `limit` [s] is the end of an
     /// adaptive step.
     fn next_stop(&self, rest: f64, limit: Option<f64>) -> Stop {
         let (now, longest) = (self.now(), self.control.longest());
@@ -149,8 +148,8 @@ impl Simulation {
         stop
     }
 
-    /// Accepts attempts, one or as many as a planned step needs, up to a stop or to an event before it. Whether the stop is
-    /// reached.
+    /// Accepts attempts, one or as many as a planned step needs, up to a stop or to an event before it. Returns whether the stop has
+    /// been reached.
     fn advance_to(&mut self, stop: &Stop, progress: &mut Progress<'_>) -> Result<bool, StepError> {
         let (now, planned) = (self.now(), self.control.planned());
         if let Some(clock) = stop.clock {
@@ -272,8 +271,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// The longest step over which functions of time are determined by its ends, and in which no node rotates too far to
-    /// be resolved, with a margin [s]; for adaptive steps. The stop is at a `distance` [s].
+    /// The longest adaptive step over which functions of time are determined by its ends, and in which no node rotates too far to be
+    /// resolved, with a margin [s]. The stop is at a `distance` [s].
     fn longest_resolved(&mut self, now: f64, distance: f64) -> f64 {
         let Some(size) = self.control.by_error() else { return f64::INFINITY };
         let problem = Problem { system: &self.system, settings: &self.settings };
@@ -284,7 +283,7 @@ impl Simulation {
         if fastest > 0.0 { resolved.min(turn / fastest) } else { resolved }
     }
 
-    /// Reports after a part of a planned step that it does not resolve a law of the motion.
+    /// Warns after a part of a planned step that does not resolve a law of the motion.
     fn report_unresolved_laws(&mut self) {
         let Some(step) = self.control.planned().filter(|_| self.settings.scheme.dynamic) else { return };
         if self.warnings.iter().any(|warning| matches!(warning, Warning::FunctionUnseen { .. })) {
@@ -297,7 +296,7 @@ impl Simulation {
         }
     }
 
-    /// At the start: accelerations are those after jumps of functions at that instant.
+    /// Sets the initial accelerations to those after jumps of functions at the start.
     ///
     /// # Errors
     /// If there are no consistent accelerations there.
@@ -309,7 +308,7 @@ impl Simulation {
         if jumps { self.jump_between(now, behind) } else { Ok(()) }
     }
 
-    /// After a step that ended at a breakpoint: sets the clock, and recomputes accelerations across a jump.
+    /// Sets the clock after a step that ended at a breakpoint, and recomputes accelerations across a jump.
     ///
     /// # Errors
     /// If there are no consistent accelerations on one of the sides.

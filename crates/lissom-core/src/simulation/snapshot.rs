@@ -1,8 +1,7 @@
-//! A simulation between two steps, as plain numbers: enough to continue to the last bit. Contains the state, and all
-//! data that are reused from step to step: the tangent in use, estimates of round-off, predictions, secants, the
-//! controller.
+//! A simulation between two steps, as plain values: sufficient to continue to the last bit. Contains the state, and all data that are
+//! reused from step to step: the tangent in use, estimates of round-off, predictions, secants, the controller.
 //!
-//! Factors are not stored: the values of the tangent are, and they are factorised again.
+//! Factors are not stored: the values of the tangent are stored and factored again.
 
 use std::sync::Arc;
 
@@ -46,7 +45,7 @@ pub struct Snapshot {
     event_state: EventState,
     /// Magnitudes of scalar laws.
     magnitudes: Magnitudes,
-    /// By the name of the monitor.
+    /// Data of the monitors, by name.
     monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
 }
@@ -86,7 +85,7 @@ diagnostics! {
     }
 }
 
-/// A state as numbers, in the order of its fields.
+/// A state as plain values, in the order of its fields.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct StateNumbers {
     time: f64,
@@ -96,7 +95,7 @@ struct StateNumbers {
     coordinates: Vec<[f64; 3]>,
     held: Vec<f64>,
     multipliers: Vec<f64>,
-    /// Whether elements depend on them.
+    /// Whether elements depend on the multipliers.
     shows_multipliers: bool,
     violations: Vec<f64>,
     algorithmic: Vec<f64>,
@@ -176,8 +175,8 @@ impl From<&StateNumbers> for State {
 }
 
 impl Simulation {
-    /// The simulation between two steps: a simulation of the same model that restores it continues as this one does,
-    /// to the last bit.
+    /// Snapshot of the simulation between two steps: a simulation of the same model that restores it continues as this one does, to
+    /// the last bit.
     pub fn snapshot(&self) -> Snapshot {
         let origin = State { kinematics: self.origin.kinematics.clone(), ..self.state.clone() };
         Snapshot {
@@ -201,7 +200,7 @@ impl Simulation {
         }
     }
 
-    /// Returns, or advances, to the state of a snapshot.
+    /// Sets the simulation to the state of a snapshot.
     ///
     /// # Errors
     /// If it was taken of another model, or by another version of the program. The simulation is then unchanged.
@@ -243,7 +242,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// A second simulation in the same state, which continues from there to the same bits. Both share the system.
+    /// A second simulation in the same state, which continues with bit-identical results. Both share the system.
     ///
     /// # Errors
     /// If the tangent in use cannot be factorised again.

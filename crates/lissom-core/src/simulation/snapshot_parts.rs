@@ -1,4 +1,4 @@
-//! What a workspace has learned from step to step, taken out of it and put back.
+//! Saves and restores the data of a workspace that are reused from step to step.
 
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::integrator::workspace::{Effort, Workspace};
 use crate::saddle_point;
 use crate::system::System;
 
-/// All that outlives a step besides the state.
+/// Data that are reused from step to step, except the state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Learned {
     predictors: [Predictor; 2],
@@ -32,10 +32,10 @@ impl Workspace {
         }
     }
 
-    /// Puts back what was learned, and factors the tangent again.
+    /// Restores the data, and factors the tangent again.
     ///
     /// # Errors
-    /// If a tangent cannot be factored: it is not the one that was taken.
+    /// If a tangent cannot be factored: the data are damaged.
     pub(crate) fn restore(&mut self, system: &System, from: &Learned) -> Result<(), FactorError> {
         for (guess, learned) in self.prediction.predictors.iter_mut().zip(&from.predictors) {
             guess.restore(learned);

@@ -1,5 +1,5 @@
-//! Instants at which steps end that are known before the step: breakpoints of functions of time, both those that the functions
-//! report and those that are found by sampling them.
+//! Ends of steps that are known in advance: breakpoints of functions of time, both those that the functions report and those that are
+//! found by sampling.
 
 use std::sync::Arc;
 
@@ -11,17 +11,17 @@ use crate::registry::Function;
 use crate::settings::{Problem, Settings};
 use crate::system::{State, System};
 
-/// Functions are sampled by this fraction of the step beyond its end: a jump at the end is within the samples.
+/// Functions are sampled beyond the end of the step by this fraction of it, so that a jump at the end is within the samples.
 const LOOK_AHEAD: f64 = 0.01;
-/// Bisections of a planned step in which jumps beside fast motions are searched for.
+/// Bisections of a planned step in which jumps close to fast variations are searched for.
 const FURTHER: i32 = 6;
 
 /// Instants that end steps, known in advance, and the resolution of scalar laws within steps.
 pub(crate) struct Stops {
-    /// Breakpoints of functions of time: steps of motions, and adaptive load steps, do not cross them. They are followed by jumps
-    /// found within the present step.
+    /// Breakpoints of functions of time and jumps found within the present step. Steps of motions, and adaptive load steps, do not
+    /// cross them.
     pub(crate) breakpoints: Vec<Breakpoint>,
-    /// Jumps found among them.
+    /// Those breakpoints that are jumps found by sampling.
     found: Vec<f64>,
     /// Centre of an interval of the present step that is not determined by its ends [s], with the function's index.
     hidden: Option<(f64, usize)>,
@@ -30,7 +30,7 @@ pub(crate) struct Stops {
 }
 
 impl Stops {
-    /// Of a simulation that begins at `start`.
+    /// Stops of a simulation that starts at `start`.
     pub(crate) fn new(system: &System, settings: &Settings, start: &State) -> Self {
         let is_bound = settings.control.is_some() || settings.scheme.dynamic;
         let breakpoints = if is_bound { breakpoints::of(system, settings.step_size) } else { Vec::new() };
@@ -38,8 +38,8 @@ impl Stops {
         Self { breakpoints, found: Vec::new(), hidden: None, laws: Laws::new(system, start, longest) }
     }
 
-    /// Samples functions of time over a step from the time `now` [s]: jumps that are found end steps. It is `size` [s] long or
-    /// shorter; no step is longer than `longest` [s].
+    /// Samples functions of time over a step of at most `size` [s] from the time `now` [s]: jumps that are found end steps. No step is
+    /// longer than `longest` [s].
     pub(crate) fn look_ahead(&mut self, problem: Problem<'_>, now: f64, [size, longest]: [f64; 2]) {
         let system = problem.system;
         if !self.found.is_empty() {
@@ -110,7 +110,7 @@ impl Stops {
         longest
     }
 
-    /// Reports, at the time `now` [s] after a step of planned size, that a function within it is not determined by its ends.
+    /// Warns, at the time `now` [s] after a step of planned size, of a function within it that is not determined by its ends.
     pub(crate) fn passed_unseen(&self, system: &System, now: f64, step: f64) -> Option<Warning> {
         let (time, index) = self.hidden?;
         let function = || system.functions[index].0.clone();
@@ -118,8 +118,8 @@ impl Stops {
     }
 }
 
-/// Part of a law's magnitude by which it may depart from the interpolation of a step's ends: the square root of the allowed error
-/// of a third-order step.
+/// Allowed deviation of a law from the interpolation of a step's ends, relative to its magnitude: the square root of the allowed error of
+/// a third-order step.
 pub(crate) fn allowed_departure(settings: &Settings) -> f64 {
     let tolerance = settings.control.map_or(1.0, |control| control.relative_tolerance);
     tolerance.powf(2.0 / 3.0).min(DEPARTURE)
@@ -174,7 +174,7 @@ impl Scan {
                 }
             }
             Found::Jump(time) => {
-                // A jump at an end is a known one.
+                // A jump at an end of the interval is already known.
                 if (time - from).min(to - time) <= TIME_TOLERANCE * step {
                     return;
                 }

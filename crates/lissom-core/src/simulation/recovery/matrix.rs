@@ -1,12 +1,12 @@
-//! The saddle-point matrix of a recovery, M + τ D + τ² K with the constraints, assembled and factored at a recorded instant; D and K are
-//! those of elements that may be stiff.
+//! Saddle-point matrix of a recovery, M + τ D + τ² K with the constraints, assembled and factored at a recorded instant; D and K belong to
+//! elements that may be stiff.
 //!
 //! ```text
 //! [M + τ D + τ² K + s BᵀWB, s Bᵀ; s B, 0] [x; λ/s] = [b + s BᵀW c; s c]
 //! ```
 //!
-//! s is a mass and W turns radians into lengths. A solution is not refined: right-hand sides are residuals evaluated at the present state,
-//! and so its error is a fraction of a correction.
+//! s is a mass, and W converts radians to lengths. Solutions are not refined: right-hand sides are residuals evaluated at the present
+//! state, so that the error is a fraction of a correction.
 
 use lissom_solver::{Pattern, SolverKind};
 
@@ -18,7 +18,7 @@ use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Blend, Linearization, Scratch, State, Sum, System, TangentAssembler};
 
-/// Pivots that are smaller fractions of the terms they are made of leave solutions with fewer digits.
+/// Smallest pivot, relative to its terms, with which solutions are accurate to round-off.
 const WELL_CONDITIONED: f64 = 1e-6;
 
 /// Consecutive entries of a column in consecutive rows.
@@ -30,7 +30,7 @@ struct Run {
     length: usize,
 }
 
-/// The matrix, its factors, and what its residuals are evaluated from.
+/// The matrix, its factors, and the data of the residuals.
 pub(super) struct RecoveryMatrix {
     saddle: SaddlePoint<Matrix<f64>>,
     is_equilibrated: bool,
@@ -38,7 +38,7 @@ pub(super) struct RecoveryMatrix {
     /// Derivatives of the forces of elements that may be stiff, if there are any.
     stiff: Option<Linearization>,
     has_damping: bool,
-    /// Memory for the assembly, lent to it.
+    /// Scratch memory of the assembly.
     scratch: Option<Box<Scratch>>,
     /// s.
     scale: f64,
@@ -49,9 +49,9 @@ pub(super) struct RecoveryMatrix {
     unchanged: Vec<f64>,
     zero: Vec<f64>,
     starts: JointStarts,
-    /// Rows of equations of rates.
+    /// Whether a row is an equation of rates.
     is_of_rates: Vec<bool>,
-    /// The entries between motions, and those of Bᵀ.
+    /// Entries between motions, and those of Bᵀ.
     between_motions: Vec<Run>,
     of_constraints: Vec<Run>,
 }
@@ -88,7 +88,7 @@ impl RecoveryMatrix {
             of_constraints: runs(pattern, count..pattern.size(), |row| row < count),
             is_of_rates,
         };
-        // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
+        // Pivots of redundant equations are round-off, which may exceed the threshold of zero pivots.
         let repeating =
             SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
         if repeating.is_some() || made.saddle.matrices.solver.exchanges_rows() {
@@ -102,8 +102,7 @@ impl RecoveryMatrix {
         SaddlePoint::new(Matrix::new((kind.real)(structure), structure), system.layout().coordinate_count())
     }
 
-    /// Brings rows and columns to one size from now on. Elimination without exchanges of rows does not need that unless the
-    /// constraint of a multiplier repeats others.
+    /// Equilibrates rows and columns from now on. Elimination without row exchanges does not need it unless constraints are redundant.
     fn equilibrate(&mut self, system: &System, repeating: Option<usize>) {
         let structure = system.structure();
         let saddle = Self::saddle(system, self.kind).equilibrated(structure.pattern.size());
@@ -115,7 +114,7 @@ impl RecoveryMatrix {
     pub(super) fn factor(&mut self, system: &System, at: &Kinematics, time: f64) -> Option<()> {
         system.begin_step(at, &mut self.starts);
         if let Some(stiff) = &mut self.stiff {
-            // The other derivatives are not read.
+            // The remaining derivatives are not used.
             for values in [&mut stiff.mass, &mut stiff.damping, &mut stiff.stiffness] {
                 values.fill(0.0);
             }
@@ -153,7 +152,7 @@ impl RecoveryMatrix {
                     *value += time * (damping + time * stiffness);
                 }
             }
-            // Constraints between velocities stand where those between positions do: [M Bᵀ; B 0].
+            // Velocity constraints take the positions of position constraints: [M Bᵀ; B 0].
             for (row, _) in layout.impulses() {
                 for &other in pattern.column(row) {
                     for (row, column) in [(row, other), (other, row)] {
@@ -164,7 +163,7 @@ impl RecoveryMatrix {
                 }
             }
         }
-        // States have no inertia: a unit in its place keeps them apart from the rest.
+        // States have no inertia: a unit diagonal decouples them.
         for (row, ..) in layout.states() {
             if let Some(diagonal) = pattern.position(row, row) {
                 values[diagonal] += 1.0;
@@ -180,7 +179,7 @@ impl RecoveryMatrix {
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
         self.saddle.scale(right);
         let (motions, constraints) = right.split_at_mut(count);
-        // What the matrix contains of B is scaled like the right-hand side.
+        // The entries of B in the matrix are equilibrated like the right-hand side.
         let factors = self.saddle.row_factors();
         for run in &self.of_constraints {
             let k = run.column - count;
@@ -201,13 +200,13 @@ impl RecoveryMatrix {
         self.stiff.is_some()
     }
 
-    /// Whether constraints repeat each other.
+    /// Whether constraints are redundant.
     pub(super) fn is_redundant(&self) -> bool {
         self.saddle.redundant().is_some()
     }
 
-    /// Whether a solution leaves round-off of a correction only: the equations of motion have no damping that the matrix has, and no
-    /// pivot has lost digits.
+    /// Whether a solution is accurate to round-off of a correction: the matrix contains no damping, which is not part of the equations
+    /// of motion, and no pivot has lost digits.
     pub(super) fn is_exact(&self) -> bool {
         let report = self.saddle.report();
         !self.has_damping && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
@@ -225,12 +224,12 @@ impl RecoveryMatrix {
         }
     }
 
-    /// Puts -B x in the rows of constraints between velocities.
+    /// Subtracts B x in the rows of velocity constraints.
     pub(super) fn subtract_slides(&self, system: &System, x: &[f64], out: &mut [f64]) {
         self.each_slide(system, |stiff, position| stiff.damping[position], x, out);
     }
 
-    /// Puts -Ḃ v there: the derivative of B v by positions, along the motion.
+    /// Subtracts Ḃ v in the rows of velocity constraints: the derivative of B v by positions, along the motion.
     pub(super) fn subtract_turning_slides(&self, system: &System, speeds: &[f64], out: &mut [f64]) {
         self.each_slide(system, |stiff, position| stiff.stiffness[position], speeds, out);
     }

@@ -2,7 +2,7 @@
 //!
 //! A scheme satisfies the constraints at the end of a step; it satisfies their derivatives to a lower order, and multipliers
 //! of Radau IIA with two stages are of first order only [Hairer and Wanner 1996, VII.4]. Forces of stiff elements have the
-//! same error, for a constraint is the limit of a stiff spring. Both follow from the positions:
+//! same error, because a constraint is the limit of a stiff spring. Both follow from the positions:
 //!
 //! Legend: τ = h/2 with the step h, or less with more than two stages, S saddle-point matrix of M + τ D + τ² K and the constraints G, f forces, a
 //! accelerations of the scheme, c second derivative of the forces along the motion with constant twists.
@@ -14,10 +14,10 @@
 //! accelerations a + y,   internal forces at q + τ² (y - x)
 //! ```
 //!
-//! Stiff parts are treated like constraints: their rates vanish except for what the motion around them asks for. The second solution
-//! of each pair changes vibrations that the step resolves by (h ω/2)⁴ instead of (h ω/2)² only. The last one is repeated
-//! until the forces are in equilibrium, also where friction depends on multipliers. Without elements that may be stiff there is
-//! nothing to filter, and K, c and x are zero. Derivation: docs/theory/recovery.md.
+//! Stiff parts are treated like constraints: their rates vanish except for those imposed by the surrounding motion. The second solution
+//! of each pair changes resolved vibrations by (h ω/2)⁴ instead of (h ω/2)² only. The last one is iterated until the forces are in
+//! equilibrium, also if friction depends on multipliers. Without elements that may be stiff nothing is filtered, and K, c and x are
+//! zero. Derivation: docs/theory/recovery.md.
 
 mod matrix;
 
@@ -29,29 +29,28 @@ use crate::system::{State, System};
 use lissom_motion::Motion;
 use matrix::RecoveryMatrix;
 
-/// Repetitions after which equilibrium counts as not found.
+/// Maximum number of iterations of the forces.
 const MAX_REPETITIONS: usize = 30;
 
-/// Changes of multipliers below are round-off.
+/// Relative changes of multipliers below this are round-off.
 const REPEATED: f64 = 1e-10;
 
-/// Changes that the next repetition would make and that are smaller are not worth it.
+/// Predicted change of the next iteration below which it is omitted.
 const NEGLIGIBLE: f64 = 1e-14;
 
-/// A solution that changes multipliers by no more leaves errors of round-off, if it is one of the whole equations.
+/// Relative change of multipliers below which a solution of the complete equations is accurate to round-off.
 const SMALL_CHANGE: f64 = 1e-2;
 
-/// Recovers velocities, accelerations, multipliers and internal forces, for what is recorded. The motion itself does not
-/// change.
+/// Recovers velocities, accelerations, multipliers and internal forces for output. The motion itself does not change.
 pub struct Recovery {
     matrix: RecoveryMatrix,
-    /// Number of stages of the scheme: vibrations that are resolved change by (h ω/2) to twice this power, or four.
+    /// Number of stages of the scheme: resolved vibrations change by (h ω/2) to twice this power, or four.
     stages: usize,
     found: Recovered,
     work: Workspace,
 }
 
-/// What recorded quantities depend on, and what has to be recovered for them.
+/// Quantities that have to be recovered for output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Need {
     /// Positions only: nothing is recovered.
@@ -63,24 +62,24 @@ pub enum Need {
     Forces,
 }
 
-/// What is recorded of an instant.
+/// Recovered states at an instant.
 pub struct Recovered {
     /// The state with velocities that satisfy the constraints and, if forces are needed, with accelerations and multipliers that
     /// follow from the positions.
     pub rates: State,
-    /// The same with positions whose internal forces are in equilibrium with them, if forces are needed.
+    /// The same state with positions whose internal forces are in equilibrium with it, if forces are needed.
     pub forces: State,
 }
 
-/// Vectors by row, and motions.
+/// Vectors by row, and scratch states.
 struct Workspace {
     speeds: Vec<f64>,
     accelerations: Vec<f64>,
-    /// What constraints lack.
+    /// Residual of the constraints' derivatives, with opposite sign.
     lacking: Vec<f64>,
-    /// Left-hand sides of the equations of motion.
+    /// Residual of the equations of motion.
     unbalanced: Vec<f64>,
-    /// Solution for which stiff parts are like constraints, δ or x.
+    /// Solution in which stiff parts are treated like constraints, δ or x.
     stiff: Vec<f64>,
     /// y.
     change: Vec<f64>,
@@ -88,13 +87,13 @@ struct Workspace {
     /// Rates and accelerations of violations, by multiplier.
     violation_rates: [Vec<f64>; 2],
     switches: Vec<Switch>,
-    /// The motion at rest, and moved along itself.
+    /// The positions at rest, and displaced along the motion.
     still: Kinematics,
     moved: Kinematics,
 }
 
 impl Recovery {
-    /// For the states of a simulation; none for statics.
+    /// Recovery for the states of a simulation; none for statics.
     pub fn of(simulation: &Simulation) -> Option<Box<Self>> {
         let (settings, system, state) = (simulation.settings(), simulation.system(), simulation.state());
         if !settings.scheme.dynamic {
@@ -123,8 +122,8 @@ impl Recovery {
         }))
     }
 
-    /// What is recorded of a state to which a step of `step` [s] led. None at the start, and where nothing is found, as in a
-    /// singular position.
+    /// Recovers the state at the end of a step of `step` [s]. None at the start, and if there is no solution, for example at a singular
+    /// position.
     pub fn recover(
         &mut self,
         need: Need,
@@ -134,7 +133,7 @@ impl Recovery {
         if step <= 0.0 || need == Need::Positions {
             return None;
         }
-        // More stages resolve faster motion.
+        // More stages resolve faster vibrations.
         let time = 0.5 * step / self.stages.saturating_sub(1).max(1) as f64;
         self.found.rates.clone_from(state);
         hold_sides(system, &mut self.work.switches, &mut self.found.rates.kinematics);
@@ -158,7 +157,7 @@ impl Recovery {
         Some(&self.found)
     }
 
-    /// Completes both states with what was found for the other one; none if it is not finite.
+    /// Copies to each of the two states the results for the other; none if they are not finite.
     fn share(&mut self, system: &System, time: f64) -> Option<()> {
         let Self { matrix, found: Recovered { rates, forces }, work, .. } = self;
         if !forces.multipliers.iter().chain(&work.change).chain(&work.stiff).all(|value| value.is_finite()) {
@@ -167,7 +166,7 @@ impl Recovery {
         let nodes = rates.kinematics.nodes.iter_mut().zip(&mut forces.kinematics.nodes);
         for (rates, forces) in nodes {
             rates.acceleration = forces.acceleration;
-            // Springs and dampers are recorded at velocities that are not filtered.
+            // Springs and dampers are recorded with velocities that are not filtered.
             forces.twist = rates.twist;
         }
         for (_, impulse) in system.layout().impulses() {
@@ -192,7 +191,7 @@ impl Recovery {
         Some(())
     }
 
-    /// What the rates of constraints lack, -(G v + ∂g/∂t), by row: of constraints between positions and between velocities.
+    /// Residuals of the constraint rates, -(G v + ∂g/∂t), by row: of position and of velocity constraints.
     fn find_lacking_velocities(&mut self, system: &System) {
         let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
         let layout = system.layout();
@@ -206,7 +205,7 @@ impl Recovery {
         }
     }
 
-    /// Makes the velocities to be recorded satisfy the constraints; none where no finite ones are found.
+    /// Makes the recorded velocities satisfy the constraints; none if they are not finite.
     fn recover_velocities(&mut self, system: &System) -> Option<()> {
         let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
         work.right.clone_from(&work.lacking);
@@ -234,7 +233,7 @@ impl Recovery {
         add_rates(system.layout(), &work.stiff, &mut forces.kinematics);
     }
 
-    /// Finds accelerations and multipliers.
+    /// Computes accelerations and multipliers.
     fn recover_accelerations(&mut self, system: &System, time: f64) -> Option<()> {
         let layout = system.layout();
         let count = layout.coordinate_count();
@@ -243,14 +242,14 @@ impl Recovery {
         self.find_lacking_accelerations(system);
         if is_redundant {
             self.find_stiff_accelerations(system, time);
-            // Solved for as a whole, those of redundant constraints are the least ones.
+            // Solved for completely, multipliers of redundant constraints have minimum norm.
             self.found.forces.multipliers.fill(0.0);
             self.find_unbalanced(system);
         } else {
             self.find_stiff_accelerations(system, time);
         }
         let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
-        // Vibrations that are resolved as they are.
+        // Solve for y: resolved vibrations are not filtered.
         work.change.fill(0.0);
         let mut last = f64::INFINITY;
         for repetition in 0..MAX_REPETITIONS {
@@ -268,7 +267,7 @@ impl Recovery {
                 *right = lacking - unbalanced;
             }
             if matrix.is_stiff() {
-                // Their sum is that of x - y.
+                // The sum of both terms is the stiffness product of x - y.
                 matrix.add_stiffness_product(square, stiff, right);
                 if repetition > 0 {
                     matrix.add_stiffness_product(-square, change, right);
@@ -310,7 +309,7 @@ impl Recovery {
         None
     }
 
-    /// What the second derivatives of constraints lack, -(G a + Ġ v̂ + …), by row.
+    /// Residuals of the constraint accelerations, -(G a + Ġ v̂ + …), by row.
     fn find_lacking_accelerations(&mut self, system: &System) {
         let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
         let layout = system.layout();
@@ -333,7 +332,7 @@ impl Recovery {
         self.matrix.residual(system, &forces.kinematics, &forces.multipliers, &mut self.work.unbalanced);
     }
 
-    /// What stiff parts, like constraints, ask of the accelerations: x.
+    /// Computes x, the accelerations with stiff parts treated like constraints.
     fn find_stiff_accelerations(&mut self, system: &System, time: f64) {
         let square = time * time;
         self.find_unbalanced(system);
@@ -359,8 +358,8 @@ impl Recovery {
         }
     }
 
-    /// `stiff` -= τ² d²f/dt² along the motion with constant twists, f the forces of elements that may be stiff: by differences over τ and
-    /// τ/2, without motion, so that forces of position alone are compared.
+    /// `stiff` -= τ² d²f/dt² along the motion with constant twists, f the forces of elements that may be stiff: by differences over τ
+    /// and τ/2 at rest, so that only position-dependent forces are compared.
     fn subtract_turning(&mut self, system: &System, time: f64) {
         let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
         let layout = system.layout();
@@ -395,7 +394,7 @@ impl Recovery {
     }
 }
 
-/// Holds switches on the sides on which they are, so that forces are continued from there.
+/// Freezes switches on their present branches, so that forces are continued from there.
 fn hold_sides(system: &System, switches: &mut Vec<Switch>, at: &mut Kinematics) {
     let first = system.signals().first_side();
     if at.held.len() == first {
@@ -408,7 +407,7 @@ fn hold_sides(system: &System, switches: &mut Vec<Switch>, at: &mut Kinematics) 
     }
 }
 
-/// Adds changes to the velocities, but not to forces of constraints between velocities.
+/// Adds changes to the velocities, except forces of velocity constraints.
 fn add_rates(layout: &Layout, changes: &[f64], at: &mut Kinematics) {
     for (coordinate, &row) in at.coordinates.iter_mut().zip(&layout.coordinate_rows) {
         coordinate.rate += changes[row as usize];
@@ -423,7 +422,7 @@ fn add_rates(layout: &Layout, changes: &[f64], at: &mut Kinematics) {
     }
 }
 
-/// Accelerations of rates stay as they are.
+/// Keeps the accelerations of first-order states and impulses.
 fn keep_rates(layout: &Layout, at: &Kinematics, accelerations: &mut [f64]) {
     let coordinates = layout.states().map(|(row, coordinate, _)| (row, coordinate));
     for (row, coordinate) in coordinates.chain(layout.impulses()) {
@@ -431,7 +430,7 @@ fn keep_rates(layout: &Layout, at: &Kinematics, accelerations: &mut [f64]) {
     }
 }
 
-/// Moves nodes and coordinates by a factor of their changes.
+/// Displaces nodes and coordinates by a factor times `changes`.
 fn move_by(layout: &Layout, factor: f64, changes: &[f64], at: &mut Kinematics) {
     for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
         let mut change = lissom_motion::Vector6::zeros();
