@@ -1,11 +1,11 @@
-//! Velocities at the start of flexible parts that drives set in motion: of all that satisfy the constraints, those that deform the
-//! parts least.
+//! Initial velocities of flexible parts that are set in motion by drives: those that satisfy the constraints with the least deformation
+//! rates.
 //!
 //! ```text
 //! [M + w K  Bᵀ; B  0] [Δv; ·] = [-w K v; -(B v + ∂c/∂t)],      v ← v + Δv
 //! ```
 //!
-//! repeated. K is the stiffness of beams and superelements in axes of the nodes, in which rigid motions cause no forces. If the
+//! iterated. K is the stiffness of beams and superelements in axes of the nodes, in which rigid motions cause no forces. If the
 //! constraints permit rigid motions, the limit is the one with the least kinetic energy.
 
 use super::initial_conditions::{ConsistentInitialConditions, Inertias, gather_rates};
@@ -13,16 +13,16 @@ use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{Kinematics, Quantity};
 use crate::system::{State, System};
 
-/// Largest ratio of w K and M on a diagonal: larger ones lose M to round-off, smaller ones need more repetitions.
+/// Largest ratio of w K and M on a diagonal: with larger ones M is lost in round-off, smaller ones require more iterations.
 const STIFF: f64 = 1e11;
-/// Repetitions end if velocities change by less than this fraction of their largest change …
+/// Iterations end if velocities change by less than this fraction of their largest change …
 const SETTLED: f64 = 1e-10;
-/// … or after so many.
+/// … or after this number.
 const MAX_REPETITIONS: usize = 100;
 
 impl ConsistentInitialConditions {
-    /// Velocities that satisfy the constraints and deform flexible parts least, from those that are `given` in `state`. Parts that are
-    /// connected with a given velocity are not concerned. None if the equations cannot be solved.
+    /// Velocities that satisfy the constraints with the least deformation rates of flexible parts, starting from the `given` state.
+    /// Parts that are connected to a given velocity are excluded. None if the equations cannot be solved.
     pub(crate) fn least_deforming(&mut self, system: &System, given: &State) -> Option<State> {
         let mut state = given.clone();
         self.factor(system, &state, Inertias::OfParts)
@@ -61,7 +61,7 @@ impl ConsistentInitialConditions {
         largest.is_finite().then_some(state)
     }
 
-    /// Stiffness of beams and superelements that are not connected with a part whose velocity is given.
+    /// Stiffness of beams and superelements that are not connected to a part with a given velocity.
     fn stiffness_of_driven(&self, system: &System, at: &Kinematics) -> Vec<f64> {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let kinds: Vec<bool> =

@@ -1,5 +1,5 @@
-//! Consistent initial values: velocities that satisfy the constraints' first derivative, accelerations
-//! and multipliers that satisfy equilibrium and their second.
+//! Consistent initial values: velocities that satisfy the first derivative of the constraints, accelerations and multipliers that
+//! satisfy the equations of motion and the second derivative.
 //!
 //! ```text
 //! [M Bᵀ; B 0] [Δv; ·] = [0; -(B v + ∂c/∂t)],      [M Bᵀ; B 0] [v̇; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]
@@ -20,18 +20,18 @@ use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
-/// Repetitions after which forces by multipliers count as not found.
+/// Maximum number of iterations for forces that depend on multipliers.
 const MAX_REPETITIONS: usize = 100;
 
-/// Changes of multipliers below are round-off, where they fall no further.
+/// Relative changes of multipliers below this are round-off if they no longer decrease.
 const REPEATED: f64 = 1e-10;
 
-/// Which inertias weigh in a projection.
+/// Inertias that define the metric of a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Inertias {
     /// All of them.
     All,
-    /// Those of parts and of generalised coordinates, not those that act on coordinates of joints.
+    /// Those of parts and of generalised coordinates, without those that act on coordinates of joints.
     OfParts,
 }
 
@@ -40,23 +40,23 @@ pub struct ConsistentInitialConditions {
     saddle: SaddlePoint<Matrix<f64>>,
     pub(crate) linearization: Linearization,
     scale: f64,
-    /// Length that stands for a radian [m].
+    /// Length that converts radians to lengths [m].
     radian: f64,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
-    /// The inertias that weigh.
+    /// Values of the inertia matrix that defines the metric.
     pub(crate) weights: Vec<f64>,
-    /// Values of joints where constraints are differentiated.
+    /// Initial values of joints for the differentiation of constraints.
     starts: JointStarts,
 }
 
 impl ConsistentInitialConditions {
-    /// Room for initial values of `system`.
+    /// Storage for initial values of `system`.
     pub fn new(system: &System, state: &State, representative: &Representative, kind: &SolverKind) -> Self {
         let (layout, structure) = (system.layout(), system.structure());
         let matrix = Matrix::new((kind.real)(structure), structure);
         let count = layout.coordinate_count();
-        // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
+        // Pivots of redundant equations are round-off, which may exceed the threshold of zero pivots.
         let repeating =
             SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
         Self {
@@ -87,18 +87,18 @@ impl ConsistentInitialConditions {
         self.factor_weights(system)
     }
 
-    /// Makes the matrix of inertias from the linearisation.
+    /// Assembles the inertia matrix from the linearisation.
     fn weigh(&mut self, system: &System, inertias: Inertias) {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let (weights, linearization) = (&mut self.weights, &self.linearization);
         weights.clone_from(&linearization.mass);
-        // States have no inertia: a unit in its place keeps them apart from the rest.
+        // States have no inertia: a unit diagonal decouples them.
         for (row, ..) in layout.states() {
             if let Some(diagonal) = pattern.position(row, row) {
                 weights[diagonal] += 1.0;
             }
         }
-        // Constraints between velocities stand where those between places do: [M Bᵀ; B 0].
+        // Velocity constraints take the positions of position constraints: [M Bᵀ; B 0].
         for (row, _) in layout.impulses() {
             for &other in pattern.column(row) {
                 for (row, column) in [(row, other), (other, row)] {
@@ -161,14 +161,14 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector.
+    /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector, in place.
     pub(crate) fn solve(&mut self, system: &System, right: &mut [f64]) {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let original = right.to_vec();
         let mut solution = vec![0.0; right.len()];
-        // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also
-        // takes back what constraints have yielded, while multipliers stay the least ones.
+        // Rows scaled as s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also removes the
+        // error of regularised constraints, while multipliers keep their minimum norm.
         for _ in 0..if self.saddle.redundant().is_some() { 4 } else { 2 } {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
@@ -183,7 +183,7 @@ impl ConsistentInitialConditions {
         right.copy_from_slice(&solution);
     }
 
-    /// M x of the matrix factorised last.
+    /// M x of the last linearisation.
     pub(crate) fn multiply_mass(&self, system: &System, x: &[f64], out: &mut [f64]) {
         system.structure().pattern.multiply(&self.linearization.mass, x, out);
     }
@@ -217,21 +217,21 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// Makes velocities consistent with the constraints, changing them as little as possible in the norm
-    /// of the kinetic energy. Gives the largest change of a node's twist [m/s, rad/s].
+    /// Makes velocities consistent with the constraints by the smallest change in the norm of the kinetic energy. Returns the largest
+    /// change of a node's twist [m/s, rad/s].
     ///
     /// # Errors
-    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    /// If constraints are redundant, or a coordinate has neither mass nor constraint.
     pub fn velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
         self.factor(system, state, Inertias::All)?;
         Ok(self.project(system, state, &[]))
     }
 
-    /// The same for velocities that are given to parts: coordinates of joints follow, whatever mass they have of their own,
-    /// for no rate was given to them.
+    /// Like [`velocities`](Self::velocities), for given velocities of parts: rates of joint coordinates were not given, and follow
+    /// from them whatever their own mass.
     ///
     /// # Errors
-    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    /// If constraints are redundant, or a coordinate has neither mass nor constraint.
     pub fn given_velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
         if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
             return Ok(self.project(system, state, &[]));
@@ -247,7 +247,7 @@ impl ConsistentInitialConditions {
         let mut speeds = vec![0.0; layout.size()];
         gather_rates(layout, &state.kinematics, &mut speeds);
         let mut right = vec![0.0; layout.size()];
-        // -(B v + ∂c/∂t): only the constraint rows are kept, and those of constraints between velocities.
+        // -(B v + ∂c/∂t): only the rows of position and velocity constraints are kept.
         self.subtract_product(system, &speeds, &mut right);
         let slides: Vec<(usize, f64)> = layout.impulses().map(|(row, _)| (row, right[row])).collect();
         right[..count].fill(0.0);
@@ -270,7 +270,7 @@ impl ConsistentInitialConditions {
                 largest = largest.max(right[row as usize].abs());
             }
         }
-        // What stopped the sliding is no force.
+        // The impulses that stopped the sliding are no forces.
         layout.impulses().for_each(|(row, _)| right[row] = 0.0);
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
             coordinate.rate += right[row as usize];
@@ -278,7 +278,7 @@ impl ConsistentInitialConditions {
         largest
     }
 
-    /// Rates of the constraints at the velocities of `state`, by multiplier, with the linearisation made last.
+    /// Rates of the constraints at the velocities of `state`, by multiplier, with the last linearisation.
     pub(crate) fn constraint_rates(&self, system: &System, state: &State) -> Vec<f64> {
         let layout = system.layout();
         let count = layout.coordinate_count();
@@ -291,10 +291,10 @@ impl ConsistentInitialConditions {
         rates[count..].iter().zip(&explicit).map(|(product, rate)| rate - product).collect()
     }
 
-    /// Accelerations and multipliers in equilibrium with places and velocities.
+    /// Computes accelerations and multipliers in equilibrium with positions and velocities.
     ///
     /// # Errors
-    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    /// If constraints are redundant, or a coordinate has neither mass nor constraint.
     pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
         self.factor(system, state, Inertias::All)?;
         self.factored_accelerations(system, state)
@@ -312,7 +312,7 @@ impl ConsistentInitialConditions {
         Ok(())
     }
 
-    /// Sets the rates of first-order states to what their equations x' - f = 0 say.
+    /// Sets the rates of first-order states from their equations x' - f = 0.
     pub(crate) fn set_state_rates(&self, system: &System, at: &mut Kinematics) {
         let layout = system.layout();
         if layout.state_count() == 0 {
@@ -329,8 +329,8 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// Second derivatives of first-order states by a central difference of their derivatives over `delay` [s] before
-    /// and after the state, along the motion.
+    /// Computes second derivatives of first-order states by a central difference of their rates over `delay` [s] before and after the
+    /// state, along the motion.
     pub(crate) fn accelerate_states(&self, system: &System, state: &mut State, delay: f64) {
         let states: Vec<_> = system.layout().states().map(|(_, coordinate, _)| coordinate).collect();
         if states.is_empty() {
@@ -347,21 +347,21 @@ impl ConsistentInitialConditions {
         for coordinate in states {
             let difference = after[coordinate].rate - before[coordinate].rate;
             let acceleration = difference / (2.0 * delay);
-            // Outside of where its expression is defined a state starts without.
+            // If its expression is undefined nearby, a state starts with zero.
             let own = &mut state.kinematics.coordinates[coordinate];
             own.acceleration = if acceleration.is_finite() { acceleration } else { 0.0 };
         }
     }
 
-    /// By what accelerations and multipliers jump, by row, where a state goes over to the held values `held`, with the matrix
-    /// factorised last. In the rows of states stands what their rates lack, in those of impulses their rates.
+    /// Jump of accelerations and multipliers, by row, at a change to the held values `held`, with the last factorisation. The rows of
+    /// first-order states contain the change of their rates, those of impulses their rates.
     pub(crate) fn acceleration_jump(
         &mut self,
         system: &System,
         state: &State,
         held: &[f64],
     ) -> Result<Vec<f64>, InitialError> {
-        // Without such forces one solution for the difference is enough.
+        // Unless forces depend on multipliers, one solution for the difference is sufficient.
         let by_repetition = system.sees_multipliers();
         let mut of = |at: &Kinematics| {
             if by_repetition { self.repeated(system, at.clone()) } else { Ok(self.right_side(system, at)) }
@@ -377,8 +377,8 @@ impl ConsistentInitialConditions {
         Ok(jump)
     }
 
-    /// Accelerations and multipliers by row; in the rows of states, what their rates lack, in those of impulses their
-    /// rates.
+    /// Accelerations and multipliers by row. The rows of first-order states contain the residuals of their rates, those of impulses
+    /// their rates.
     pub(crate) fn acceleration_at(
         &mut self,
         system: &System,
@@ -388,7 +388,7 @@ impl ConsistentInitialConditions {
         self.acceleration_with_factors(system, state)
     }
 
-    /// The same with the matrix factorised last.
+    /// Like [`acceleration_at`](Self::acceleration_at), with the last factorisation.
     pub(crate) fn acceleration_with_factors(
         &mut self,
         system: &System,
@@ -397,8 +397,8 @@ impl ConsistentInitialConditions {
         self.repeated(system, without_accelerations(system.layout(), state))
     }
 
-    /// The same for a motion without accelerations. Where forces depend on multipliers, these are found by repetition: friction is
-    /// small against what presses.
+    /// The same for a motion without accelerations. If forces depend on multipliers, they are found by fixed-point iteration, because
+    /// friction is small compared with normal forces.
     fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
         let count = system.layout().coordinate_count();
         let (mut change, mut solution) = (f64::INFINITY, Vec::new());
@@ -439,7 +439,7 @@ impl ConsistentInitialConditions {
         right
     }
 
-    /// Puts Ḃ v in the rows of constraints between velocities: their derivative by places, along the motion.
+    /// Sets the rows of velocity constraints to Ḃ v: the derivative of B v by positions, along the motion.
     pub(crate) fn turn_slides(&self, system: &System, at: &Kinematics, rows: &mut [f64]) {
         let layout = system.layout();
         if layout.impulses.is_empty() {
@@ -456,8 +456,8 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// Accelerations by row `delay` [s] after (or before) the state, for a scheme whose memory starts
-    /// there: v̇ + delay v̈, with v̈ from a central difference along the motion.
+    /// Accelerations by row `delay` [s] after (or before) the state, for schemes whose history starts there: v̇ + delay v̈, with v̈ from a
+    /// central difference along the motion.
     ///
     /// # Errors
     /// If the equations cannot be solved nearby.
@@ -484,14 +484,14 @@ impl ConsistentInitialConditions {
                 *value += 0.5 * sign * acceleration;
             }
         }
-        // States follow their rates, which are in equilibrium already.
+        // Rates of states are in equilibrium already and are not extrapolated.
         let mut compared = now.clone();
         for row in layout.rate_rows() {
             (compared[row], difference[row]) = (0.0, 0.0);
         }
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        // Where accelerations change more than they are, the step does not resolve them, and starting
-        // ahead of them would only feed the oscillation.
+        // If accelerations change by more than their magnitude, the step does not resolve them, and their extrapolation would only
+        // excite the oscillation.
         if size(&difference) <= size(&compared) {
             for (value, change) in now.iter_mut().zip(&difference) {
                 *value += change;
@@ -511,7 +511,7 @@ fn without_accelerations(layout: &Layout, state: &State) -> Kinematics {
     at
 }
 
-/// The state moved along its motion for a short time, to second order.
+/// The state extrapolated along its motion over a short time [s], to second order.
 fn moved(state: &State, time: f64) -> State {
     let mut moved = state.clone();
     moved.kinematics.time += time;

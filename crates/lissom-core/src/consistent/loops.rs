@@ -1,6 +1,6 @@
-//! Closed loops of constraints: where else than in them constraints can repeat each other. The rest is taken away from the
-//! ends: a constraint with a side that nothing else holds, as the last joint of a chain; a relation of coordinates one of which
-//! nothing else knows.
+//! Closed loops of constraints: only in loops can constraints be redundant. The others are removed from the ends inwards: a constraint
+//! with a side that no other one constrains, such as the last joint of a chain; a relation with a coordinate that is in no other
+//! constraint.
 
 use nalgebra::DMatrix;
 
@@ -8,21 +8,21 @@ use crate::joints::constraint::{Constraint, Port, ports_of};
 use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId, Quantity};
 use crate::system::{System, rows_of_port};
 
-/// Constraints that close loops with each other.
+/// Constraints that form a closed loop.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Loop {
-    /// Positions among all constraints of the system.
+    /// Indices among all constraints of the system.
     constraints: Vec<usize>,
     /// Multiplier of every equation.
     pub(crate) multipliers: Vec<usize>,
-    /// Rows of the layout that its equations know, in ascending order.
+    /// Rows of the layout that its equations depend on, in ascending order.
     columns: Vec<usize>,
 }
 
-/// The closed loops of a system; those that have a moving part in common are one.
+/// The closed loops of a system; loops with a common moving part are merged.
 pub(crate) fn of(system: &System) -> Vec<Loop> {
     let kept = kept(system);
-    // By row of the layout, the first row of the loop that it belongs to.
+    // By row of the layout: the first row of its loop (union-find).
     let mut parents: Vec<usize> = (0..system.layout().coordinate_count()).collect();
     for (_, columns) in &kept {
         for &column in &columns[1..] {
@@ -51,7 +51,7 @@ fn holds_nodes(constraint: &dyn Constraint) -> bool {
     !constraint.sides().is_empty()
 }
 
-/// What is not taken away, by position among all constraints, with the rows of the layout that each knows.
+/// Constraints that are not removed: index among all constraints, and rows of the layout that each depends on.
 fn kept(system: &System) -> Vec<(usize, Vec<usize>)> {
     let layout = system.layout();
     let columns: Vec<Vec<usize>> = system.constraints().map(|own| columns_of(own, layout)).collect();
@@ -78,15 +78,15 @@ fn kept(system: &System) -> Vec<(usize, Vec<usize>)> {
     all.filter(|(index, columns)| is_kept[*index] && !columns.is_empty()).collect()
 }
 
-/// Rows of the layout that a constraint knows, in all arrangements.
+/// Rows of the layout that a constraint depends on, in all arrangements.
 fn columns_of(constraint: &dyn Constraint, layout: &Layout) -> Vec<usize> {
     let ports = ports_of(constraint).into_iter();
     let rows = ports.flat_map(|port| rows_of_port(port, layout)).filter(|&row| row != LOCKED);
     rows.map(|row| row as usize).collect()
 }
 
-/// Takes away constraints with a side that nothing else holds, and that is free enough to satisfy them: equations on fewer
-/// degrees of freedom than they are may be redundant without any loop.
+/// Removes constraints with a side that no other one constrains and that has enough degrees of freedom to satisfy them: with fewer
+/// degrees of freedom than equations, these may be redundant without any loop.
 fn take_ends(system: &System, is_kept: &mut [bool]) {
     let layout = system.layout();
     let sides: Vec<Vec<Vec<NodeId>>> = system
@@ -100,7 +100,7 @@ fn take_ends(system: &System, is_kept: &mut [bool]) {
             sides
         })
         .collect();
-    // A joint between two points of one node holds it twice and is no end.
+    // A joint between two points of one node counts twice there and is no end.
     let mut holders: Vec<Vec<usize>> = vec![Vec::new(); layout.node_count()];
     for (index, sides) in sides.iter().enumerate().filter(|(index, _)| is_kept[*index]) {
         sides.iter().flatten().for_each(|node| holders[node.index()].push(index));
@@ -137,13 +137,13 @@ fn root(parents: &mut [usize], mut row: usize) -> usize {
 }
 
 impl Loop {
-    /// Derivatives of its equations at a configuration; an angle counts as an arc at `length`.
+    /// Derivatives of its equations at a configuration; an angle is represented by the arc at `length` [m].
     pub(crate) fn gradient(&self, system: &System, at: &Kinematics, length: f64, gradient: &mut Gradient) {
         let layout = system.layout();
         let Gradient { columns, local, .. } = gradient;
         columns.resize_with(self.columns.len(), Vec::new);
         columns.iter_mut().for_each(Vec::clear);
-        // The entries of one column, of equations that follow each other.
+        // Adds the entries of one column, of consecutive equations.
         let mut enter = |first: usize, row: usize, is_turn: bool, values: &mut dyn Iterator<Item = f64>| {
             let Ok(column) = self.columns.binary_search(&row) else { return };
             let unit = if is_turn { length } else { 1.0 };
@@ -176,20 +176,19 @@ impl Loop {
     }
 }
 
-/// Derivatives of a loop's equations, without those that vanish.
+/// Nonzero derivatives of a loop's equations.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gradient {
-    /// Of every column the equations that know it, each with its derivative. A joint between two places of one part
-    /// enters a column twice.
+    /// Entries of every column: equation and derivative. A joint between two points of one part has two entries in a column.
     columns: Vec<Vec<(usize, f64)>>,
-    /// Reciprocals of the equations' sizes.
+    /// Reciprocal norms of the equations' rows.
     sizes: Vec<f64>,
     /// Derivatives of one constraint, row after row.
     local: Vec<f64>,
 }
 
 impl Gradient {
-    /// B Bᵀ over its diagonal, below and on the diagonal. `square` has as many rows as there are equations.
+    /// B Bᵀ with a unit diagonal, in the lower triangle. `square` has as many rows as there are equations.
     pub(crate) fn square(&mut self, square: &mut DMatrix<f64>) {
         let Self { columns, sizes, .. } = self;
         square.fill(0.0);
@@ -197,7 +196,7 @@ impl Gradient {
             for (place, &(i, by_i)) in column.iter().enumerate() {
                 square[(i, i)] += by_i * by_i;
                 for &(j, by_j) in &column[..place] {
-                    // Twice where one equation has entered twice: (a + b)² = a² + 2 a b + b².
+                    // Two entries of the same equation: (a + b)² = a² + 2 a b + b².
                     let share = if i == j { 2.0 } else { 1.0 };
                     square[(i.max(j), i.min(j))] += share * by_i * by_j;
                 }

@@ -1,5 +1,4 @@
-//! Number of degrees of freedom that the constraints leave, and redundant constraints: rank of B at a configuration,
-//! by elimination of its rows in the order of the joints.
+//! Mobility and redundant constraints: rank of B at a configuration, by elimination of its rows in the order of the joints.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +9,10 @@ use crate::joints::Equations;
 use crate::round_off;
 use crate::system::{State, System};
 
-/// A pivot is at least this part of its row's largest entry.
+/// Smallest pivot, relative to the largest entry of its row.
 const LARGE_ENOUGH: f64 = 0.1;
 
-/// What takes part in a dependence by less than this is round-off.
+/// Smallest coefficient of a linear dependence that is not round-off.
 const MIN_PARTICIPATION: f64 = 1e-6;
 
 /// Count of degrees of freedom.
@@ -25,25 +24,25 @@ pub struct Mobility {
     pub constraints: usize,
     /// Independent ones among them.
     pub rank: usize,
-    /// Degrees of freedom: coordinates less independent equations.
+    /// Degrees of freedom: coordinates minus independent equations.
     pub freedoms: usize,
-    /// Equations that follow from earlier ones.
+    /// Equations that depend linearly on earlier ones.
     pub redundant: Vec<Redundant>,
 }
 
-/// An equation that repeats others.
+/// A redundant equation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Redundant {
     /// Name of its joint.
     pub joint: String,
     /// Name of the equation.
     pub equation: &'static str,
-    /// Joints whose equations it follows from.
+    /// Joints with the equations on which it depends.
     pub among: Vec<String>,
-    /// The direction in inertial axes that its joint repeats, such as `translation along y`; none of drives and couplings.
+    /// The redundant direction of its joint in inertial axes, such as `translation along y`; none for drives and couplings.
     pub direction: Option<String>,
-    /// Multipliers, and their values, that are in equilibrium with each other without any load: what may be added to
-    /// those of a solution. The one of this equation is 1.
+    /// Self-stress: multipliers and their values that are in equilibrium without load and may be added to any solution. The multiplier
+    /// of this equation is 1.
     pub self_stress: Vec<(usize, f64)>,
 }
 
@@ -53,12 +52,12 @@ struct Reduced {
     entries: BTreeMap<usize, f64>,
     /// Its multiplier.
     multiplier: usize,
-    /// Earlier reduced rows that were taken off it, and how often.
+    /// Earlier reduced rows that were subtracted, with their factors.
     used: Vec<(usize, f64)>,
 }
 
 impl Redundant {
-    /// What is repeated, and by what, in words.
+    /// Description of the redundant direction and of the joints that constrain it already.
     pub fn words(&self) -> String {
         let named = self.among.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         let others = if named.is_empty() { "its own other equations".to_owned() } else { named };
@@ -67,7 +66,7 @@ impl Redundant {
     }
 }
 
-/// Whether there are closed loops of joints, drives and relations, without which no constraint repeats others.
+/// Whether there are closed loops of joints, drives and relations; otherwise no constraint is redundant.
 pub fn has_loops(system: &System) -> bool {
     !loops::of(system).is_empty()
 }
@@ -82,7 +81,7 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     };
     let mut reduced: Vec<Reduced> = Vec::new();
     let mut by_pivot: BTreeMap<usize, usize> = BTreeMap::new();
-    // Columns of nodes come before those of joints' own coordinates.
+    // Columns of nodes precede those of joint coordinates.
     let of_nodes = layout.coordinate_count() - layout.coordinate_rows.len();
     for (k, row) in rows(system, state).into_iter().enumerate() {
         match eliminate(row, k, &reduced, &by_pivot, of_nodes) {
@@ -111,15 +110,14 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     result
 }
 
-/// Multipliers that are in equilibrium with each other: of the row `repeating`, off which so much of reduced rows was
-/// taken that nothing was left.
+/// Self-stress of the redundant row `repeating`, from the factors with which reduced rows were subtracted until it vanished.
 fn self_stress(repeating: usize, used: Vec<(usize, f64)>, reduced: &[Reduced]) -> Vec<(usize, f64)> {
     let mut open: BTreeMap<usize, f64> = BTreeMap::new();
     for (row, factor) in used {
         *open.entry(row).or_default() -= factor;
     }
     let mut stress = vec![(repeating, 1.0)];
-    // A reduced row is its own row less reduced ones before it.
+    // A reduced row is its original row minus earlier reduced ones.
     while let Some((row, share)) = open.pop_last() {
         stress.push((reduced[row].multiplier, share));
         for &(earlier, factor) in &reduced[row].used {
@@ -132,8 +130,7 @@ fn self_stress(repeating: usize, used: Vec<(usize, f64)>, reduced: &[Reduced]) -
     stress
 }
 
-/// What the joint of an equation holds besides, in words: the direction of the force and moment that it has in
-/// `stress`.
+/// Redundant direction of the joint of an equation, in words: that of its force and moment under `stress`.
 fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, f64)]) -> Option<String> {
     let joint = system.joints().iter().find(|joint| {
         (joint.first_multiplier..joint.first_multiplier + joint.equations()).contains(&equation)
@@ -158,15 +155,15 @@ fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, 
             words.push(format!("{name} {}", axis(&part.normalize())));
         }
     }
-    // A coordinate of its own that something else prescribes has neither.
+    // A joint coordinate that is also prescribed otherwise has neither.
     (!words.is_empty()).then(|| words.join(" together with "))
 }
 
-/// An axis, by name where it is one of the inertial ones.
+/// Direction of an axis, by name if it is an inertial one.
 fn axis(direction: &Vector3) -> String {
     let named = ["x", "y", "z"].into_iter().zip(direction.iter());
     let found = named.into_iter().find(|(_, part)| part.abs() > 1.0 - MIN_PARTICIPATION * MIN_PARTICIPATION);
-    // Of the two senses that in which the first component that is not zero is positive.
+    // Of the two signs, that in which the first nonzero component is positive.
     let first = direction.iter().find(|part| part.abs() > MIN_PARTICIPATION).copied().unwrap_or(1.0);
     let round = |value: f64| (1e3 * value * first.signum()).round() / 1e3 + 0.0;
     found.map_or_else(
@@ -175,7 +172,7 @@ fn axis(direction: &Vector3) -> String {
     )
 }
 
-/// Eliminates a row with the earlier ones: a new independent row, or the reduced rows it follows from.
+/// Eliminates a row with the earlier ones: returns a new independent row, or the reduced rows on which it depends.
 fn eliminate(
     mut entries: BTreeMap<usize, f64>,
     multiplier: usize,
@@ -185,7 +182,7 @@ fn eliminate(
 ) -> Result<Reduced, Vec<(usize, f64)>> {
     let largest = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));
     let mut used = Vec::new();
-    // Earlier rows in their order: each is free of the pivots before it.
+    // Earlier rows in their order: each has zeros in the pivot columns before it.
     let mut waiting: BTreeSet<usize> =
         entries.keys().filter_map(|column| by_pivot.get(column).copied()).collect();
     while let Some(earlier) = waiting.pop_first() {
@@ -206,8 +203,8 @@ fn eliminate(
         entries.remove(&row.pivot);
     }
     entries.retain(|_, value| value.abs() > round_off::FORCE * largest);
-    // Any entry that is not small will do: the joint's own coordinate, or else the first, so that eliminating along
-    // a chain does not lead back to its beginning.
+    // The pivot may be any entry that is not small: the joint's own coordinate, otherwise the first, so that elimination along a chain
+    // does not return to its beginning.
     let left = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));
     let large = entries.iter().filter(|(_, value)| value.abs() >= LARGE_ENOUGH * left);
     let pivot = large.min_by_key(|&(&column, _)| (column < of_nodes, column)).map(|(&column, _)| column);

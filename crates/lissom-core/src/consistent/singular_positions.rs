@@ -1,14 +1,13 @@
-//! Singular positions: where the constraints of a closed loop repeat each other though elsewhere they do not, as in a
-//! parallelogram whose bars lie in one line. There a mechanism has one freedom more, and more than one way to go on.
+//! Singular positions: positions at which the constraints of a closed loop become linearly dependent, such as a parallelogram with
+//! aligned bars. There a mechanism has an additional degree of freedom, and the motion can continue on several branches.
 //!
-//! Seen are the pivots of the loop's B Bᵀ = L D Lᵀ, taken without exchange, each over its largest value so far. Near a
-//! singular position one of them is a square of the way to it. It is followed from step to step there, and a parabola
-//! through three of its values shows whether it vanishes between steps.
+//! The criterion is the smallest pivot of the loop's B Bᵀ = L D Lᵀ without pivoting, each relative to its largest value so far. Near a
+//! singular position a pivot is proportional to the square of the distance from it. It is monitored from step to step, and a parabola
+//! through three of its values determines whether it vanishes between steps.
 //!
-//! Where constraints repeat each other everywhere, as in a planar four-bar of revolutes or in Bennett's linkage, an equation may come
-//! to follow from those before it while one that followed from them does no more: a pivot vanishes, and no freedom comes. There the r
-//! largest eigenvalues λ of B Bᵀ are taken in place of the pivots, with r independent equations, and of them 1/Σ 1/λ, which
-//! is smooth along the motion and vanishes with the smallest.
+//! If constraints are redundant everywhere, as in a planar four-bar of revolutes or in Bennett's linkage, the set of independent equations
+//! may change: a pivot vanishes without an additional degree of freedom. In this case the r largest eigenvalues λ of B Bᵀ are used instead
+//! of the pivots, with r independent equations, in the form 1/Σ 1/λ, which is smooth along the motion and vanishes with the smallest.
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -18,28 +17,28 @@ use crate::errors::Warning;
 use crate::kinematics::{Kinematics, Subject};
 use crate::system::System;
 
-/// Pivots below this part of their equation's square are round-off: the equation repeats others.
+/// Pivots below this fraction of their equation's squared norm are round-off: the equation is redundant.
 const REPEATS: f64 = 1e-9;
-/// A pivot that was below is independent above this part.
+/// Pivot above which an equation that was redundant is independent.
 const INDEPENDENT: f64 = 1e-7;
-/// A pivot below this part of its largest value may vanish before the next look: the sine of 13 degrees, squared.
+/// A pivot below this fraction of its largest value may vanish before the next check: the sine of 13 degrees, squared.
 const WATCHED_PIVOT: f64 = 0.05;
-/// A pivot of this part of its largest value is singular: a thousandth of a radian beside it.
+/// A pivot of this fraction of its largest value is singular: a thousandth of a radian from the singular position.
 const SINGULAR: f64 = 1e-6;
-/// A loop this far from a singular position may fail because of it [rad].
+/// A loop at this distance from a singular position may fail because of it [rad].
 const CLOSE: f64 = 0.1;
-/// What a parabola through values between which parts turn by a quarter of a radian leaves at its zero.
+/// Error at its zero of a parabola through values between which parts rotate by a quarter of a radian.
 const MISSED: f64 = 2e-3;
-/// A minimum is distinguished from zero where it is this part of the smallest value found.
+/// A minimum is zero if it is below this fraction of the smallest evaluated value.
 const VANISHES: f64 = 0.1;
-/// Motion between two looks over the root of the smallest pivot [rad].
+/// Motion between two checks, relative to the square root of the smallest pivot [rad].
 const BETWEEN_LOOKS: f64 = 0.25;
-/// Loops of more equations are not watched: looking at them would take longer than a step.
+/// Maximum number of equations of a monitored loop: the check of larger ones would be more expensive than a step.
 const MAX_EQUATIONS: usize = 100;
-/// An equation that takes part in a dependence by less than this is not named.
+/// Smallest coefficient of an equation in a linear dependence at which its joint is named.
 const MIN_PARTICIPATION: f64 = 1e-3;
 
-/// What is known of singular positions.
+/// Monitor of singular positions.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SingularPositions {
     loops: Vec<Loop>,
@@ -49,21 +48,21 @@ pub(crate) struct SingularPositions {
     length: f64,
 }
 
-/// What is known of a loop.
+/// State of the monitor for one loop.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Known {
-    /// When the largest pivots were begun with [s].
+    /// Time since which the largest pivots are recorded [s].
     since: f64,
-    /// Largest pivot of every equation so far, over its square; zero of those that repeat others. Where there are any, the others
-    /// have the largest 1/Σ 1/λ so far.
+    /// Largest pivot of every equation so far, relative to its squared norm; zero for redundant ones. If there are any, the other
+    /// entries are the largest 1/Σ 1/λ so far.
     references: Vec<f64>,
-    /// Time, equation and size of the smallest pivot at the last looks, the latest last.
+    /// Time, equation and smallest pivot at the last three checks, the latest last.
     looks: Vec<(f64, usize, f64)>,
-    /// Motion since the last look [rad].
+    /// Motion since the last check [rad].
     moved: f64,
 }
 
-/// Pivots of B Bᵀ over its diagonal, with the factor L below the diagonal.
+/// Pivots of B Bᵀ with a unit diagonal, and the factor L below the diagonal.
 #[derive(Clone, Debug)]
 struct Pivots {
     pivots: Vec<f64>,
@@ -71,7 +70,7 @@ struct Pivots {
 }
 
 impl SingularPositions {
-    /// Begins to watch the loops of `system`; angles count as arcs at `length`.
+    /// Starts to monitor the loops of `system`; angles are represented by arcs at `length` [m].
     pub(crate) fn new(system: &System, at: &Kinematics, length: f64) -> Self {
         let length = if length > 0.0 { length } else { 1.0 };
         let mut loops = loops::of(system);
@@ -93,7 +92,7 @@ impl SingularPositions {
         self.loops.is_empty()
     }
 
-    /// The first multiplier whose equation repeats those before it, where watching began.
+    /// The first multiplier whose equation was redundant at the start of the monitoring.
     pub(crate) fn first_repeating(&self) -> Option<usize> {
         let repeating = |(found, known): (&Loop, &Known)| {
             let equation = known.references.iter().position(|reference| *reference == 0.0)?;
@@ -102,8 +101,7 @@ impl SingularPositions {
         self.loops.iter().zip(&self.known).filter_map(repeating).min()
     }
 
-    /// The loop that is closest to a singular position, where one is close: its joints in words, and how far it is from
-    /// there [rad].
+    /// The loop closest to a singular position, if one is close: its joints, and the distance [rad].
     pub(crate) fn closest(&mut self, system: &System, at: &Kinematics) -> Option<(Subject, f64)> {
         let mut closest: Option<(Subject, f64)> = None;
         for (found, known) in self.loops.iter().zip(&self.known) {
@@ -124,8 +122,8 @@ impl SingularPositions {
         closest
     }
 
-    /// Looks at where a step has led; `way` is how far the fastest node went, over the representative length. Gives the
-    /// first singular position since the last look.
+    /// Checks the end of a step; `way` is the displacement of the fastest node relative to the representative length. Warns of the
+    /// first singular position since the last check.
     pub(crate) fn look(&mut self, system: &System, at: &Kinematics, way: f64) -> Option<Warning> {
         let mut warning = None;
         for (found, known) in self.loops.iter().zip(&mut self.known) {
@@ -152,7 +150,7 @@ impl SingularPositions {
 }
 
 impl Known {
-    /// Whether equations repeat each other wherever the motion has been.
+    /// Whether equations have been redundant in the whole motion.
     fn repeats(&self) -> bool {
         self.references.contains(&0.0)
     }
@@ -162,21 +160,21 @@ impl Known {
         self.references.iter().filter(|reference| **reference > 0.0).count()
     }
 
-    /// The independent equation whose pivot is smallest over its reference, and how small.
+    /// The independent equation with the smallest pivot relative to its reference, and this ratio.
     fn least(&self, pivots: &[f64]) -> (usize, f64) {
         let own = self.references.iter().zip(pivots).map(|(reference, pivot)| pivot.max(0.0) / reference);
         let finite = own.enumerate().filter(|(_, size)| size.is_finite());
         finite.min_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or((0, f64::INFINITY))
     }
 
-    /// Motion that may go unseen until the next look [rad]. A pivot is the square of the way to where it vanishes: what
-    /// is far comes near first, and near it looks come closer as that does.
+    /// Motion until the next check [rad]. The distance from a singular position is proportional to the square root of the pivot:
+    /// checks become more frequent as it decreases.
     fn unseen(&self) -> f64 {
         let way = self.looks.last().map_or(1.0, |&(_, _, size)| size.clamp(0.0, 1.0).sqrt());
         (way - WATCHED_PIVOT.sqrt()).max(BETWEEN_LOOKS * way)
     }
 
-    /// Time and equation of a singular position, if the motion has come through one.
+    /// Time and equation of a singular position, if the motion has passed one.
     fn compare(&mut self, time: f64, pivots: &[f64]) -> Option<(f64, usize)> {
         for (reference, pivot) in self.references.iter_mut().zip(pivots) {
             *reference = reference.max(*pivot);
@@ -185,14 +183,14 @@ impl Known {
         self.follow(time, (equation, equation), size)
     }
 
-    /// The same where equations repeat each other, by the eigenvalues of B Bᵀ, the largest first.
+    /// The same for redundant equations, from the eigenvalues of B Bᵀ in descending order.
     fn compare_repeating(&mut self, time: f64, pivots: &[f64], eigenvalues: &[f64]) -> Option<(f64, usize)> {
         let rank = self.rank();
         if let Some(equation) =
             (0..pivots.len()).find(|&k| self.references[k] == 0.0 && pivots[k] > INDEPENDENT)
             && eigenvalues.get(rank).is_some_and(|next| *next > INDEPENDENT)
         {
-            // Fewer repeat others: the last place known was the singular one.
+            // Fewer equations are redundant now: the last known position was singular.
             self.references = references(pivots, || eigenvalues.to_vec());
             self.looks.clear();
             let since = std::mem::replace(&mut self.since, time);
@@ -205,8 +203,8 @@ impl Known {
         self.follow(time, (rank, named), smallest / most)
     }
 
-    /// Records the size of what vanishes in a singular position, with its number, and returns the position and the
-    /// equation to be named, if the motion has come through one.
+    /// Records the quantity that vanishes at a singular position, with its index. Returns time and equation of the singular position,
+    /// if the motion has passed one.
     fn follow(&mut self, time: f64, (number, equation): (usize, usize), size: f64) -> Option<(f64, usize)> {
         self.looks.push((time, number, size));
         if self.looks.len() > 3 {
@@ -218,7 +216,7 @@ impl Known {
         self.vanished().map(|time| (time, equation))
     }
 
-    /// When the pivot vanished between the last three looks.
+    /// Time at which the pivot vanished between the last three checks, if it did.
     fn vanished(&self) -> Option<f64> {
         let &[a, b, c] = self.looks.as_slice() else { return None };
         let same = a.1 == b.1 && b.1 == c.1;
@@ -238,7 +236,7 @@ impl Known {
     }
 }
 
-/// What pivots are compared with from now on; with the eigenvalues of B Bᵀ, the largest first, where equations repeat others.
+/// Reference values of the pivots; if equations are redundant, from the eigenvalues of B Bᵀ in descending order.
 fn references(pivots: &[f64], eigenvalues: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
     let independent = |pivot: &f64| if *pivot > REPEATS { *pivot } else { 0.0 };
     let mut references: Vec<f64> = pivots.iter().map(independent).collect();
@@ -246,7 +244,7 @@ fn references(pivots: &[f64], eigenvalues: impl FnOnce() -> Vec<f64>) -> Vec<f64
         return references;
     }
     let eigenvalues = eigenvalues();
-    // As many as eigenvalues say: what is nearly dependent may count among pivots as one thing or the other.
+    // The rank is that of the eigenvalues: nearly dependent equations are ambiguous among the pivots.
     let rank = eigenvalues.iter().filter(|value| **value > REPEATS).count();
     let mut by_pivot: Vec<usize> = (0..pivots.len()).collect();
     by_pivot.sort_by(|a, b| pivots[*b].total_cmp(&pivots[*a]));
@@ -255,7 +253,7 @@ fn references(pivots: &[f64], eigenvalues: impl FnOnce() -> Vec<f64>) -> Vec<f64
     references
 }
 
-/// Eigenvalues of B Bᵀ, rows of B brought to length 1, the largest first.
+/// Eigenvalues of B Bᵀ with rows of B of unit norm, in descending order.
 fn eigenvalues(gradient: &mut Gradient, count: usize) -> Vec<f64> {
     let mut square = DMatrix::zeros(count, count);
     gradient.square(&mut square);
@@ -265,7 +263,7 @@ fn eigenvalues(gradient: &mut Gradient, count: usize) -> Vec<f64> {
     eigenvalues
 }
 
-/// 1/Σ 1/λ of eigenvalues: smooth where they change along a motion, and near the smallest.
+/// 1/Σ 1/λ of eigenvalues: a smooth approximation of the smallest.
 fn smallest(eigenvalues: &[f64]) -> f64 {
     if eigenvalues.iter().any(|value| *value <= 0.0) {
         return 0.0;
@@ -280,14 +278,14 @@ impl Default for Pivots {
 }
 
 impl Pivots {
-    /// L D Lᵀ of B Bᵀ, rows of B brought to length 1; equations that repeat earlier ones are left out.
+    /// Factors L D Lᵀ of B Bᵀ with rows of B of unit norm; redundant equations are skipped.
     fn of(&mut self, gradient: &mut Gradient, count: usize) {
         self.pivots.resize(count, 0.0);
         self.factor.resize_mut(count, count, 0.0);
         gradient.square(&mut self.factor);
         let square = self.factor.as_mut_slice();
         for k in 0..count {
-            // Column by column, as the numbers lie.
+            // Column by column, in the order of storage.
             let (known, rest) = square.split_at_mut((k + 1) * count);
             let factors = &mut known[k * count + k..];
             let pivot = factors[0];
@@ -298,7 +296,7 @@ impl Pivots {
             }
             let factors = &mut factors[1..];
             for (j, column) in rest.chunks_exact_mut(count).enumerate() {
-                // Equations of joints that share no part know nothing of each other.
+                // Equations of joints without a common part are independent.
                 if factors[j] == 0.0 {
                     continue;
                 }
@@ -311,7 +309,7 @@ impl Pivots {
         }
     }
 
-    /// Joints whose equations give the one that vanishes: its row of L, through those before it.
+    /// Joints of the equations on which the vanishing one depends: its row of L, by back substitution.
     fn names(&self, system: &System, found: &Loop, equation: usize) -> Subject {
         let mut shares: Vec<f64> = (0..equation).map(|k| self.factor[(equation, k)]).collect();
         for k in (0..equation).rev() {
