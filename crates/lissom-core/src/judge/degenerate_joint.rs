@@ -1,5 +1,5 @@
-//! Joints whose equations have lost rank since the start: a `constant_velocity` joint that is bent by half a turn,
-//! whose third rotation vanishes there with its gradient. No step across such a pose has a solution, however short.
+//! Joints whose equations have lost rank since the start, for example a `constant_velocity` joint that is bent by half a turn: the
+//! gradient of its third rotation vanishes there. No step across such a pose has a solution, however short.
 //!
 //! The criterion is the smallest singular value of the gradient by the relative motion and the joint's own
 //! coordinates, over its value at the start.
@@ -153,7 +153,7 @@ mod tests {
         }
     }
 
-    /// Beyond half a turn the shafts are bent to the other side.
+    /// Beyond half a turn the shafts are bent in the opposite direction.
     #[test]
     fn a_step_through_half_a_turn_is_seen() {
         let (system, start) = bent(178.0, 0.0);

@@ -20,7 +20,7 @@ use crate::system::{State, System};
 /// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.
 const MAX_VIOLATION: f64 = 1e-5;
-/// Violation that is reported: a tenth of that.
+/// Violation above which a warning is given, relative to the representative length, or in radians.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
 /// A node that rotates in one step by more than a quarter of a turn is not resolved by any of the schemes [rad].
 pub(crate) const MAX_TURN: f64 = 0.5 * PI;
@@ -53,8 +53,8 @@ impl<'a> Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Checks the step from `start` to `end`, in which loads and drives did this `work`. Returns the energy balance after it, and the largest violation of a constraint,
-    /// relative to the representative length, or in radians.
+    /// Checks the step from `start` to `end`, in which loads and drives did this `work`. Returns the energy balance after it, and the
+    /// largest violation of a constraint, relative to the representative length, or in radians.
     ///
     /// # Errors
     /// If the end of the step is invalid.
@@ -128,13 +128,13 @@ impl Judge<'_> {
         self.system.layout().relative_violations(&end.violations, self.representative.length)
     }
 
-    /// Of the constraints.
+    /// Quantities of the constraints.
     fn quantities(&self) -> &[Quantity] {
         let layout = self.system.layout();
         &layout.quantities()[layout.coordinate_count()..]
     }
 
-    /// The constraints that are violated most, and by how much.
+    /// The most violated constraints, and their violations.
     fn names_of_violated(&self, end: &State, worst: f64) -> Subject {
         let mut named: Vec<(f64, usize)> =
             self.violations(end).enumerate().map(|(k, size)| (size, k)).collect();

@@ -1,5 +1,5 @@
-//! What scaling, augmented term and pivoting do to the first step: every combination factors the same
-//! tangent, solves the same problem and iterates the same equations.
+//! Effect of scaling, augmented term and pivoting on the first step: every combination factors the same tangent, solves the same
+//! problem and iterates the same equations.
 
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, refined_solution};
 
@@ -12,20 +12,20 @@ use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
 use crate::settings::Unwatched;
 use crate::simulation::Simulation;
 
-/// Newton iterations made, far more than convergence takes.
+/// Number of Newton iterations, far more than convergence requires.
 pub const ITERATIONS: usize = 15;
 
 /// Solvers compared, by name.
 pub const SOLVERS: [&str; 3] = ["skyline", "sparse", "pivoting"];
 
-/// One combination.
+/// Combination of scaling, augmented term and solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
-    /// How the equations are scaled.
+    /// Scaling of the equations.
     pub scaling: ScaleBy,
-    /// Whether the scaled tangent is equilibrated besides.
+    /// Whether the scaled tangent is also equilibrated.
     pub equilibrated: bool,
-    /// Whether the augmented term is there.
+    /// Whether the augmented term is included.
     pub augmented: bool,
     /// Name of the solver.
     pub solver: &'static str,
@@ -33,16 +33,16 @@ pub struct Case {
     pub outcome: Result<Factored, Stopped>,
 }
 
-/// Why the first tangent has no factors.
+/// Failure of the first factorisation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped {
     /// Name of the unknown at which elimination stops.
     pub unknown: String,
-    /// What the factorisation says.
+    /// Error of the factorisation.
     pub error: FactorError,
 }
 
-/// What the first tangent's factors are like and how far they lead.
+/// Properties of the first factorisation, and its result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factored {
     /// Pivots and growth.
@@ -58,26 +58,26 @@ pub struct Factored {
     pub backward_error: f64,
     /// Whether iterative refinement converged, so that the errors are known.
     pub errors_known: bool,
-    /// How far Newton's method comes.
+    /// Accuracy attained by Newton's method.
     pub newton: Attained,
 }
 
-/// Where Newton's method stands after [`ITERATIONS`] iterations, each with a new tangent.
+/// Accuracy of Newton's method after [`ITERATIONS`] iterations, each with a new tangent.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attained {
     /// Iterations made.
     pub iterations: usize,
-    /// Last update over what the step has to find out [-].
+    /// Last update relative to the increments of the step [-].
     pub update: f64,
     /// Largest residual of an equation of motion [N, N m].
     pub residual: f64,
     /// Largest violation of a constraint [m, rad].
     pub violation: f64,
-    /// Name of the unknown at which a later tangent had no factors.
+    /// Name of the unknown at which the factorisation of a later tangent stopped.
     pub stopped_at: Option<String>,
 }
 
-/// Tries all combinations on the next step of `simulation`, which stays where it is.
+/// Evaluates all combinations on the next step of `simulation`, which is not changed.
 pub fn factorization_study(simulation: &Simulation) -> Vec<Case> {
     let penalty = simulation.settings().scaling.penalty;
     let mut cases = Vec::new();
@@ -150,11 +150,11 @@ fn stopped(layout: &Layout, error: FactorError) -> Stopped {
     Stopped { unknown: layout.name_of(unknown), error }
 }
 
-/// Full Newton's method from where the equations stand.
+/// Full Newton's method from the present iterate.
 fn iterate(equations: &mut StepEquations<'_>) -> Attained {
     let mut attained = Attained::default();
     while attained.iterations < ITERATIONS {
-        // The tangent of the first iteration is there already.
+        // The tangent of the first iteration is already factored.
         if attained.iterations > 0
             && let Err(error) = equations.renew_tangent()
         {
@@ -185,13 +185,13 @@ fn residuals(equations: &mut StepEquations<'_>) -> (f64, f64) {
     (motion, violation)
 }
 
-/// Like `max`, but what is not a number stays.
+/// Like `max`, but keeps NaN.
 fn largest(start: f64, values: impl Iterator<Item = f64>) -> f64 {
     values.fold(start, |most, value| if value.abs() <= most { most } else { value.abs() })
 }
 
-/// Errors of coordinates and multipliers when a known problem is solved, its backward error, and 1 if the errors are certain. The problem
-/// is the same in SI whatever the scaling: each unknown is of its size in `sizes` times a number of order one.
+/// Errors of coordinates and multipliers for a problem with known solution, its backward error, and 1 if the errors are certain. The
+/// problem is the same in SI whatever the scaling: each unknown is its entry of `sizes` times a number of order one.
 fn forward_errors(
     tangents: &mut StageTangents,
     pattern: &Pattern,
@@ -252,7 +252,7 @@ fn backward_error<S: Scalar>(pattern: &Pattern, values: &[S], solved: &[S], righ
     largest(0.0, errors)
 }
 
-/// The next number in -1 … 1 of a linear congruential generator [Knuth 1981, section 3.3.4].
+/// Next number in -1 … 1 of a linear congruential generator [Knuth 1981, section 3.3.4].
 fn number(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0

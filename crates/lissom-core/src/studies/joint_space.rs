@@ -1,16 +1,15 @@
-//! Motion in joint coordinates: the rates of independent coordinates z of joints determine all velocities.
+//! Motion in joint coordinates: the rates of independent joint coordinates z determine all velocities.
 //!
 //! Legend: M mass, B gradient of the constraints c, f forces without accelerations, E unit vectors of the rows of z, τ forces on z.
 //!
 //! ```text
 //! v = T ż + w,    Eᵀ T = 1,    H z̈ + h = τ,    H = Tᵀ M T
 //! [M Bᵀ; B 0] [X; ·] = [E; 0]                                    X = T H⁻¹, hence H⁻¹ = Eᵀ X and T = X H
-//! [M Bᵀ; B 0] [w + T ż₀; ·] = [0; -∂c/∂t]                        ż₀ the rates that this motion has
+//! [M Bᵀ; B 0] [w + T ż₀; ·] = [0; -∂c/∂t]                        ż₀ the rates of z in this solution
 //! [M Bᵀ; B 0] [a; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]                    h = -H Eᵀ a
 //! ```
 //!
-//! Closed loops need no special treatment. H⁻¹ is the acceleration per unit force: its singularity shows that coordinates depend on
-//! each other.
+//! Closed loops need no special treatment. H⁻¹ is the acceleration per unit force; it is singular if coordinates depend on each other.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -24,9 +23,9 @@ use crate::scaling::Representative;
 use crate::settings::Settings;
 use crate::system::{State, System};
 
-/// Coordinates depend on each other if a pivot of their accelerations is below this fraction of their own acceleration.
+/// Smallest pivot of H⁻¹, relative to its diagonal, of independent coordinates.
 const DEPENDENT: f64 = 1e-10;
-/// Accelerations whose kinetic energy differs by more than this fraction are round-off: of a coordinate that cannot move.
+/// Relative difference of the kinetic energy above which accelerations are round-off: the coordinate cannot move.
 const SAME_ENERGY: f64 = 1e-6;
 
 diagnostics! {
@@ -114,7 +113,7 @@ impl JointSpace {
         Self { coordinates, initial }
     }
 
-    /// Mass matrix and bias at a state, with the forces that act there.
+    /// Mass matrix and bias at a state under the forces of the model.
     ///
     /// # Errors
     /// If the coordinates depend on each other, or there are no accelerations.
@@ -194,7 +193,7 @@ impl JointSpace {
         };
         let rows: Vec<usize> = self.coordinates.iter().map(|&own| layout.row_of_coordinate(own)).collect();
         let own = DVector::from_fn(size, |index, _| responses[(rows[index], index)]);
-        // Comparisons that are false for what is not a number.
+        // These comparisons are false for NaN.
         let is_motion =
             |index: &usize| (energies[(*index, *index)] - own[*index]).abs() <= SAME_ENERGY * own[*index];
         if let Some(index) = (0..size).find(|index| !(is_motion(index) && own[*index] > 0.0)) {

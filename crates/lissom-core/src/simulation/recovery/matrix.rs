@@ -287,7 +287,7 @@ impl RecoveryMatrix {
     }
 }
 
-/// Entries of these columns in the rows that are wanted.
+/// Entries of these columns in the rows for which `is_wanted` is true, as runs of consecutive entries.
 fn runs(
     pattern: &Pattern,
     columns: impl Iterator<Item = usize>,
