@@ -4,11 +4,10 @@
 //! (s² M + s D + K) x + Bᵀ μ = 0,   B x = 0,   v = s x
 //! ```
 //!
-//! One application of the operator is one solve with the saddle-point matrix at the shift σ:
-//! (σ²M + σD + K) x + Bᵀμ = -M w₂ - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ). Components of infinite eigenvalues vanish after two
-//! applications, because positions and then velocities satisfy the constraints [Cliffe, Garratt and Spence 1994; Meerbergen
-//! and Spence 1997]. At a real shift the operator, its basis and its matrix are real; only eigenvectors are complex [Parlett
-//! and Saad 1987].
+//! One application of the operator is one solve with the saddle-point matrix at the shift σ: (σ²M + σD + K) x + Bᵀμ = -M w₂ - (D + σM) w₁,
+//! v = w₁ + σ x. Its eigenvalues are 1/(s - σ). Components of infinite eigenvalues vanish after two applications, because positions and
+//! then velocities satisfy the constraints [Cliffe, Garratt and Spence 1994; Meerbergen and Spence 1997]. At a real shift the operator,
+//! its basis and its matrix are real; only eigenvectors are complex [Parlett and Saad 1987].
 
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
@@ -27,26 +26,26 @@ use crate::round_off;
 
 const BLOCK: usize = 6;
 const TOLERANCE: f64 = 1e-8;
-/// The same if the basis has become large compared with the number of modes: the rest is then round-off.
+/// Tolerance if the basis has become large compared with the number of modes: the remaining residual is then round-off.
 const LOOSE: f64 = 1e-6;
 const CHECK_INTERVAL: usize = 12;
 /// A basis with this number of vectors, and three times the number of requested eigenvalues, is large.
 const LARGE_BASIS: usize = 100;
-/// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
+/// Factor of the round-off of zero eigenvalues, which come in defective pairs.
 const DEFECTIVE: f64 = 16.0;
-/// The same for a solve, relative to the shift: the square root of the round-off.
+/// Round-off of a solve, relative to the shift, for defective eigenvalues: the square root of the usual one.
 const SOLVED: f64 = 1e-5;
-/// Allowed difference between the operator's image of an eigenvector and its multiple, relative to it. A larger one belongs to
-/// round-off of an infinite eigenvalue, which two applications have removed.
+/// Largest residual of an eigenvector, relative to its image. A larger one belongs to round-off of an infinite eigenvalue, which two
+/// applications have removed.
 const EIGENVECTOR: f64 = 1e-2;
 /// Rigid modes whose shapes differ by less than this are the same.
 const SHAPE_TOLERANCE: f64 = 1e-4;
 /// If an eigenvalue is nearer to the shift than this fraction of it, all others are lost in round-off.
 const TOO_NEAR: f64 = 1e-4;
-/// Relative displacement of the shift in this case.
+/// Relative change of the shift in this case.
 const ASIDE: f64 = 0.03;
 const MAX_SHIFTS: usize = 3;
-/// Candidates of the shift over the smallest eigenvalue; the one farthest from all eigenvalues is chosen.
+/// Candidates of the shift relative to the smallest eigenvalue; the one farthest from all eigenvalues is chosen.
 const CANDIDATES: [f64; 6] = [1.0, 0.85, 1.2, 0.7, 1.45, 0.55];
 
 /// Positions and velocities, in units of the model's length and of a rate.
@@ -102,7 +101,7 @@ impl Field for f64 {
     }
 
     fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
-        // A successful iteration needs two or three for each eigenvalue.
+        // A successful iteration requires two or three sweeps for each eigenvalue.
         let rounds = 10 * matrix.nrows().max(10);
         let Some(schur) = Schur::try_new(matrix.clone(), f64::EPSILON, rounds) else {
             return schur(matrix.map(Complex64::from));
@@ -183,7 +182,7 @@ impl<S: Field> Operator<S> for Inverse<'_, '_, '_, S> {
             }
         }
         self.solver.solve(&mut self.right);
-        // Forces do not enter the next application, like multipliers.
+        // Forces of velocity constraints do not enter the next application, nor do multipliers.
         for (row, _) in self.model.system.layout().impulses() {
             self.right[row] = S::zero();
         }
@@ -359,7 +358,7 @@ pub(super) fn inverse<'m, 's, 'a, S: Field>(
     Ok(Inverse { model, solver, shift: tried, rate, units, right: room.clone(), product: room.clone(), room })
 }
 
-/// Builds the basis until the `wanted` largest eigenvalues have converged, or there are no more.
+/// Extends the basis until the `wanted` largest eigenvalues have converged, or it is exhausted.
 fn search<S: Field>(
     krylov: &mut Krylov<S>,
     operator: &mut Inverse<'_, '_, '_, S>,
@@ -394,7 +393,7 @@ fn search<S: Field>(
     }
 }
 
-/// Eigenvalues of the operator among the known vectors, the largest first.
+/// Eigenvalues of the operator in the present basis, in descending order.
 fn estimates<S: Field>(krylov: &Krylov<S>) -> Result<Vec<Estimate>, ModeError> {
     let order = krylov.order();
     if order == 0 {
@@ -428,7 +427,7 @@ fn estimates<S: Field>(krylov: &Krylov<S>) -> Result<Vec<Estimate>, ModeError> {
     Ok(all)
 }
 
-/// The mode of an estimate; none for the conjugate of another.
+/// The mode of an estimate; none if it is the complex conjugate of another.
 fn mode<S: Field>(
     model: &LinearModel<'_>,
     operator: &mut Inverse<'_, '_, '_, S>,
@@ -520,7 +519,7 @@ fn normalise(model: &LinearModel<'_>, shape: &mut [Complex64]) {
     }
 }
 
-/// Of the shapes with eigenvalue zero only independent ones are retained.
+/// Removes modes with eigenvalue zero whose shapes depend linearly on earlier ones.
 fn keep_independent_rigid_modes(modes: &mut Vec<Mode>) {
     let mut basis: Vec<Vec<Complex64>> = Vec::new();
     modes.retain(|mode| {

@@ -220,7 +220,7 @@ struct Search {
     largest: f64,
 }
 
-/// Builds the basis until the `wanted` largest positive eigenvalues have converged, or there are no more.
+/// Extends the basis until the `wanted` largest positive eigenvalues have converged, or it is exhausted.
 fn search(
     krylov: &mut Krylov<f64>,
     operator: &mut Inverse<'_, '_, '_>,

@@ -28,7 +28,7 @@ use crate::elements::superelement::{Damping, flexibility, rigid_column};
 const MIN_ENERGY_FRACTION: f64 = 1e-3;
 
 impl Reduction {
-    /// With the first `modes` modes, and, if `is_corrected`, with shapes that compensate for the omitted ones.
+    /// Retains the first `modes` modes and, if `is_corrected`, shapes that compensate for the omitted ones.
     #[must_use]
     pub fn with_modes(mut self, modes: usize, is_corrected: bool) -> Self {
         let interfaces = 6 * self.places.len();
@@ -60,7 +60,7 @@ impl Reduction {
         self
     }
 
-    /// Columns over the modes from row `kept` on.
+    /// Correction shapes, as columns over the modes from row `kept` on.
     fn corrections(&self, kept: usize) -> DMatrix<f64> {
         let stiffness = &self.matrices.stiffness;
         let left = stiffness.nrows() - kept;

@@ -52,7 +52,7 @@ impl LoadState {
     }
 }
 
-/// Second-order terms over all shapes, before some are chosen.
+/// Second-order terms over all shapes, before the reduction to the retained ones.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct SecondOrder {
     /// Inertial terms.
@@ -150,8 +150,8 @@ impl SecondOrder {
         sum
     }
 
-    /// Over the unknowns that `map` retains, with their mass and stiffness; `all` has the stiffness of all shapes, modes from row
-    /// `first` on.
+    /// Second-order matrices of the unknowns retained by `map`, with their mass and stiffness; `all` is the stiffness of all shapes, modes
+    /// from row `first` on.
     pub(super) fn kept(
         &self,
         map: &DMatrix<f64>,

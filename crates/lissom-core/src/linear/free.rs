@@ -2,7 +2,7 @@
 //! of such parts.
 //!
 //! ```text
-//! x ← (K + s² M + constraints)⁻¹ M x,      s² a small part of k/m:      what remains of any x is the space in which K x = 0
+//! x ← (K + s² M + constraints)⁻¹ M x,      s² a small fraction of k/m:      the iteration converges to the null space of K
 //! ```
 
 use std::collections::BTreeSet;

@@ -51,7 +51,7 @@ struct Forces<'a> {
 }
 
 impl Forces<'_> {
-    /// Six numbers of a shape at a node, in its axes.
+    /// Six components of a shape at a node, in its axes.
     fn of_node(&self, shape: &[f64], node: NodeId) -> Vector6 {
         let rows = self.system.layout().rows_of_node(node);
         Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { shape[rows[k] as usize] })

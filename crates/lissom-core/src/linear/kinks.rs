@@ -86,7 +86,7 @@ impl LinearModel<'_> {
     fn kink_along(&self, direction: &[f64], is_of_rate: bool) -> Option<Kink> {
         let rate = if is_of_rate { small_square(&self.representative).sqrt() } else { 1.0 };
         let mut still = self.at.clone();
-        // The sides of switches are not frozen.
+        // Switches are evaluated, not frozen on their branches.
         let first = self.system.signals().first_side();
         still.held.iter_mut().skip(first).for_each(|side| *side = 0.0);
         let at = |step: f64| moved(self, &still, direction, (step, is_of_rate), rate);

@@ -8,7 +8,7 @@ use crate::diagnostics::diagnostics;
 /// Damping ratio below which growth is distinguished from round-off.
 const GROWING: f64 = -1e-7;
 
-/// The request.
+/// Options of a search for modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModeOptions {
     /// Maximum number of modes.
@@ -33,7 +33,7 @@ pub enum ModeKind {
 }
 
 impl ModeKind {
-    /// The word in `modes.csv`.
+    /// Its name in `modes.csv`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rigid => "rigid",
@@ -82,7 +82,7 @@ pub enum Completeness {
 }
 
 impl Completeness {
-    /// The word in `summary.json`.
+    /// Its name in `summary.json`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Counted => "counted",
@@ -142,7 +142,7 @@ impl From<LinearError> for ModeError {
 }
 
 impl Mode {
-    /// From an eigenvalue, which is exactly zero for a rigid mode.
+    /// Mode of an eigenvalue, which is exactly zero for a rigid mode.
     pub(super) fn new(eigenvalue: Complex64, shape: Vec<Complex64>, residual: f64) -> Self {
         let size = eigenvalue.norm();
         let damping = if size > 0.0 { 0.0 - eigenvalue.re / size } else { 0.0 };

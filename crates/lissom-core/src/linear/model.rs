@@ -21,11 +21,11 @@ use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 
-/// An entry and its mirror image are different if they differ by more than this fraction of the larger one, and by more than
-/// round-off of their rows.
+/// Transposed entries are different if they differ by more than this fraction of the larger one, and by more than round-off of their
+/// rows.
 const ASYMMETRY: f64 = 1e-9;
 
-/// The rate for the computation of that displacement, over the rate of rotation: free motions are amplified.
+/// Rate at which the displacement by inertial forces is computed, relative to the rate of rotation: free motions are amplified.
 const SLOW_RATE: f64 = 1e-3;
 /// Squared rates below this fraction of the small one that represents zero are zero.
 const NEUTRAL: f64 = 1e-6;
@@ -211,7 +211,7 @@ impl<'a> LinearModel<'a> {
         refuse(self.system)
     }
 
-    /// The same with other matrices, those in axes at rest.
+    /// The same model with matrices in axes at rest.
     pub(super) fn with_generator(
         &self,
         parts: Linearization,
@@ -342,7 +342,7 @@ impl<'a> LinearModel<'a> {
         parts.fold(0.0, f64::max)
     }
 
-    /// An error of a factorisation, with the unknown's name.
+    /// Error of a factorisation, with the name of the unknown.
     pub(super) fn stopped(&self, error: &FactorError) -> LinearError {
         stopped(self.system, self.at.time, error)
     }
@@ -406,7 +406,7 @@ impl<'a> Holding<'a> {
         Ok(Self::Symmetric(solver))
     }
 
-    /// Displacements, and multipliers in SI.
+    /// Solves for displacements, and multipliers in SI.
     fn solve(&mut self, right: &mut [f64], count: usize) {
         let factor = match self {
             Self::Symmetric(solver) => {
@@ -428,8 +428,8 @@ impl<'a> Holding<'a> {
     }
 }
 
-/// Multipliers that balance a state at rest, from a solve with stiffness and mass; returns the remainder as a displacement, and
-/// its energy.
+/// Computes the multipliers that balance a state at rest, by a solve with stiffness and mass. Returns the remainder as a displacement,
+/// and its energy.
 fn hold(
     system: &System,
     state: &mut State,

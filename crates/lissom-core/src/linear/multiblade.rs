@@ -1,7 +1,7 @@
 //! A rotor on an anisotropic support, in axes at rest [Coleman and Feingold 1958; Bir 2008].
 //!
 //! In the axes of its nodes the coefficients of such a model change with its angle of rotation ψ. They are constant if the
-//! rotor is invariant under rotation by the N-th part of a turn, N ≥ 3, and its displacements x are written as
+//! rotor is invariant under rotation by 1/N of a turn, N ≥ 3, and its displacements x are written as
 //!
 //! ```text
 //! x = exp(-ψ G) z,    ẋ = exp(-ψ G) (ż - Ω G z),    ẍ = exp(-ψ G) (z̈ - 2Ω G ż + Ω² G² z)
@@ -132,7 +132,7 @@ impl<'a> LinearModel<'a> {
     }
 }
 
-/// The axis of rotation: a position on it, its direction, and the rate; and the nodes that rotate.
+/// Axis of rotation: a position on it, its direction, and the rate; and the nodes that rotate.
 struct Axis {
     place: Vector3,
     direction: Vector3,
@@ -188,8 +188,7 @@ impl Axis {
         (apart - self.direction * apart.dot(&self.direction)).norm() <= POSITION_TOLERANCE * self.length
     }
 
-    /// The node at the position of each rotating node off the axis after the `blades`-th part of a turn; none if there is
-    /// no such node.
+    /// The node at the position of each rotating node off the axis after 1/`blades` of a turn; none if there is no such node.
     fn images(&self, at: &Kinematics, blades: usize) -> Option<Vec<Option<NodeId>>> {
         let part = self.rotation(std::f64::consts::TAU / blades as f64);
         // By the position along the axis and the distance from it, so that few are compared.
@@ -226,7 +225,7 @@ impl Axis {
     }
 }
 
-/// The generator for a rotor that is invariant under rotation by the N-th part of a turn, for the largest such N.
+/// Generator for a rotor that is invariant under rotation by 1/N of a turn, for the largest such N.
 fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     let axis = Axis::of(model)?;
     let at = model.kinematics();
@@ -288,8 +287,7 @@ fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
     generator(columns)
 }
 
-/// The nodes to which `first` is mapped in `blades` parts of a turn, if the sequence is closed; none for a fixed
-/// node.
+/// Nodes to which `first` is mapped by repeated rotations by 1/`blades` of a turn, if the sequence is closed; none for a fixed node.
 fn orbit<T: Copy + Ord>(first: T, blades: usize, image: &dyn Fn(T) -> Option<T>) -> Option<Vec<T>> {
     let mut orbit = vec![first];
     for _ in 1..blades {
@@ -302,7 +300,7 @@ fn orbit<T: Copy + Ord>(first: T, blades: usize, image: &dyn Fn(T) -> Option<T>)
     (comes_back && sorted.len() == blades).then_some(orbit)
 }
 
-/// Vectors of nodes on the axis rotate.
+/// Adds the rotation of vectors of nodes on the axis.
 fn on_the_axis(model: &LinearModel<'_>, axis: &Axis, columns: &mut [Vec<(usize, f64)>]) {
     let layout = model.system().layout();
     for (node, motion) in NodeId::enumerate(&model.kinematics().nodes) {
@@ -323,7 +321,7 @@ fn on_the_axis(model: &LinearModel<'_>, axis: &Axis, columns: &mut [Vec<(usize, 
     }
 }
 
-/// Values at equal angles, in the order of the rotation, are shifted by the angle by their Fourier series.
+/// Adds the shift of values at equal angles, in the order of the rotation, by their Fourier series.
 fn around(rows: &[usize], blades: usize, columns: &mut [Vec<(usize, f64)>]) {
     if rows.len() != blades {
         return;

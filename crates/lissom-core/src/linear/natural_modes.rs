@@ -1,4 +1,4 @@
-//! Natural modes of a linearised model, by the appropriate search.
+//! Natural modes of a linearised model, by Lanczos' or Arnoldi's method.
 
 use num_complex::Complex64;
 

@@ -204,7 +204,7 @@ impl Assembly<'_> {
         })
     }
 
-    /// Rows of unknowns in the free assembly and in the one with locked interfaces.
+    /// Pairs of rows of the unknowns: in the free assembly and in the one with locked interfaces.
     pub(super) fn inner_rows(&self, locked: &System) -> Vec<(usize, usize)> {
         let (free, inner) = (self.free.layout(), locked.layout());
         let of_nodes = free.nodes().flat_map(|node| {
@@ -219,7 +219,7 @@ impl Assembly<'_> {
         of_nodes.chain(of_coordinates).collect()
     }
 
-    /// One column per unknown of the interfaces, in inertial axes: zero elsewhere.
+    /// One column per unknown of the interfaces, in inertial axes, zero elsewhere.
     fn boundary_columns(&self) -> Vec<Vec<f64>> {
         let layout = self.free.layout();
         let mut columns = Vec::with_capacity(6 * self.interfaces.len());
@@ -238,7 +238,7 @@ impl Assembly<'_> {
         columns
     }
 
-    /// Adds the displacements of the assembly between the interfaces when these are displaced.
+    /// Adds to the columns the static displacements of the assembly between displaced interfaces.
     fn add_static_shapes(
         &self,
         whole: &Whole,
@@ -276,7 +276,7 @@ impl Assembly<'_> {
         Ok(())
     }
 
-    /// The matrices projected on the columns.
+    /// Projects the matrices on the columns.
     fn projected(&self, whole: &Whole, columns: &[Vec<f64>], length: f64) -> ReducedMatrices {
         let among = |values: &[f64]| {
             let pattern = self.free.pattern();

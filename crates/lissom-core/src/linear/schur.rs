@@ -1,6 +1,6 @@
 //! Schur form of a complex matrix by the single-shift QR algorithm [Golub and Van Loan 2013, section 7.5], with exceptional shifts
-//! and deflation where the diagonal vanishes: matrices of shift-and-invert operators have many eigenvalues at zero, beside
-//! which a subdiagonal entry is never small relative to its neighbours on the diagonal.
+//! and deflation where the diagonal vanishes: matrices of shift-and-invert operators have many zero eigenvalues, where a subdiagonal
+//! entry is never small relative to its neighbours on the diagonal.
 
 use nalgebra::{DMatrix, Hessenberg};
 use num_complex::Complex64;

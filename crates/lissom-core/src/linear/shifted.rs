@@ -108,7 +108,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         Self::on(system, system.structure(), representative)
     }
 
-    /// For matrices on another structure than the system's.
+    /// For matrices with another structure than the system's.
     pub(super) fn on(system: &'a System, structure: &Structure, representative: &Representative) -> Self {
         let layout = system.layout();
         let matrix = Matrix::new(Box::new(Multifrontal::new(structure)), structure);

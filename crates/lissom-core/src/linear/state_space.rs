@@ -33,7 +33,7 @@ pub struct StateSpace {
     pub c: DMatrix<f64>,
     /// D.
     pub d: DMatrix<f64>,
-    /// The states in words: an unknown, or its rate.
+    /// Names of the states: an unknown, or its rate.
     pub states: Vec<String>,
 }
 

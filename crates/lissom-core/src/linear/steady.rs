@@ -286,7 +286,7 @@ impl<'a> LinearModel<'a> {
         Ok(Departure { size: departure_by(right), round_off })
     }
 
-    /// Likeness of two shapes, weighted with the mass of this model: 1 for equal, 0 for orthogonal ones.
+    /// Modal assurance criterion of two shapes, weighted with the mass of this model: 1 for equal, 0 for orthogonal ones.
     pub fn assurance(&self, one: &Mode, other: &Mode) -> f64 {
         let pattern = self.pattern();
         let weighed = |shape: &[Complex64]| {

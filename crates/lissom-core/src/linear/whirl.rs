@@ -35,7 +35,7 @@ pub enum Whirl {
 }
 
 impl Whirl {
-    /// The word in tables.
+    /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
