@@ -58,18 +58,18 @@ pub struct PathSettings {
 }
 
 diagnostics! {
-    /// A path that could not be followed.
+    /// Failure to follow a path.
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     Failure PathError {
-        /// The two systems are not one with and without loads.
+        /// The systems without and with loads have different unknowns.
         NotAlike {} => "path-unlike-models" {
             cause: ("the model without its loads has other unknowns than with them"),
             remedy: "omit loads that add coordinates or states",
             meaning: "The model without its loads has other unknowns than with them.",
             advice: "Omit loads that add coordinates or states.",
         }
-        /// Loads depend on the motion, or there are states.
+        /// Loads depend on the motion, or there are first-order states.
         Feedback {} => "path-feedback" {
             cause: ("a system with feedback has no equilibrium path"),
             remedy: "remove loads and states whose signals depend on the motion",
@@ -83,9 +83,9 @@ diagnostics! {
             meaning: "No load acts at the time `start`, so a load factor has no effect.",
             advice: "Give loads a magnitude at that time.",
         }
-        /// The number changes nothing.
+        /// The parameter has no effect.
         NoEffect {
-            /// What is varied.
+            /// Name of the parameter.
             name: String,
             /// Its value at the start.
             value: f64,
@@ -96,13 +96,13 @@ diagnostics! {
             meaning: "The varied number does not change the equilibrium.",
             advice: "Vary a number that forces, stiffnesses or lengths depend on.",
         }
-        /// There is no model for the value at which a path begins.
+        /// The value at the start of the path is invalid.
         NoSystem {
-            /// What is varied.
+            /// Name of the parameter.
             name: String,
             /// Its value.
             value: f64,
-            /// Why.
+            /// The reason.
             problem: String,
         } => "path-without-model" {
             cause: ("`{name}` cannot be {value}, where the path starts: {problem}"),
@@ -110,15 +110,15 @@ diagnostics! {
             meaning: "The model is not valid at the value at which the path begins.",
             advice: "Begin the path at another value.",
         }
-        /// The number cannot be changed further.
+        /// The parameter has no valid values beyond the last equilibrium.
         Beyond {
-            /// What is varied.
+            /// Name of the parameter.
             name: String,
             /// Its value at the last equilibrium.
             value: f64,
             /// Length of the path up to there.
             arc: f64,
-            /// What is wrong with the model beyond.
+            /// Why the model is invalid beyond.
             problem: String,
         } => "path-leaves-model" {
             cause: ("the path ends at {name} {value}, {arc:.3e} along it: the model is invalid beyond ({problem})"),
@@ -126,15 +126,15 @@ diagnostics! {
             meaning: "The model is not valid beyond the reported value of the varied number.",
             advice: "End the path before that value, or follow it in the opposite direction.",
         }
-        /// A step was not found however short.
+        /// No step has a solution, however short.
         Lost {
-            /// What changes along the path.
+            /// Name of the path parameter.
             name: String,
             /// Load factor of the last equilibrium.
             load_factor: f64,
             /// Length of the path up to there.
             arc: f64,
-            /// Why the last attempt failed.
+            /// Failure of the last attempt.
             error: StepError,
         } => "path-lost" {
             cause: ("the path ends at {name} {load_factor}, {arc:.3e} along it: no equilibrium is found nearby ({error})"),
@@ -142,13 +142,13 @@ diagnostics! {
             meaning: "No equilibrium was found near the last one, however short the step.",
             advice: "See the failure in parentheses; try a smaller first `step`.",
         }
-        /// A path along the load factor does not leave the model without loads.
+        /// A path along the load factor does not leave the unloaded model.
         NothingResists {
             /// Steps taken.
             steps: usize,
             /// Load factor reached.
             load_factor: f64,
-            /// The largest one so far.
+            /// Largest load factor so far.
             most: f64,
             /// Why it was not exceeded.
             reason: String,
@@ -161,17 +161,17 @@ diagnostics! {
             meaning: "Small loads meet almost no resistance, as in a cable without tension.",
             advice: "Apply tension, follow a path along a number of the loaded model (`vary`), or use a smaller first `step`.",
         }
-        /// There are fewer bifurcations than that at which the path was to be left.
+        /// The path has fewer bifurcations than the number of the requested one.
         NoBifurcation {
-            /// What changes along the path.
+            /// Name of the path parameter.
             name: String,
             /// Steps taken.
             steps: usize,
             /// Load factor reached.
             load_factor: f64,
-            /// Bifurcations met.
+            /// Bifurcations passed.
             met: usize,
-            /// The one wanted.
+            /// Number of the requested bifurcation.
             wanted: usize,
         } => "path-without-bifurcation" {
             cause: ("after {steps} steps the {name} is {load_factor}, and the path has met {met} bifurcation(s), not the {wanted} that \
@@ -180,9 +180,9 @@ diagnostics! {
             meaning: "The path has met fewer bifurcations than `branch` requests.",
             advice: "Set more `steps`, a smaller first `step`, or another `branch`.",
         }
-        /// No other path was found at a bifurcation.
+        /// No branch was found at a bifurcation.
         NoBranchThere {
-            /// What changes along the path.
+            /// Name of the path parameter.
             name: String,
             /// Load factor of the bifurcation.
             load_factor: f64,
@@ -194,15 +194,15 @@ diagnostics! {
             meaning: "No branch was found at the bifurcation.",
             advice: "Disturb the model slightly, so that its path continues on a branch, or omit `branch`.",
         }
-        /// The number of steps is exhausted.
+        /// The maximum number of steps is reached.
         TooManySteps {
-            /// What changes along the path.
+            /// Name of the path parameter.
             name: String,
             /// Steps taken.
             steps: usize,
             /// Load factor reached.
             load_factor: f64,
-            /// Load factor at which it should end.
+            /// Load factor at the end of the path.
             end: f64,
         } => "path-too-long" {
             cause: ("after {steps} steps the {name} is {load_factor} and has not reached {end}"),
@@ -212,13 +212,13 @@ diagnostics! {
         }
     }
     wraps {
-        /// There is no equilibrium where a path along a number begins.
+        /// There is no equilibrium at the start of a path along a parameter.
         StartAlong {
-            /// What is varied.
+            /// Name of the parameter.
             name: String,
             /// Its value.
             value: f64,
-            /// Why none was found.
+            /// Failure of the search for the equilibrium.
             error: StepError,
         }, { name, value, error } => {
             error.diagnostic().within(&format!("no equilibrium at {name} {value} at the start of the path"))
