@@ -92,7 +92,7 @@ fn group(system: &System, at: &Kinematics, node: NodeId, points: &[Vector3], len
     RigidGroup {
         nodes: Vec::new(),
         frame: if turns { Motion::new(frame.rotation, center) } else { frame },
-        // A part with a single point has the rotation weight of one of the model's size.
+        // A part with a single point has no radius: the model's size weights its rotation.
         radius: if radius > 0.0 { radius } else { length },
         free,
     }

@@ -100,7 +100,7 @@ diagnostics! {
             meaning: "No positions were found at which all joints close.",
             advice: "Check the dimensions of the parts and the coordinates that are held.",
         }
-        /// Joints close with frames that point opposite ways.
+        /// Joints close only with frames that point in opposite directions.
         UpsideDown {
             /// Name of the joint.
             joint: String,

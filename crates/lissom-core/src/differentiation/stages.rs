@@ -32,7 +32,7 @@ pub(super) struct Stages {
     products: Vec<Products>,
     /// By stage and moving node.
     maps: Vec<Vec<NodeMap>>,
-    /// Derivatives of the residuals by the numbers, by stage.
+    /// Explicit derivatives of the residuals by the model parameters, by stage.
     explicit: Vec<Vec<Block>>,
     residuals: Vec<Vec<Block>>,
     at: Vec<AtStage>,

@@ -8,7 +8,7 @@
 //!
 //! ```text
 //! Ω_d² q_d = f_d - G_dk y_k      z = Ω_d q_d,  y_k = F_k^½ η      (|z|², |η|² elastic energies, twice)
-//! X = [Ω_d⁻¹ G_dk F_k^½,  Ω_d⁻¹ f_d / √(f_k·F_k f_k + f_d·Ω_d⁻² f_d)]  of all loads side by side
+//! X = [Ω_d⁻¹ G_dk F_k^½,  Ω_d⁻¹ f_d / √(f_k·F_k f_k + f_d·Ω_d⁻² f_d)]  of all loads, as columns
 //! X = U Σ Vᵀ,  columns of U with σ² > LEAST:                        q_d = Ω_d⁻¹ U c
 //! ```
 //!

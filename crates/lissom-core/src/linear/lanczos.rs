@@ -91,7 +91,7 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
     }
 }
 
-/// Eigenvalues of the operator among the known vectors: 1/(λ - σ), coefficients and residuals, the largest first.
+/// Eigenvalues 1/(λ - σ) of the operator in the present basis, with coefficients and residuals, in descending order of magnitude.
 pub(super) fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
     let order = krylov.order();
     if order == 0 {
@@ -129,7 +129,7 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Fou
     search(model, solver, options, shift, below_shift)
 }
 
-/// Factorises at `shift` or, if an eigenvalue is there, beside it.
+/// Factorises at `shift` or, if an eigenvalue is there, close to it.
 fn factor_near(
     model: &LinearModel<'_>,
     solver: &mut RealShift<'_>,
@@ -319,7 +319,7 @@ fn missing_anywhere(model: &LinearModel<'_>, pairs: &[Pair], shift: f64) -> Coun
     }
 }
 
-/// Compares the number of modes found with the number of eigenvalues between shifts on both sides of them.
+/// Compares the number of modes found with the number of eigenvalues between shifts below and above them.
 fn missing(
     model: &LinearModel<'_>,
     pairs: &[Pair],
@@ -338,7 +338,7 @@ fn missing(
         };
     };
     let mut count = |side: f64| {
-        // Half way to the next eigenvalue, or well beyond the last one; elsewhere if a pivot vanishes there.
+        // Half way to the next eigenvalue, or well beyond the last one; at another fraction if a pivot vanishes there.
         [0.5, 0.4, 0.6, 0.3, 0.7].iter().find_map(|part| {
             let distance =
                 next.map_or((1.5 + part) * farthest, |next| farthest + part * (next.recip() - farthest));

@@ -156,7 +156,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         self.saddle.redundant().is_some()
     }
 
-    /// Factors of rows in SI that give the rows of the factored matrix.
+    /// Factors that convert rows in SI to the rows of the factored matrix.
     pub(super) fn row_factors(&self) -> impl Iterator<Item = f64> + '_ {
         let count = self.system.layout().coordinate_count();
         let of_rows = [self.scaled.dynamic_factor(), self.scaled.scale()];

@@ -101,7 +101,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     if rate_of(&state) == 0.0 {
         return Err(SteadyError::AtRest {});
     }
-    // Drives give parts without velocities theirs.
+    // Parts without given velocities receive those imposed by the drives.
     if rate_of(given) == 0.0
         && let Some(driven) = initial.least_deforming(system, given)
     {

@@ -311,7 +311,7 @@ impl Simulation {
     /// Sets the clock after a step that ended at a breakpoint, and recomputes accelerations across a jump.
     ///
     /// # Errors
-    /// If there are no consistent accelerations on one of the sides.
+    /// If there are no consistent accelerations before or after the jump.
     fn cross_breakpoint(&mut self, stop_time: &StopTime, longest: f64) -> Result<(), StepError> {
         if let Some(jump) = stop_time.jump {
             let aside = instants::TIME_TOLERANCE * longest;

@@ -33,7 +33,7 @@ diagnostics! {
     #[derive(Clone, Debug, PartialEq)]
     #[non_exhaustive]
     Failure JointSpaceError {
-        /// Their number is not that of the degrees of freedom.
+        /// The number of joint coordinates differs from that of the degrees of freedom.
         Number {
             /// Number of coordinates.
             coordinates: usize,
@@ -46,7 +46,7 @@ diagnostics! {
             advice: "Choose as many independent joint coordinates as `lissom check` reports degrees of freedom. Models with beams or free \
                      bodies have none.",
         }
-        /// One of them depends on the others, or is prescribed.
+        /// A joint coordinate depends on the others, or is prescribed.
         Dependent {
             /// Its name.
             coordinate: String,

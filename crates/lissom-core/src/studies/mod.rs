@@ -1,4 +1,4 @@
-//! Studies of a model beside its motion.
+//! Studies of a model other than its motion.
 
 pub mod factorization;
 pub mod joint_space;
