@@ -4,8 +4,8 @@
 //! of Radau IIA with two stages are of first order only [Hairer and Wanner 1996, VII.4]. Forces of stiff elements have the
 //! same error, because a constraint is the limit of a stiff spring. Both follow from the positions:
 //!
-//! Legend: τ = h/2 with the step h, or less with more than two stages, S saddle-point matrix of M + τ D + τ² K and the constraints G, f forces, a
-//! accelerations of the scheme, c second derivative of the forces along the motion with constant twists.
+//! Legend: τ = h/2 with the step h, or less with more than two stages, S saddle-point matrix of M + τ D + τ² K and the constraints
+//! G, f forces, a accelerations of the scheme, c second derivative of the forces along the motion with constant twists.
 //!
 //! ```text
 //! S (δ, ·) = (-τ² K v, -(G v + ∂g/∂t)),                S (z, ·) = (τ² K δ, -(G v + ∂g/∂t))            v̂ = v + z
