@@ -350,6 +350,7 @@ fn a_preload_is_the_force_at_the_start() {
         (format!("{AXIAL}stiffness = 200\npreload = 6\ndisplacement = 1"), "remove one of them"),
         (format!("{POINT}stiffness = 200\npreload = 6\nlimits = [-5, 5]"), "cannot be reached"),
         (format!("{POINT}preload = 6"), "needs a `stiffness`"),
+        (format!("{POINT}stiffness = 200\npreload = 600"), "a length without force of -2 m"),
     ] {
         let problem = refused(&model(&spring));
         assert!(problem.contains(words), "{problem}");
