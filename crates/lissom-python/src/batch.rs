@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use lissom::core::simulation::InputError;
 use lissom::core::errors::StepError;
 use lissom::core::interrupt;
+use lissom::core::simulation::InputError;
 use lissom::{Diagnose, Diagnostic, Prepared, Session, SessionSnapshot, with_code};
 use numpy::ndarray::ArrayViewD;
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLikeDyn, PyArrayMethods, PyReadonlyArray1};

@@ -2,8 +2,8 @@
 
 use std::fmt::Display;
 
-use lissom::core::simulation::InputError;
 use lissom::core::diagnostics::Value;
+use lissom::core::simulation::InputError;
 use lissom::sweep::{SweepError, SweepFolderError};
 use lissom::{CommandError, Diagnose, Diagnostic, FileError, FolderError, Report, SessionError};
 use pyo3::create_exception;
