@@ -20,7 +20,7 @@ use pulp::{Simd, WithSimd};
 use crate::kinematics::lanes::{
     Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for,
 };
-use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId, NodeMotion};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, MotionChange, NodeId, NodeMotion};
 use crate::schemes::MAX_STAGES;
 
 /// Parametrization of the increments.
@@ -302,6 +302,21 @@ fn stage_kinematics<R: Real>(
     let acceleration =
         tangent.times(curvature) + tangent.rate_times(rate, rate) - gained.lie_bracket(carried);
     Reached { change, frame, twist: carried + gained, acceleration }
+}
+
+/// Moves nodes and coordinates by `share` of displacements by row: nodes along body axes.
+pub(crate) fn displace(at: &mut Kinematics, layout: &Layout, rows: &[f64], share: f64) {
+    for (node, motion) in NodeId::enumerate(&mut at.nodes) {
+        let own = layout.rows_of_node(node);
+        let psi = Vector6::from_fn(|k, _| match own[k] {
+            LOCKED => 0.0,
+            row => share * rows[row as usize],
+        });
+        motion.frame = motion.frame * Motion::exponential(&psi);
+    }
+    for (coordinate, motion) in CoordinateId::enumerate(&mut at.coordinates) {
+        motion.value += share * rows[layout.row_of_coordinate(coordinate)];
+    }
 }
 
 /// Motion of one node that departs from extrapolation over `ahead` [s] by `place`, with these rate and curvature.

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use lissom_motion::{Motion, Vector3, Vector6, screw};
+use lissom_motion::{Vector3, Vector6, screw};
 use num_complex::Complex64;
 
 use super::mode::Mode;
 use super::model::LinearModel;
 use super::shapes::part_of;
-use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity};
+use crate::node_motion::displace;
 
 use crate::system::{Mass, Owner};
 
@@ -169,19 +170,8 @@ impl LinearModel<'_> {
 
     /// The state moved by `share` of displacements by row.
     fn displaced(&self, rows: &[f64], share: f64) -> Kinematics {
-        let layout = self.system.layout();
         let mut at = self.at.clone();
-        for (node, motion) in NodeId::enumerate(&mut at.nodes) {
-            let own = layout.rows_of_node(node);
-            let psi = Vector6::from_fn(|k, _| match own[k] {
-                LOCKED => 0.0,
-                row => share * rows[row as usize],
-            });
-            motion.frame = motion.frame * Motion::exponential(&psi);
-        }
-        for (coordinate, motion) in CoordinateId::enumerate(&mut at.coordinates) {
-            motion.value += share * rows[layout.row_of_coordinate(coordinate)];
-        }
+        displace(&mut at, self.system.layout(), rows, share);
         at
     }
 
