@@ -17,3 +17,9 @@ export const open = async (page, file) => {
   await page.goto(`file://${file}#still`);
   await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
 };
+
+/** Waits until the page has drawn what was asked of it: however long a picture takes. */
+export const settled = (page) =>
+  page.evaluate(async () => {
+    for (let pictures = 0; pictures < 3; pictures++) await new Promise((next) => requestAnimationFrame(next));
+  });

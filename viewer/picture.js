@@ -2,7 +2,7 @@
 
 import { resolve } from "node:path";
 
-import { launch, open } from "./browser.js";
+import { launch, open, settled } from "./browser.js";
 
 const [file, picture, time = "0", size = "1200x760", colour = "part"] = process.argv.slice(2);
 const [width, height] = size.split("x").map(Number);
@@ -16,6 +16,6 @@ await page.evaluate(
   },
   [Number(time), colour],
 );
-await page.waitForTimeout(500);
+await settled(page);
 await page.screenshot({ path: picture });
 await browser.close();

@@ -8,7 +8,7 @@ import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
-import { launch, open as openPage } from "../browser.js";
+import { launch, open as openPage, settled } from "../browser.js";
 import { colours } from "./colours.js";
 import { examples } from "./examples.js";
 import { live } from "./live.js";
@@ -117,7 +117,7 @@ const selects = async (page, part) => {
 const draws = async (page) => {
   const shot = async (share) => {
     await page.evaluate((share) => lissom.player.seek(lissom.player.start + share * (lissom.player.end - lissom.player.start)), share);
-    await page.waitForTimeout(250);
+    await settled(page);
     return page.evaluate(() => {
       const canvas = lissom.stage.renderer.domElement;
       const copy = Object.assign(document.createElement("canvas"), { width: 160, height: 100 });
@@ -236,7 +236,7 @@ const tests = {
     for (const key of ["t", "d", "o", "c", "1", "2", "3", "0", "End", "ArrowLeft", "Home", "+", "-", "l", "f"]) await page.keyboard.press(key);
     await page.selectOption("#shape", "ellipsoid");
     await page.selectOption("#magnify", "2");
-    await page.waitForTimeout(300);
+    await settled(page);
     assert.deepEqual(complaints(), []);
   },
   "bodies by the solids and files that a model gives": async (browser) => {
@@ -366,7 +366,7 @@ frames_per_second = 1000
       assert.equal(count[5], 9, "four energies of each");
     }
     await page.evaluate(() => lissom.player.seek(0.5));
-    await page.waitForTimeout(200);
+    await settled(page);
     assert.deepEqual(complaints(), []);
     await page.setInputFiles("#compare input", join(root, "README.md"));
     await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("cannot be compared"), null, { timeout: 60000 });
@@ -397,7 +397,7 @@ frames_per_second = 1000
     const out = view(join(folder, "frame.toml"));
     const { page, complaints } = await open(browser, join(out, "view.html"));
     await page.evaluate(() => lissom.player.seek(lissom.player.end));
-    await page.waitForTimeout(200);
+    await settled(page);
     const [last] = table(out).slice(-1);
     const told = Number((await page.locator("#clock").textContent()).replace("load factor ", ""));
     assert.ok(Math.abs(told - last.load_factor) < 1e-3 * Math.abs(last.load_factor), `${told} for ${last.load_factor}`);
@@ -535,6 +535,9 @@ for (const [name, test] of Object.entries(tests)) {
     } catch (error) {
       if (isLast) failures++;
       console.log(`${isLast ? "FAILED" : "again"}  ${name}\n${error.stack}`);
+    } finally {
+      // Pages that stay open go on drawing and slow the next test down.
+      for (const context of browser.contexts()) await context.close();
     }
   }
 }

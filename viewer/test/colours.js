@@ -3,6 +3,8 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 
+import { settled } from "../browser.js";
+
 /** Colour of the picture at a pixel of the page, and of the legend at a share of its bar. */
 const pixelsOf = async (page, spot, share) => {
   const shot = (await page.screenshot()).toString("base64");
@@ -46,12 +48,12 @@ export const colours = ({ view, open }) => ({
           const value = model.field.alongBeam(beam)(beam.places[beam.nodes.length >> 1]);
           return { spot: [left + x, top + y], share: (value - low) / (high - low) };
         });
-        await page.waitForTimeout(300);
+        await settled(page);
         const plain = await pixelsOf(page, spot, share);
         assert.ok(far(plain.part, plain.legend) < 12, `${name}, ${covered}: drawn ${plain.part}, legend ${plain.legend}`);
         // Selecting a part leaves its colours as they are.
         await page.evaluate(() => lissom.select(lissom.model.scene.beams[0].name));
-        await page.waitForTimeout(300);
+        await settled(page);
         const selected = await pixelsOf(page, spot, share);
         assert.deepEqual(selected.part, plain.part, `${name} of a selected part`);
         await page.evaluate(() => lissom.select(null));
