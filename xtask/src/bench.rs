@@ -244,7 +244,8 @@ fn scale(folder: &Path) -> Result<(), BenchError> {
         guides: Vec::new(),
     };
     let svg = figure
-        .svg()
+        .draw()
+        .and_then(|drawn| drawn.svg())
         .map_err(|error| BenchError::Failed { name: figure.name.clone(), message: error.to_string() })?;
     let path = folder.join("scale.svg");
     std::fs::write(&path, svg).map_err(file(path))

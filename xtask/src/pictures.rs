@@ -230,7 +230,12 @@ fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
     let path = "parameters.speed".to_owned();
     let request = CampbellRequest { path, from: 5.0, to: 200.0, values: 27, count: 4, rays: vec![1, 2, 3] };
     let found = campbell(&Model::from_text("rotor.toml", ROTOR), &[], &request)?;
-    Ok(found.figure("Overhung disc").svg().map_err(FolderError::from)?.into_bytes())
+    Ok(found
+        .figure("Overhung disc")
+        .draw()
+        .and_then(|drawn| drawn.svg())
+        .map_err(FolderError::from)?
+        .into_bytes())
 }
 
 /// Simulates a model into a folder of this name.

@@ -30,7 +30,7 @@ pub(crate) fn write(
     for outcome in outcomes {
         for figure in &outcome.figures {
             let path = plots.join(format!("{}-{}.svg", cases[outcome.index].name, figure.name));
-            let Ok(drawing) = figure.svg() else { continue };
+            let Ok(drawing) = figure.draw().and_then(|drawn| drawn.svg()) else { continue };
             std::fs::write(&path, drawing).map_err(VerifyError::file(&path))?;
         }
     }

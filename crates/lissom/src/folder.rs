@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
 use lissom_model::output::{
-    BodePlot, CampbellPlot, CsvWriter, CurveRecord, Figure, FigureError, Record, RecordError, Summary,
-    figures, figures_of_curves,
+    CsvWriter, CurveRecord, Figure, FigureError, Graphic, Record, RecordError, Summary, figures,
+    figures_of_curves,
 };
 use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
@@ -391,23 +391,15 @@ impl ResultFolder {
         files::write(&self.path.join(TELEMETRY), format!("{telemetry}\n").as_bytes())
     }
 
-    /// Draws a Bode plot, as SVG and as PNG.
+    /// Writes a graphic to a folder, as SVG and as PNG, and returns the paths of both.
     ///
     /// # Errors
     /// If it cannot be drawn or written.
-    pub fn write_bode_plot(&self, plot: &BodePlot) -> Result<(), FolderError> {
-        let path = |kind: &str| self.path.join(format!("{}.{kind}", plot.name));
-        files::write(&path("svg"), plot.svg()?.as_bytes())?;
-        Ok(files::write(&path("png"), &plot.png()?)?)
-    }
-
-    /// Draws a Campbell diagram, as SVG and as PNG.
-    ///
-    /// # Errors
-    /// If it cannot be drawn or written.
-    pub fn write_campbell_plot(&self, plot: &CampbellPlot) -> Result<(), FolderError> {
-        files::write(&self.path.join("campbell.svg"), plot.svg()?.as_bytes())?;
-        Ok(files::write(&self.path.join("campbell.png"), &plot.png()?)?)
+    pub fn write_graphic(folder: &Path, graphic: &Graphic) -> Result<[PathBuf; 2], FolderError> {
+        let paths = ["svg", "png"].map(|kind| folder.join(format!("{}.{kind}", graphic.name())));
+        files::write(&paths[0], graphic.svg()?.as_bytes())?;
+        files::write(&paths[1], &graphic.png()?)?;
+        Ok(paths)
     }
 
     /// Draws requested figures into a folder, as SVG and as PNG, and returns their paths.
@@ -418,10 +410,7 @@ impl ResultFolder {
         files::create_folder(folder)?;
         let mut written = Vec::new();
         for figure in figures {
-            let path = |kind: &str| folder.join(format!("{}.{kind}", figure.name));
-            files::write(&path("svg"), figure.svg()?.as_bytes())?;
-            files::write(&path("png"), &figure.png()?)?;
-            written.extend([path("svg"), path("png")]);
+            written.extend(Self::write_graphic(folder, &figure.draw()?)?);
         }
         Ok(written)
     }
@@ -433,14 +422,8 @@ impl ResultFolder {
     pub fn write_plots(&self, record: &CurveRecord, title: &str) -> Result<(), FolderError> {
         let mut first = Ok(());
         for figure in figures_of_curves(record, title) {
-            let svg = figure.svg().map_err(FolderError::from).and_then(|text| {
-                Ok(files::write(&self.path.join(format!("{}.svg", figure.name)), text.as_bytes())?)
-            });
-            let png = figure
-                .png()
-                .map_err(FolderError::from)
-                .and_then(|bytes| Ok(files::write(&self.path.join(format!("{}.png", figure.name)), &bytes)?));
-            first = first.and(svg).and(png);
+            let drawn = figure.draw().map_err(FolderError::from);
+            first = first.and(drawn.and_then(|drawn| Self::write_graphic(&self.path, &drawn)).map(drop));
         }
         first
     }

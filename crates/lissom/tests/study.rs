@@ -147,7 +147,7 @@ fn large_models_are_estimated_and_tables_say_so() {
         let bound = if row.step_size < 2e-4 { 1e6 } else { 1e7 };
         assert!(equilibrated < bound, "{equilibrated:e}");
     }
-    assert!(table.figure("").svg().is_ok());
+    assert!(table.figure("").draw().is_ok());
 }
 
 #[test]
@@ -232,7 +232,7 @@ fn schemes_converge_with_their_orders() {
     let figure = table.figure("");
     assert_eq!(figure.curves.len(), 3);
     assert!((figure.curves[0].1[2].0 - 200.0).abs() < 1e-9);
-    assert!(figure.svg().is_ok());
+    assert!(figure.draw().is_ok());
 }
 
 #[test]

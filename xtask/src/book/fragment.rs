@@ -33,7 +33,7 @@ impl Fragment {
 
     /// A drawing.
     pub(super) fn figure(&mut self, name: &str, caption: &str, figure: &LogFigure) -> Result<(), BookError> {
-        let drawing = figure.svg()?;
+        let drawing = figure.draw()?.svg()?;
         self.drawing(&format!("generated/{name}.svg"), caption, drawing);
         Ok(())
     }

@@ -25,7 +25,7 @@ pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
     fragment.drawing(
         "images/tip-crank.svg",
         "Displacements at mid-span of a beam that is lifted by a tip crank and buckles sideways",
-        figure.svg()?,
+        figure.draw()?.svg()?,
     );
     Ok(fragment)
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel};
+use lissom_drawing::{Axis, Chart, Curve, Panel};
 
-use super::FigureError;
+use super::{FigureError, Graphic};
 
 /// Transfer functions over one list of frequencies.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,23 +20,11 @@ pub struct BodePlot {
 }
 
 impl BodePlot {
-    /// The drawing as an SVG text.
+    /// Draws it.
     ///
     /// # Errors
     /// If there is nothing to draw.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        self.draw()?.svg().map_err(FigureError::of(&self.name))
-    }
-
-    /// The drawing as the bytes of a PNG file.
-    ///
-    /// # Errors
-    /// If there is nothing to draw.
-    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        self.draw()?.png().map_err(FigureError::of(&self.name))
-    }
-
-    fn draw(&self) -> Result<Drawing, FigureError> {
+    pub fn draw(&self) -> Result<Graphic, FigureError> {
         let (mut magnitudes, mut phases) = (Vec::new(), Vec::new());
         for (index, (name, of, angles)) in self.curves.iter().enumerate() {
             let curve = |values: &[f64]| Curve {
@@ -61,7 +49,7 @@ impl BodePlot {
             panel(Axis::logarithmic("magnitude [output per input]"), magnitudes),
             panel(Axis::new("phase [°]"), phases),
         ];
-        Ok(Chart { title: self.title.clone(), ..Chart::new(&self.name, panels) }.draw())
+        Ok(Chart { title: self.title.clone(), ..Chart::new(&self.name, panels) }.draw().into())
     }
 }
 
@@ -101,12 +89,12 @@ mod tests {
             frequencies,
             curves: vec![curve],
         };
-        let svg = plot.svg().unwrap();
+        let svg = plot.draw().unwrap().svg().unwrap();
         for words in ["Cantilever", "tip.u3 / push", "frequency [Hz]", "phase"] {
             assert!(svg.contains(words), "{words}");
         }
-        assert!(plot.png().unwrap().starts_with(b"\x89PNG"));
+        assert!(plot.draw().unwrap().png().unwrap().starts_with(b"\x89PNG"));
         let nothing = BodePlot { curves: vec![("a".to_owned(), vec![0.0; 3], vec![0.0; 3])], ..plot };
-        assert!(nothing.svg().is_err());
+        assert!(nothing.draw().is_err());
     }
 }

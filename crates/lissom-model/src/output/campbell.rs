@@ -1,8 +1,8 @@
 //! Campbell diagrams: frequencies over a parameter, with the multiples of the rotation.
 
-use lissom_drawing::{Axis, Chart, Curve, Drawing, Mark, Panel};
+use lissom_drawing::{Axis, Chart, Curve, Mark, Panel};
 
-use super::FigureError;
+use super::{FigureError, Graphic};
 
 /// Name of the figure, fit for a file.
 const NAME: &str = "campbell";
@@ -36,23 +36,11 @@ pub struct CampbellPlot {
 }
 
 impl CampbellPlot {
-    /// The drawing as an SVG text.
+    /// Draws it.
     ///
     /// # Errors
     /// If there is nothing to draw.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        self.draw()?.svg().map_err(FigureError::of(NAME))
-    }
-
-    /// The drawing as the bytes of a PNG file.
-    ///
-    /// # Errors
-    /// If there is nothing to draw.
-    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        self.draw()?.png().map_err(FigureError::of(NAME))
-    }
-
-    fn draw(&self) -> Result<Drawing, FigureError> {
+    pub fn draw(&self) -> Result<Graphic, FigureError> {
         let most = self.lines.iter().flat_map(|line| &line.points).map(|point| point.1).fold(0.0, f64::max);
         if most <= 0.0 {
             return Err(FigureError::new(NAME, "no mode has a frequency above zero"));
@@ -97,7 +85,7 @@ impl CampbellPlot {
         panels.extend(is_damped.then_some(below));
         let panel_height = if is_damped { 380.0 } else { 490.0 };
         let chart = Chart { panel_height, ..Chart::new(NAME, panels) };
-        Ok(Chart { title: self.title.clone(), ..chart }.draw())
+        Ok(Chart { title: self.title.clone(), ..chart }.draw().into())
     }
 }
 
@@ -130,7 +118,7 @@ mod tests {
             rays: vec![("1P".to_owned(), vec![(0.0, 0.0), (20.0, 20.0)])],
             crossings: vec![(11.0, 11.0)],
         };
-        let svg = plot.svg().unwrap();
+        let svg = plot.draw().unwrap().svg().unwrap();
         for words in
             ["Rotor", "parameters.speed", "1P", "frequency [Hz]", "1 forward", "2 backward", "crossing"]
         {
@@ -140,14 +128,18 @@ mod tests {
         assert!(!svg.contains("damping"));
         let mut damped = plot.clone();
         damped.lines[0].damping = vec![(0.0, 0.01), (20.0, 0.02)];
-        assert!(damped.svg().unwrap().contains("damping ratio [-]"));
-        let many = CampbellPlot { lines: vec![plot.lines[0].clone(); 20], ..plot.clone() }.svg().unwrap();
+        assert!(damped.draw().unwrap().svg().unwrap().contains("damping ratio [-]"));
+        let many = CampbellPlot { lines: vec![plot.lines[0].clone(); 20], ..plot.clone() }
+            .draw()
+            .unwrap()
+            .svg()
+            .unwrap();
         assert!(many.matches("<circle").count() >= 2 * 7, "lines after the seventh have marks");
-        assert!(plot.png().unwrap().starts_with(b"\x89PNG"));
+        assert!(plot.draw().unwrap().png().unwrap().starts_with(b"\x89PNG"));
         assert_eq!(below(&plot.rays[0].1, 15.0), [(0.0, 0.0), (15.0, 15.0)]);
         let flat = CampbellLine { points: vec![(0.0, 0.0), (20.0, 0.0)], ..CampbellLine::default() };
         let flat = CampbellPlot { lines: vec![flat], ..plot };
-        assert!(flat.svg().is_err());
-        assert!(CampbellPlot { lines: vec![CampbellLine::default()], ..flat }.svg().is_err());
+        assert!(flat.draw().is_err());
+        assert!(CampbellPlot { lines: vec![CampbellLine::default()], ..flat }.draw().is_err());
     }
 }

@@ -1,8 +1,8 @@
 //! Plots of studies: curves over logarithmic axes, with a mark at every point. Independent of the study.
 
-use lissom_drawing::{Axis, Chart, Curve, Drawing, Mark, Panel, Shade, palette};
+use lissom_drawing::{Axis, Chart, Curve, Mark, Panel, Shade, palette};
 
-use super::FigureError;
+use super::{FigureError, Graphic};
 
 /// Marks, so that curves that coincide in colour or on paper are still distinguished.
 const MARKS: [Mark; 4] = [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond];
@@ -41,23 +41,11 @@ fn coincide(a: &[(f64, f64)], b: &[(f64, f64)]) -> bool {
 }
 
 impl LogFigure {
-    /// The drawing as an SVG text.
+    /// Draws it.
     ///
     /// # Errors
     /// If there is nothing to draw.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        self.draw()?.svg().map_err(FigureError::of(&self.name))
-    }
-
-    /// The drawing as the bytes of a PNG file.
-    ///
-    /// # Errors
-    /// If there is nothing to draw.
-    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        self.draw()?.png().map_err(FigureError::of(&self.name))
-    }
-
-    fn draw(&self) -> Result<Drawing, FigureError> {
+    pub fn draw(&self) -> Result<Graphic, FigureError> {
         let usable = |value: f64| value > 0.0 && value.is_finite();
         let mut curves: Vec<Curve> = Vec::new();
         for (index, (name, points)) in self.curves.iter().enumerate() {
@@ -92,7 +80,7 @@ impl LogFigure {
         curves.splice(0..0, self.guides.iter().map(guide));
         let [x, y] = [&self.x_label, &self.y_label].map(|label| Axis::logarithmic(label));
         let chart = Chart::new(&self.name, vec![Panel { x, y, curves }]);
-        Ok(Chart { title: self.title.clone(), ..chart }.draw())
+        Ok(Chart { title: self.title.clone(), ..chart }.draw().into())
     }
 }
 
@@ -111,20 +99,24 @@ mod tests {
         let steep = (0..9).map(|k| (10.0_f64.powi(-k), 10.0_f64.powi(4 * k))).collect();
         let flat = (0..9).map(|k| (10.0_f64.powi(-k), 14.0)).collect();
         let figure = figure(vec![("none".to_owned(), steep), ("physical".to_owned(), flat)]);
-        let svg = figure.svg().unwrap();
+        let svg = figure.draw().unwrap().svg().unwrap();
         for words in ["Pendulum", "step size [s]", "condition number [-]", ">none<", ">physical<", "#d55e00"]
         {
             assert!(svg.contains(words), "{words}");
         }
-        assert!(figure.png().unwrap().starts_with(b"\x89PNG"));
+        assert!(figure.draw().unwrap().png().unwrap().starts_with(b"\x89PNG"));
     }
 
     #[test]
     fn numbers_without_logarithm_are_left_out() {
         let points = vec![(1.0, f64::INFINITY), (0.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0)];
-        assert!(figure(vec![("none".to_owned(), points.clone())]).svg().is_err());
+        assert!(figure(vec![("none".to_owned(), points.clone())]).draw().is_err());
         let one = vec![(1.0, 10.0)];
-        let svg = figure(vec![("none".to_owned(), points), ("unit".to_owned(), one)]).svg().unwrap();
+        let svg = figure(vec![("none".to_owned(), points), ("unit".to_owned(), one)])
+            .draw()
+            .unwrap()
+            .svg()
+            .unwrap();
         assert!(svg.contains(">unit<") && !svg.contains(">none<"));
     }
 
@@ -133,14 +125,14 @@ mod tests {
         let line =
             |factor: f64| (0..5).map(|k| (10.0_f64.powi(k), factor * 10.0_f64.powi(-k))).collect::<Vec<_>>();
         let dashed = |svg: &str| svg.matches("stroke-dasharray").count();
-        let of = |curves: Vec<(String, Vec<(f64, f64)>)>| figure(curves).svg().unwrap();
+        let of = |curves: Vec<(String, Vec<(f64, f64)>)>| figure(curves).draw().unwrap().svg().unwrap();
         let apart = of(vec![("a".to_owned(), line(1.0)), ("b".to_owned(), line(2.0))]);
         let equal = of(vec![("a".to_owned(), line(1.0)), ("b".to_owned(), line(1.01))]);
         assert_eq!(dashed(&apart), 0);
         assert!(dashed(&equal) > 0 && equal.contains("3.3"), "{equal}");
         let mut guided = figure(vec![("a".to_owned(), line(1.0))]);
         guided.guides = vec![("order 1".to_owned(), line(0.1))];
-        let svg = guided.svg().unwrap();
+        let svg = guided.draw().unwrap().svg().unwrap();
         assert!(svg.contains(">order 1<") && dashed(&svg) > 0);
     }
 }

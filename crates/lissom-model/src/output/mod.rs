@@ -23,11 +23,11 @@ pub use curves::{CurveError, Over, Plots, Source, plots};
 pub use lissom_drawing::{Align, Drawing, DrawingError, Shade, animation};
 pub use log_plot::LogFigure;
 pub use matrix_market::{full_matrix, sparse_matrix};
-pub use plot::{Figure, FigureError, figures, figures_of_curves};
+pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves};
 pub use record::{Record, RecordError};
 pub use spectrum::Spectrum;
 pub use summary::Summary;
-pub use sweep_plot::{SweepAxis, SweepPicture, SweepPlot};
+pub use sweep_plot::{SweepAxis, SweepPlot};
 
 use crate::channel_components::component_position;
 use crate::sweep::Fatigue;

@@ -1,9 +1,7 @@
 //! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by `lissom-drawing`.
 
 use lissom_core::diagnostics::Diagnose;
-use lissom_drawing::{
-    Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, DrawingError, Panel as ChartPanel, palette,
-};
+use lissom_drawing::{Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, Panel as ChartPanel, palette};
 
 use super::{Column, CurveRecord, Record};
 
@@ -31,10 +29,38 @@ impl FigureError {
     pub(super) fn new(figure: &str, reason: &str) -> Self {
         Self { figure: figure.to_owned(), reason: reason.to_owned() }
     }
+}
 
-    /// The figure of this name, which a drawing is not made of.
-    pub(super) fn of(figure: &str) -> impl Fn(DrawingError) -> Self {
-        move |error| Self { figure: figure.to_owned(), reason: error.to_string() }
+/// A drawn figure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Graphic(Drawing);
+
+impl From<Drawing> for Graphic {
+    fn from(drawing: Drawing) -> Self {
+        Self(drawing)
+    }
+}
+
+impl Graphic {
+    /// Name, fit for a file.
+    pub fn name(&self) -> &str {
+        &self.0.name
+    }
+
+    /// The text of an SVG file.
+    ///
+    /// # Errors
+    /// If it is empty.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        self.0.svg().map_err(|error| FigureError::new(self.name(), &error.to_string()))
+    }
+
+    /// The bytes of a PNG file.
+    ///
+    /// # Errors
+    /// If it is empty or too large.
+    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
+        self.0.png().map_err(|error| FigureError::new(self.name(), &error.to_string()))
     }
 }
 
@@ -212,28 +238,16 @@ impl Figure {
         Self { name: name.to_owned(), title: title.to_owned(), axis, panels }
     }
 
-    /// The drawing as an SVG text.
+    /// Draws it.
     ///
     /// # Errors
     /// If there is nothing to draw.
-    pub fn svg(&self) -> Result<String, FigureError> {
-        self.draw()?.svg().map_err(FigureError::of(&self.name))
-    }
-
-    /// The drawing as the bytes of a PNG file.
-    ///
-    /// # Errors
-    /// If there is nothing to draw.
-    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        self.draw()?.png().map_err(FigureError::of(&self.name))
-    }
-
-    fn draw(&self) -> Result<Drawing, FigureError> {
+    pub fn draw(&self) -> Result<Graphic, FigureError> {
         let panels: Vec<ChartPanel> = self.panels.iter().filter_map(|panel| panel.draw(&self.axis)).collect();
         if panels.is_empty() {
             return Err(FigureError::new(&self.name, "it has no finite values"));
         }
-        Ok(Chart { title: self.title.clone(), ..Chart::new(&self.name, panels) }.draw())
+        Ok(Chart { title: self.title.clone(), ..Chart::new(&self.name, panels) }.draw().into())
     }
 }
 
@@ -308,15 +322,15 @@ mod tests {
         let figures = figures(&record, "Tip crank");
         let names: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
         assert_eq!(names, ["mid_span", "root"]);
-        let svg = figures[0].svg().unwrap();
+        let svg = figures[0].draw().unwrap().svg().unwrap();
         for words in ["Tip crank: mid span", "displacement [m]", "time [s]", ">x<", ">z<", "#009e73"] {
             assert!(svg.contains(words), "{words}");
         }
-        let svg = figures[1].svg().unwrap();
+        let svg = figures[1].draw().unwrap().svg().unwrap();
         for words in ["Tip crank: root", "reaction [N]", "reaction [N m]"] {
             assert!(svg.contains(words), "{words}");
         }
-        assert!(figures[1].png().unwrap().starts_with(b"\x89PNG"));
+        assert!(figures[1].draw().unwrap().png().unwrap().starts_with(b"\x89PNG"));
     }
 
     #[test]
@@ -368,13 +382,17 @@ mod tests {
     #[test]
     fn constants_gaps_and_nothing_are_drawn_or_refused() {
         let zero = record(10, |_| vec![0.0; 3], &displacement());
-        assert!(figures(&zero, "").iter().all(|figure| figure.png().is_ok() && figure.svg().is_ok()));
+        assert!(
+            figures(&zero, "")
+                .iter()
+                .all(|figure| figure.draw().unwrap().png().is_ok() && figure.draw().unwrap().svg().is_ok())
+        );
         let huge = record(10, |t| vec![1e300 * t, -1e300, f64::NAN], &displacement());
-        assert!(figures(&huge, "").iter().all(|figure| figure.png().is_ok()));
+        assert!(figures(&huge, "").iter().all(|figure| figure.draw().unwrap().png().is_ok()));
         let one = record(1, |_| vec![1.0; 3], &displacement());
-        assert!(figures(&one, "").iter().all(|figure| figure.png().is_ok()));
+        assert!(figures(&one, "").iter().all(|figure| figure.draw().unwrap().png().is_ok()));
         let nothing = record(10, |_| vec![f64::NAN; 3], &displacement());
-        assert!(figures(&nothing, "")[0].svg().is_err());
+        assert!(figures(&nothing, "")[0].draw().is_err());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 
-use super::FigureError;
+use super::{FigureError, Graphic};
 
 /// Most members that are drawn, evenly chosen.
 const MAX_MEMBERS: usize = 2000;
@@ -62,7 +62,7 @@ impl SweepPlot {
     ///
     /// # Errors
     /// If there are no members to draw.
-    pub fn responses(&self) -> Result<SweepPicture, FigureError> {
+    pub fn responses(&self) -> Result<Graphic, FigureError> {
         let members = self.members("responses")?;
         let collected = &self.collected[..self.collected.len().min(MAX_PANELS)];
         let varied = &self.varied[..self.varied.len().min(MAX_PANELS)];
@@ -94,14 +94,14 @@ impl SweepPlot {
             panel_height: PANEL.1,
             ..Chart::new("responses", panels)
         };
-        SweepPicture::of(chart.draw())
+        Ok(chart.draw().into())
     }
 
     /// All members as lines across one axis per column.
     ///
     /// # Errors
     /// If there are no members to draw.
-    pub fn parallel_coordinates(&self) -> Result<SweepPicture, FigureError> {
+    pub fn parallel_coordinates(&self) -> Result<Graphic, FigureError> {
         let members = self.members("parallel-coordinates")?;
         let axes: Vec<&SweepAxis> = self.varied.iter().chain(&self.collected).collect();
         let width = PARALLEL.0 * (axes.len() as f64).max(3.0);
@@ -129,7 +129,7 @@ impl SweepPlot {
             drawing.words([across(index), top - 7.0], &short(high), 11, Align::Middle, [0x33; 3]);
             drawing.words([across(index), bottom + 16.0], &short(low), 11, Align::Middle, [0x33; 3]);
         }
-        SweepPicture::of(drawing)
+        Ok(drawing.into())
     }
 
     /// The members that are drawn.
@@ -184,32 +184,6 @@ fn short(number: f64) -> String {
     lissom_core::number::written(number, 4)
 }
 
-/// A picture of a sweep.
-pub struct SweepPicture {
-    drawing: Drawing,
-    svg: String,
-}
-
-impl SweepPicture {
-    fn of(drawing: Drawing) -> Result<Self, FigureError> {
-        let svg = drawing.svg().map_err(FigureError::of(&drawing.name))?;
-        Ok(Self { drawing, svg })
-    }
-
-    /// The drawing as an SVG text.
-    pub fn svg(&self) -> String {
-        self.svg.clone()
-    }
-
-    /// The drawing as the bytes of a PNG file.
-    ///
-    /// # Errors
-    /// If it is too large.
-    pub fn png(self) -> Result<Vec<u8>, FigureError> {
-        self.drawing.png().map_err(FigureError::of(&self.drawing.name))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -225,18 +199,18 @@ mod tests {
             varied: vec![axis("mass", &[1.0, 2.0, 3.0]), axis("same", &[5.0; 3])],
             collected: vec![axis("swing", &[0.1, 0.4, 0.9])],
         };
-        let svg = plot.responses().unwrap().svg();
+        let svg = plot.responses().unwrap().svg().unwrap();
         assert_eq!(svg.matches("<circle").count(), 6);
         for words in ["Pendulum: 3 members", "mass", "swing"] {
             assert!(svg.contains(words), "{words}");
         }
-        let svg = plot.parallel_coordinates().unwrap().svg();
+        let svg = plot.parallel_coordinates().unwrap().svg().unwrap();
         assert!(svg.contains("swing") && svg.contains("same"));
         assert!(plot.parallel_coordinates().unwrap().png().unwrap().starts_with(b"\x89PNG"));
         for axis in plot.varied.iter_mut().chain(&mut plot.collected) {
             axis.values = (0..5000).map(f64::from).collect();
         }
-        assert!(plot.responses().unwrap().svg().contains("2000 of 5000 members"));
+        assert!(plot.responses().unwrap().svg().unwrap().contains("2000 of 5000 members"));
         plot.varied[0].values.clear();
         assert!(plot.responses().is_err());
     }
@@ -266,7 +240,7 @@ mod tests {
             ],
             collected: vec![axis("swing", &[0.9, 0.4, 0.1])],
         };
-        let svg = plot.parallel_coordinates().unwrap().svg();
+        let svg = plot.parallel_coordinates().unwrap().svg().unwrap();
         let (top, middle, bottom) = (76.0, 250.0, 424.0);
         let [first, second, third] = [110.0, 330.0, 550.0];
         // Of 0.1 to 0.9 there are three eighths below 0.4.
@@ -306,7 +280,7 @@ mod tests {
             varied: vec![axis("mass", &[1.0, 2.0, 3.0])],
             collected: vec![axis("swing", &[0.0, f64::NAN, 4.0])],
         };
-        let found = lines(&plot.parallel_coordinates().unwrap().svg(), "1");
+        let found = lines(&plot.parallel_coordinates().unwrap().svg().unwrap(), "1");
         assert_eq!(found, [[[110.0, 424.0], [330.0, 424.0]], [[110.0, 76.0], [330.0, 76.0]]]);
     }
 

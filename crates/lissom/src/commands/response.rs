@@ -10,7 +10,7 @@ use lissom::summary;
 use super::linearization::{StateArgument, answered};
 use super::model_arguments::ModelArguments;
 use super::outcome::{Exit, Failure, show_warnings, warn};
-use super::results::{folder_for, unwritable};
+use super::results::{draw, folder_for, unwritable};
 use crate::terminal;
 use lissom_core::number::{Written, duration};
 
@@ -81,7 +81,7 @@ impl Response {
         })?;
         let heading = document.title.as_deref().unwrap_or(model.name());
         folder.write_table("response.csv", &found.csv()).map_err(unwritable)?;
-        folder.write_bode_plot(&found.figure(heading)).map_err(unwritable)?;
+        draw(&folder, found.figure(heading).draw())?;
         let summary = found.summary(model.name(), &self.model.set, &document);
         folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {

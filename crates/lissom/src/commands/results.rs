@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 
 use lissom::{Diagnose, FolderError, ResultFolder, RunError};
-use lissom_model::output::Summary;
+use lissom_model::output::{FigureError, Graphic, Summary};
 
 use super::outcome::{Exit, Failure};
 
@@ -27,6 +27,12 @@ pub(super) fn folder_for<T, E: Diagnose + Display>(
             Err(Failure::new(Exit::Failed, &error))
         }
     }
+}
+
+/// Draws a figure into a folder, as SVG and as PNG.
+pub(super) fn draw(folder: &ResultFolder, figure: Result<Graphic, FigureError>) -> Result<(), Failure> {
+    let drawn = figure.map_err(FolderError::from);
+    drawn.and_then(|drawn| ResultFolder::write_graphic(folder.path(), &drawn)).map(drop).map_err(unwritable)
 }
 
 /// An error while results were written to an open file.

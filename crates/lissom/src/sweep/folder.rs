@@ -12,7 +12,7 @@ use lissom_model::output::{Summary, SweepPlot};
 
 use super::table::{write_parquet, write_table};
 use super::{MemberOutcome, Sweep};
-use crate::folder::FolderError;
+use crate::folder::{FolderError, ResultFolder};
 
 /// Name of the record of members.
 const MEMBERS: &str = "members.jsonl";
@@ -180,9 +180,8 @@ impl SweepFolder {
     /// # Errors
     /// If a picture cannot be drawn or written.
     pub fn write_plots(&self, plot: &SweepPlot) -> Result<(), FolderError> {
-        for (name, picture) in PICTURES.iter().zip([plot.responses()?, plot.parallel_coordinates()?]) {
-            files::write(&self.path.join(format!("{name}.svg")), picture.svg().as_bytes())?;
-            files::write(&self.path.join(format!("{name}.png")), &picture.png()?)?;
+        for picture in [plot.responses()?, plot.parallel_coordinates()?] {
+            ResultFolder::write_graphic(&self.path, &picture)?;
         }
         Ok(())
     }

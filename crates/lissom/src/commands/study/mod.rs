@@ -97,7 +97,7 @@ fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
 
 /// Draws the plot beside the table. A failure to draw is a warning, because the table is written.
 fn draw(figure: &LogFigure, table: &Path) -> Result<String, Failure> {
-    let drawn = figure.svg().and_then(|svg| Ok((svg, figure.png()?)));
+    let drawn = figure.draw().and_then(|drawn| Ok((drawn.svg()?, drawn.png()?)));
     let (svg, png) = match drawn {
         Ok(drawn) => drawn,
         Err(error) => {
