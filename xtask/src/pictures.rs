@@ -4,7 +4,7 @@ use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use lissom::campbell::{CampbellError, CampbellRequest, campbell};
+use lissom::campbell::{CampbellError, CampbellRequest, Variation, campbell};
 use lissom::motion::{Motion, MotionRecorder};
 use lissom::picture::{Picture, PictureError, View, instants};
 use lissom::{FileError, FolderError, Model, ResultFolder};
@@ -227,15 +227,10 @@ fn joints() -> Result<Vec<u8>, PicturesError> {
 
 /// The diagram of the overhung disc, as the bytes of an SVG file.
 fn campbell_diagram() -> Result<Vec<u8>, PicturesError> {
-    let path = "parameters.speed".to_owned();
-    let request = CampbellRequest { path, from: 5.0, to: 200.0, values: 27, count: 4, rays: vec![1, 2, 3] };
+    let vary = Variation { path: "parameters.speed".to_owned(), from: 5.0, to: 200.0, values: 27 };
+    let request = CampbellRequest { vary, count: 4, rays: vec![1, 2, 3] };
     let found = campbell(&Model::from_text("rotor.toml", ROTOR), &[], &request)?;
-    Ok(found
-        .figure("Overhung disc")
-        .draw()
-        .and_then(|drawn| drawn.svg())
-        .map_err(FolderError::from)?
-        .into_bytes())
+    Ok(found.diagram("Overhung disc").and_then(|drawn| drawn.svg()).map_err(FolderError::from)?.into_bytes())
 }
 
 /// Simulates a model into a folder of this name.

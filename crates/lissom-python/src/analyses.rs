@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
+use lissom::analysis::ANALYSES;
 use lissom::buckling::BucklingRunError;
-use lissom::campbell::{CampbellError, CampbellRequest};
 use lissom::gradient::{GradientError, Target};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
@@ -12,7 +12,7 @@ use lissom::response::{FrequencyError, ResponseRequest};
 use lissom::{AnalysisWarning, Document, Record, Session, Summary, with_code};
 use pyo3::prelude::*;
 
-use crate::errors::{SolutionError, of_report, question, refused, solution};
+use crate::errors::{SolutionError, of_analysis, of_report, question, refused, solution};
 use crate::model::NativeModel;
 use crate::results::{Parts, json, parts};
 use crate::watch::{Watch, interruptible};
@@ -143,32 +143,16 @@ pub(crate) fn gradient(
     })
 }
 
-/// Results of `lissom campbell`, without its pictures.
+/// Results of the analysis called `name`, for its request as a TOML value.
 #[pyfunction]
-pub(crate) fn campbell(
-    model: &NativeModel,
-    py: Python<'_>,
-    path: String,
-    range: (f64, f64, usize),
-    count: usize,
-    rays: Vec<u32>,
-) -> PyResult<Files> {
-    let (from, to, values) = range;
-    let request = CampbellRequest { path, from, to, values, count, rays };
+pub(crate) fn analyse(model: &NativeModel, py: Python<'_>, name: &str, request: String) -> PyResult<Files> {
+    let known = ANALYSES.iter().find(|analysis| analysis.name == name);
+    let analysis = known.ok_or_else(|| question(format!("there is no analysis `{name}`")))?;
     let model = model.clone();
     interruptible(py, move || {
-        let found = lissom::campbell::campbell(&model.model, &model.overrides, &request).map_err(
-            |error| match error {
-                CampbellError::Model(report) => of_report(&report),
-                other => {
-                    let is_of_question =
-                        matches!(other, CampbellError::Range { .. } | CampbellError::Unlike(_));
-                    refused(is_of_question, &other)
-                }
-            },
-        )?;
-        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
-        Ok(files(vec![("campbell.csv", found.csv())], &summary, &found.warnings))
+        let found = (analysis.compute)(&model.model, &model.overrides, &request);
+        let found = found.map_err(|error| of_analysis(&*error))?;
+        Ok((found.tables, json(&found.summary), found.warnings))
     })
 }
 

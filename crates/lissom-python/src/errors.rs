@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 
+use lissom::analysis::{AnalysisError, Origin};
 use lissom::core::diagnostics::Value;
 use lissom::core::simulation::InputError;
 use lissom::sweep::{SweepError, SweepFolderError};
@@ -92,12 +93,12 @@ pub(crate) fn value_error(error: &(impl Diagnose + Display)) -> PyErr {
 }
 
 /// A request that is invalid for a model.
-fn request(error: &(impl Diagnose + Display)) -> PyErr {
+fn request(error: &(impl Diagnose + Display + ?Sized)) -> PyErr {
     with(ModelError::new_err(error.to_string()), &error.diagnostic())
 }
 
 /// A model without a solution.
-pub(crate) fn solution(error: &(impl Diagnose + Display)) -> PyErr {
+pub(crate) fn solution(error: &(impl Diagnose + Display + ?Sized)) -> PyErr {
     with(SolutionError::new_err(error.to_string()), &error.diagnostic())
 }
 
@@ -129,6 +130,15 @@ pub(crate) fn of_report(report: &Report) -> PyErr {
         value.setattr("problems", PyTuple::new(py, read.try_iter()?.collect::<PyResult<Vec<_>>>()?)?)
     });
     result.err().unwrap_or_else(|| with(error, &report.diagnostic()))
+}
+
+/// An analysis without a result.
+pub(crate) fn of_analysis(error: &dyn AnalysisError) -> PyErr {
+    match error.origin() {
+        Origin::Model(report) => of_report(report),
+        Origin::Request => request(error),
+        Origin::Computation => solution(error),
+    }
 }
 
 /// A session that cannot start.

@@ -2,13 +2,14 @@
 
 use lissom_core::diagnostics::Entry;
 
-use crate::{analysis_warning, failures, gradient};
+use crate::{analysis_warning, campbell, failures, gradient};
 
 /// All codes of warnings and failures, with their meaning.
 pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
     let of_core = lissom_core::catalogue::entries();
     let of_model = lissom_model::failures::entries();
     of_core
+        .chain(campbell::ENTRIES)
         .chain(gradient::ENTRIES)
         .chain(analysis_warning::ENTRIES)
         .chain(of_model)

@@ -8,7 +8,6 @@ use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity};
 
 use crate::buckling::BucklingRunError;
 use crate::builder::ForeignId;
-use crate::campbell::CampbellError;
 use crate::checkpoint::CheckpointError;
 use crate::command_error::CommandError;
 use crate::export::ExportError;
@@ -291,26 +290,6 @@ catalogued! {
         Path { 0 => error } => error.diagnostic(),
         Linear { 0 => error } => error.diagnostic(),
         Buckling { 0 => error } => error.diagnostic(),
-    }
-
-    Failure CampbellError {
-        Range { path => path, from => from, to => to } => "campbell-range" {
-            cause: "`{path}` varies from {from} to {to}",
-            remedy: "both must be finite, and different",
-            meaning: "The range of the varied number of a Campbell diagram is empty or not finite.",
-            advice: "Specify two different finite numbers.",
-        }
-        Unlike { 0 => path } => "campbell-unknowns" {
-            cause: "a change of `{path}` changes the unknowns of the model, so modes cannot be tracked",
-            remedy: "vary a number that changes neither parts nor elements",
-            meaning: "Modes are tracked by their shapes, which requires the same unknowns for all values of the varied number.",
-            advice: "Vary a number that changes neither parts nor elements.",
-        }
-    } wraps {
-        Model { 0 => report } => report.diagnostic(),
-        Modes { path => path, value => value, error => error } => {
-            error.diagnostic().within(&format!("at `{path}` = {value}"))
-        },
     }
 
     Failure GradientError {

@@ -116,6 +116,7 @@ pub mod buckling;
 pub mod builder;
 mod operating_point;
 
+pub mod analysis;
 mod analysis_warning;
 pub mod campbell;
 mod catalogue;

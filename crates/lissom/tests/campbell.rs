@@ -4,11 +4,15 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use lissom::Model;
-use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell};
+use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, Variation, campbell};
 use lissom::modes::{ModeRequest, ModesError, OperatingPoint, modes};
 
 fn request(path: &str, from: f64, to: f64, values: usize, count: usize, rays: &[u32]) -> CampbellRequest {
-    CampbellRequest { path: path.to_owned(), from, to, values, count, rays: rays.to_vec() }
+    CampbellRequest {
+        vary: Variation { path: path.to_owned(), from, to, values },
+        count,
+        rays: rays.to_vec(),
+    }
 }
 
 fn find(text: &str, request: &CampbellRequest) -> CampbellReport {

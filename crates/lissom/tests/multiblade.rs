@@ -190,14 +190,7 @@ fn modes_of_two_blades_are_left_out_with_the_reason() {
 
 #[test]
 fn a_diagram_has_the_frequencies_at_rest() {
-    let ask = CampbellRequest {
-        path: "parameters.speed".to_owned(),
-        from: 2.0,
-        to: 12.0,
-        values: 6,
-        count: 8,
-        rays: vec![1],
-    };
+    let ask = CampbellRequest { vary: "parameters.speed=2:12:6".parse().unwrap(), count: 8, rays: vec![1] };
     let found = campbell(&Model::from_text("model.toml", &rotor(3, 2.0)), &[], &ask)
         .unwrap_or_else(|error| panic!("{error}"));
     for point in &found.points {

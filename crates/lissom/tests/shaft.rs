@@ -3,11 +3,14 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
-use lissom::campbell::{CampbellReport, CampbellRequest, campbell};
+use lissom::campbell::{CampbellReport, CampbellRequest, Variation, campbell};
 
 fn find(text: &str, (from, to): (f64, f64), values: usize) -> CampbellReport {
-    let request =
-        CampbellRequest { path: "parameters.speed".to_owned(), from, to, values, count: 8, rays: vec![1] };
+    let request = CampbellRequest {
+        vary: Variation { path: "parameters.speed".to_owned(), from, to, values },
+        count: 8,
+        rays: vec![1],
+    };
     campbell(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
 }
 

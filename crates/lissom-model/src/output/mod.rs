@@ -1,7 +1,6 @@
 //! Output of results: columns of numbers over time, to tables, summaries and plots. Independent of mechanics.
 
 mod bode;
-mod campbell;
 mod csv;
 mod curve_record;
 mod curves;
@@ -16,11 +15,10 @@ mod sweep_plot;
 use std::io;
 
 pub use bode::BodePlot;
-pub use campbell::{CampbellLine, CampbellPlot};
 pub use csv::{CsvWriter, number_text, quoted};
 pub use curve_record::CurveRecord;
 pub use curves::{CurveError, Over, Plots, Source, plots};
-pub use lissom_drawing::{Align, Drawing, DrawingError, Shade, animation};
+pub use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, DrawingError, Mark, Panel, Shade, animation};
 pub use log_plot::LogFigure;
 pub use matrix_market::{full_matrix, sparse_matrix};
 pub use plot::{Figure, FigureError, Graphic, figures, figures_of_curves};

@@ -26,7 +26,7 @@ pub struct FigureError {
 
 impl FigureError {
     /// The figure of this name, and why it cannot be drawn.
-    pub(super) fn new(figure: &str, reason: &str) -> Self {
+    pub fn new(figure: &str, reason: &str) -> Self {
         Self { figure: figure.to_owned(), reason: reason.to_owned() }
     }
 }

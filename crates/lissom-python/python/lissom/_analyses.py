@@ -153,9 +153,17 @@ class Campbell(_Found):
 
     def plot(self) -> Any:
         """The diagram as a `matplotlib.figure.Figure`."""
-        from ._plots import campbell_figure
+        from ._plots import figure_of
 
-        return campbell_figure(self)
+        figure, (ax,) = figure_of(1, height=4.4)
+        for number in range(1, self.summary["lines"] + 1):
+            ax.plot(*self.line(number), marker=".", markersize=3)
+        for crossing in self.critical_speeds:
+            ax.plot(crossing["value"], crossing["multiple"] * crossing["rotation"], "kx")
+        ax.set_xlabel(self.summary["vary"])
+        ax.set_ylabel("frequency [Hz]")
+        ax.grid(True, alpha=0.3)
+        return figure
 
     def __repr__(self) -> str:
         return f"<lissom.Campbell: {self.summary['lines']} lines over {self.summary['values']} values of {self.summary['vary']}>"

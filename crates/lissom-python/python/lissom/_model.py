@@ -18,6 +18,7 @@ from ._driven import InputFunction, driven
 from ._linear import LinearModel, linear_model
 from ._lissom import Batch, NativeModel, Simulation
 from ._result import Result
+from ._tables import Files
 from .entries._entry import written
 from .entries._model_tables import ORDER, ModelTables
 
@@ -279,10 +280,9 @@ class Model(ModelTables):
             count: how many modes, the lowest first.
             rays: multiples of the rotation whose crossings are critical speeds.
         """
-        asked = (float(start), float(end), _at_least(2, values, "values") or 2)
-        multiples = [_at_least(1, ray, "rays") or 1 for ray in rays]
-        files = _lissom.campbell(self._native, path, asked, _at_least(1, count, "count") or 1, multiples)
-        return self._told(Campbell(files))
+        vary = {"path": path, "from": float(start), "to": float(end), "values": _at_least(2, values, "values")}
+        multiples = [_at_least(1, ray, "rays") for ray in rays]
+        return self._told(Campbell(self._analysed("campbell", vary=vary, count=_at_least(1, count, "count"), rays=multiples)))
 
     def response(
         self,
@@ -318,6 +318,11 @@ class Model(ModelTables):
             about: the state, as for `modes`.
         """
         return self._told(linear_model(_lissom.linearize(self._native, _names(inputs), _names(outputs), _about(about))))
+
+    def _analysed(self, name: str, **request: Any) -> Files:
+        """The files of an analysis; values that are None are those of the program."""
+        given = {key: of for key, of in request.items() if of is not None}
+        return _lissom.analyse(self._native, name, _toml.value(given))
 
     def _told(self, found: Told) -> Told:
         for words in found.warnings:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from ._analyses import Campbell, Response
+    from ._analyses import Response
     from ._result import Result
     from ._sweep import SweepTable
 
 
-def _figure(rows: int, width: float = 8.0, height: float = 2.6) -> tuple[Any, Any]:
+def figure_of(rows: int, width: float = 8.0, height: float = 2.6) -> tuple[Any, Any]:
     try:
         import matplotlib.pyplot as pyplot
     except ImportError:
@@ -37,7 +37,7 @@ def result_figure(result: Result, names: Sequence[str], label: str) -> Any:
             chosen.append((name, [result._name(name)]))
     if not chosen:
         raise ValueError("there is nothing to plot: the model records no outputs")
-    figure, axes = _figure(len(chosen))
+    figure, axes = figure_of(len(chosen))
     for ax, (group, columns) in zip(axes, chosen):
         for column in columns:
             ax.plot(result.time, result[column], label=column.rsplit(".", 1)[-1])
@@ -55,7 +55,7 @@ def result_figure(result: Result, names: Sequence[str], label: str) -> Any:
 
 def bode_figure(response: Response) -> Any:
     """Magnitudes and phases over frequency."""
-    figure, (above, below) = _figure(2)
+    figure, (above, below) = figure_of(2)
     for name in response:
         amplitudes = response[name]
         unit = response.units[name]
@@ -67,20 +67,6 @@ def bode_figure(response: Response) -> Any:
     above.legend(fontsize="small")
     for ax in (above, below):
         ax.grid(True, which="both", alpha=0.3)
-    return figure
-
-
-def campbell_figure(campbell: Campbell) -> Any:
-    """Frequencies over the parameter, and where they meet multiples of the rotation."""
-    figure, (ax,) = _figure(1, height=4.4)
-    for number in range(1, campbell.summary["lines"] + 1):
-        values, frequencies = campbell.line(number)
-        ax.plot(values, frequencies, marker=".", markersize=3)
-    for crossing in campbell.critical_speeds:
-        ax.plot(crossing["value"], crossing["multiple"] * crossing["rotation"], "kx")
-    ax.set_xlabel(campbell.summary["vary"])
-    ax.set_ylabel("frequency [Hz]")
-    ax.grid(True, alpha=0.3)
     return figure
 
 
@@ -128,7 +114,7 @@ def sweep_figure(table: SweepTable) -> Any:
 def parallel_figure(table: SweepTable) -> Any:
     """A line per member across one axis per column, each from its minimum to its maximum."""
     columns = _solved(table)
-    figure, (ax,) = _figure(1, width=max(6.0, 1.6 * len(columns)), height=4.0)
+    figure, (ax,) = figure_of(1, width=max(6.0, 1.6 * len(columns)), height=4.0)
     heights = []
     for number, (name, (values, words)) in enumerate(columns.items()):
         low, high = float(values.min()), float(values.max())

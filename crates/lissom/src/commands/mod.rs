@@ -1,7 +1,7 @@
 //! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
 
+mod analysis;
 mod buckling;
-mod campbell;
 mod check;
 mod completions;
 mod explain;
@@ -34,7 +34,9 @@ mod view;
 
 use std::process::ExitCode;
 
+use analysis::AnalysisCommand;
 use clap::{Parser, Subcommand};
+use lissom::campbell::CampbellRequest;
 
 use crate::terminal;
 
@@ -112,7 +114,7 @@ enum Command {
     Modes(modes::Modes),
     Buckling(buckling::Buckling),
     Gradient(gradient::Gradient),
-    Campbell(campbell::Campbell),
+    Campbell(AnalysisCommand<CampbellRequest>),
     Response(response::Response),
     Linearize(linearize::Linearize),
     Reduce(reduce::Reduce),

@@ -2,7 +2,6 @@
 //!
 //! The page itself is bundled from `viewer/`; here the results are inserted.
 
-mod campbell;
 pub(crate) mod modes;
 mod packed;
 
@@ -12,6 +11,7 @@ use lissom_model::scene::Scene;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::campbell::page as campbell;
 use crate::diagnostic::facts;
 use crate::motion::{Motion, MotionError};
 

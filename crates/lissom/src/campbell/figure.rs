@@ -1,8 +1,6 @@
 //! Campbell diagrams: frequencies over a parameter, with the multiples of the rotation.
 
-use lissom_drawing::{Axis, Chart, Curve, Mark, Panel};
-
-use super::{FigureError, Graphic};
+use lissom_model::output::{Axis, Chart, Curve, FigureError, Graphic, Mark, Panel};
 
 /// Name of the figure, fit for a file.
 const NAME: &str = "campbell";
@@ -11,28 +9,28 @@ const UNDAMPED: f64 = 1e-9;
 
 /// Modes of similar shape.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct CampbellLine {
+pub(super) struct CampbellLine {
     /// Values and frequencies [Hz].
-    pub points: Vec<(f64, f64)>,
+    pub(super) points: Vec<(f64, f64)>,
     /// Values and damping ratios.
-    pub damping: Vec<(f64, f64)>,
+    pub(super) damping: Vec<(f64, f64)>,
     /// Word for its whirl, such as `forward`.
-    pub whirl: &'static str,
+    pub(super) whirl: &'static str,
 }
 
 /// Lines of frequencies and rays.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct CampbellPlot {
+pub(super) struct CampbellPlot {
     /// Above the drawing.
-    pub title: String,
+    pub(super) title: String,
     /// Varied path, with its unit if it is known.
-    pub x_label: String,
+    pub(super) x_label: String,
     /// The lines, by number. Those of backward whirl are dashed.
-    pub lines: Vec<CampbellLine>,
+    pub(super) lines: Vec<CampbellLine>,
     /// Name, values and frequencies [Hz] of each multiple of the rotation.
-    pub rays: Vec<(String, Vec<(f64, f64)>)>,
+    pub(super) rays: Vec<(String, Vec<(f64, f64)>)>,
     /// Values and frequencies [Hz] at which lines meet rays.
-    pub crossings: Vec<(f64, f64)>,
+    pub(super) crossings: Vec<(f64, f64)>,
 }
 
 impl CampbellPlot {
@@ -40,7 +38,7 @@ impl CampbellPlot {
     ///
     /// # Errors
     /// If there is nothing to draw.
-    pub fn draw(&self) -> Result<Graphic, FigureError> {
+    pub(super) fn draw(&self) -> Result<Graphic, FigureError> {
         let most = self.lines.iter().flat_map(|line| &line.points).map(|point| point.1).fold(0.0, f64::max);
         if most <= 0.0 {
             return Err(FigureError::new(NAME, "no mode has a frequency above zero"));

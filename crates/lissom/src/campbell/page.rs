@@ -3,11 +3,9 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::campbell::common_whirl;
-
 /// Frequencies over a parameter.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub(super) struct Diagram {
+pub(crate) struct Diagram {
     /// Path of the number that is varied.
     vary: Value,
     unit: Value,
@@ -37,7 +35,7 @@ struct Line {
 
 impl Diagram {
     /// A short text about it.
-    pub(super) fn facts(&self) -> String {
+    pub(crate) fn facts(&self) -> String {
         let count = self.lines.iter().map(|line| line.values.len()).max().unwrap_or_default();
         let path = self.vary.as_str().unwrap_or("a parameter");
         format!("{} lines over {count} values of {path}", self.lines.len())
@@ -45,7 +43,7 @@ impl Diagram {
 }
 
 /// Reads `campbell.csv`; none if it is invalid.
-pub(super) fn read(table: &str, summary: &Value) -> Option<Diagram> {
+pub(crate) fn read(table: &str, summary: &Value) -> Option<Diagram> {
     let mut rows = table.lines();
     let heading: Vec<&str> = rows.next()?.split(',').collect();
     let column = |name: &str| heading.iter().position(|known| *known == name);
@@ -77,6 +75,12 @@ pub(super) fn read(table: &str, summary: &Value) -> Option<Diagram> {
     let of = |name: &str| summary[name].clone();
     let (vary, unit, multiples) = (of("vary"), of("unit"), of("multiples"));
     Some(Diagram { vary, unit, multiples, lines, crossings: of("critical_speeds") })
+}
+
+/// The word for the whirl of a line from those of its modes at nonzero speeds: `changes` if they differ.
+pub(super) fn common_whirl<'w>(mut words: impl Iterator<Item = &'w str>) -> &'w str {
+    let first = words.next().unwrap_or("none");
+    if words.all(|word| word == first) { first } else { "changes" }
 }
 
 #[cfg(test)]

@@ -1,15 +1,21 @@
 //! Campbell diagram: natural frequencies and damping over a parameter, with modes tracked by their shapes.
 
-use lissom_core::diagnostics::Diagnose;
-use std::fmt::Write;
+mod figure;
+pub(crate) mod page;
+mod report;
+
+use std::str::FromStr;
 use std::time::{Duration, Instant};
 
+use lissom_core::catalogued;
+use lissom_core::diagnostics::Diagnose;
 use lissom_core::linear::{Mode, ModeKind, ModeOptions, Whirl};
-use lissom_model::lower::registry::registry;
-use lissom_model::output::{CampbellLine, CampbellPlot, Summary};
-use lissom_model::{Document, Report};
-use serde_json::{Value, json};
+use lissom_model::Report;
+use serde::Deserialize;
 
+#[cfg(feature = "command-line")]
+use crate::analysis::count_from;
+use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::{ModesError, Reliable, reliable};
@@ -24,10 +30,39 @@ const CROSSED: f64 = 1e-7;
 /// … or maximum number of solutions.
 const SOLUTIONS: usize = 8;
 
-/// The request.
-#[derive(Clone, Debug, PartialEq)]
+/// Compute natural frequencies and damping ratios over a parameter, such as the speed of a rotor.
+///
+/// At each value the model is linearised about the steady rotation specified by the velocities in the file, or about static
+/// equilibrium if nothing rotates. Modes are tracked by their shapes. The results go to a folder: `campbell.csv`,
+/// `campbell.svg` and `campbell.png` (diagram with the multiples of the rotor speed) and `summary.json` (critical speeds).
+/// `lissom view` shows the folder as a page.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Examples:
+  lissom campbell rotor.toml --vary parameters.speed=0:200:41
+  lissom campbell blade.toml --vary parameters.speed=0:2:21 --count 6 --rays 1,3,6
+
+Exit code: 0 success; 2 wrong model or command line; 3 no steady rotation, no modes, or coefficients that are not constant.")
+)]
 pub struct CampbellRequest {
-    /// Path of the number that is varied.
+    /// Path of a number in the model file, its first and last value, and the number of values.
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "PATH=FROM:TO:VALUES"))]
+    pub vary: Variation,
+    /// Number of modes, the lowest first.
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = 8, value_parser = count_from(1)))]
+    pub count: usize,
+    /// Multiples of the rotor speed whose crossings with the frequencies are critical speeds.
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..)))]
+    pub rays: Vec<u32>,
+}
+
+/// A number of the model file and its values.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct Variation {
+    /// Its path.
     pub path: String,
     /// Its first value.
     pub from: f64,
@@ -35,10 +70,24 @@ pub struct CampbellRequest {
     pub to: f64,
     /// Number of values, at least 2.
     pub values: usize,
-    /// Number of modes at each.
-    pub count: usize,
-    /// Multiples of the rotation whose crossings are listed, such as 1 and 3.
-    pub rays: Vec<u32>,
+}
+
+impl FromStr for Variation {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || "it must be PATH=FROM:TO:VALUES, such as `parameters.speed=0:20:41`".to_owned();
+        let (path, range) = text.split_once('=').ok_or_else(wrong)?;
+        let parts: Vec<&str> = range.split(':').collect();
+        let [from, to, values] = parts[..] else { return Err(wrong()) };
+        let number =
+            |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(wrong);
+        let values = values.trim().parse::<usize>().map_err(|_| wrong())?;
+        if !(2..=100_000).contains(&values) {
+            return Err("the number of values must be from 2 to 100000".to_owned());
+        }
+        Ok(Self { path: path.trim().to_owned(), from: number(from)?, to: number(to)?, values })
+    }
 }
 
 /// Why no diagram was found.
@@ -71,6 +120,16 @@ pub enum CampbellError {
     /// The unknowns depend on the value.
     #[error("{}", self.diagnostic())]
     Unlike(String),
+}
+
+impl AnalysisError for CampbellError {
+    fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::Model(report) => Origin::Model(report),
+            Self::Range { .. } | Self::Unlike(_) => Origin::Request,
+            Self::Modes { .. } => Origin::Computation,
+        }
+    }
 }
 
 /// A mode at a value of the parameter.
@@ -149,6 +208,16 @@ pub struct CampbellReport {
     pub wall: Duration,
 }
 
+impl Analysis for CampbellRequest {
+    const NAME: &'static str = "campbell";
+    type Report = CampbellReport;
+    type Error = CampbellError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<CampbellReport, CampbellError> {
+        campbell(model, overrides, self)
+    }
+}
+
 /// The search, one value after another.
 struct Search<'s> {
     model: &'s Model,
@@ -167,11 +236,11 @@ pub fn campbell(
     request: &CampbellRequest,
 ) -> Result<CampbellReport, CampbellError> {
     let began = Instant::now();
-    let &CampbellRequest { from, to, .. } = request;
+    let &Variation { ref path, from, to, values } = &request.vary;
     if !(from.is_finite() && to.is_finite()) || from == to {
-        return Err(CampbellError::Range { path: request.path.clone(), from, to });
+        return Err(CampbellError::Range { path: path.clone(), from, to });
     }
-    let last = request.values.max(2) - 1;
+    let last = values.max(2) - 1;
     let mut search = Search { model, overrides, request, warnings: Vec::new() };
     let mut points: Vec<Point> = Vec::new();
     let mut lines = 0;
@@ -182,7 +251,7 @@ pub fn campbell(
     let crossings = search.crossings(&points);
     search.warnings.dedup();
     Ok(CampbellReport {
-        path: request.path.clone(),
+        path: path.clone(),
         points,
         lines,
         crossings,
@@ -199,7 +268,7 @@ impl Search<'_> {
         before: Option<&Point>,
         lines: &mut usize,
     ) -> Result<Point, CampbellError> {
-        let path = &self.request.path;
+        let path = &self.request.vary.path;
         let mut changed = self.overrides.to_vec();
         changed.push((path.clone(), format!("{value:?}")));
         let document = self.model.document(&changed).map_err(CampbellError::Model)?;
@@ -322,12 +391,6 @@ fn of_line(point: &Point, line: usize) -> Option<&PointMode> {
     point.modes.iter().find(|of| of.line == line)
 }
 
-/// The word for the whirl of a line from those of its modes at nonzero speeds: `changes` if they differ.
-pub(crate) fn common_whirl<'w>(mut words: impl Iterator<Item = &'w str>) -> &'w str {
-    let first = words.next().unwrap_or("none");
-    if words.all(|word| word == first) { first } else { "changes" }
-}
-
 /// Whether shapes have different numbers of unknowns.
 fn different(before: &Point, found: &[Mode]) -> bool {
     let size = |mode: Option<&Mode>| mode.map(|mode| mode.shape.len());
@@ -358,95 +421,24 @@ fn matched(known: &[PointMode], found: &[Mode], alike: &[Vec<f64>]) -> Vec<(Opti
     result
 }
 
-impl CampbellReport {
-    /// The table `campbell.csv`: value, rotation [Hz], line from 1, frequency [Hz] and damping ratio in the axes of the nodes,
-    /// kind, whirl, frequency in axes at rest [Hz], likeness to the previous mode of the line.
-    pub fn csv(&self) -> String {
-        let mut text =
-            "value,rotation,line,frequency,damping,kind,whirl,frequency_at_rest,likeness\n".to_owned();
-        for point in &self.points {
-            for of in &point.modes {
-                let Mode { frequency, damping, kind, .. } = &of.mode;
-                let number =
-                    |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-                // Writing to a string cannot fail.
-                let _ = writeln!(
-                    text,
-                    "{:?},{:?},{},{frequency:?},{damping:?},{},{},{},{}",
-                    point.value,
-                    point.spin,
-                    of.line + 1,
-                    kind.name(),
-                    of.whirl.name(),
-                    number(of.seen()),
-                    number(of.assurance)
-                );
-            }
+catalogued! {
+    Failure CampbellError {
+        Range { path => path, from => from, to => to } => "campbell-range" {
+            cause: "`{path}` varies from {from} to {to}",
+            remedy: "both must be finite, and different",
+            meaning: "The range of the varied number of a Campbell diagram is empty or not finite.",
+            advice: "Specify two different finite numbers.",
         }
-        text
-    }
-
-    /// The diagram.
-    pub fn figure(&self, title: &str) -> CampbellPlot {
-        let line = |line: usize| {
-            let of = |point| Some((point, of_line(point, line)?));
-            let own: Vec<(&Point, &PointMode)> = self.points.iter().filter_map(of).collect();
-            let words = own.iter().filter(|(point, _)| point.spin > 0.0).map(|(_, own)| own.whirl.name());
-            CampbellLine {
-                points: own.iter().map(|(point, own)| (point.value, own.compared().0)).collect(),
-                damping: own.iter().map(|(point, own)| (point.value, own.mode.damping)).collect(),
-                whirl: common_whirl(words),
-            }
-        };
-        let ray = |&ray: &u32| {
-            let points = self.points.iter().map(|point| (point.value, f64::from(ray) * point.spin)).collect();
-            (format!("{ray}P"), points)
-        };
-        let speeds = self.points.iter().map(|point| point.spin);
-        let (least, most) = (speeds.clone().fold(f64::INFINITY, f64::min), speeds.fold(0.0, f64::max));
-        let unit = self.unit().map_or_else(String::new, |unit| format!(" [{unit}]"));
-        let speeds = if most > 0.0 {
-            format!(", rotation {:.0} to {:.0} rpm", 60.0 * least, 60.0 * most)
-        } else {
-            String::new()
-        };
-        CampbellPlot {
-            title: title.to_owned(),
-            x_label: format!("{}{unit}{speeds}", self.path),
-            lines: (0..self.lines).map(line).collect(),
-            rays: self.rays.iter().filter(|_| most > 0.0).map(ray).collect(),
-            crossings: self.crossings.iter().map(|of| (of.value, f64::from(of.ray) * of.spin)).collect(),
+        Unlike { 0 => path } => "campbell-unknowns" {
+            cause: "a change of `{path}` changes the unknowns of the model, so modes cannot be tracked",
+            remedy: "vary a number that changes neither parts nor elements",
+            meaning: "Modes are tracked by their shapes, which requires the same unknowns for all values of the varied number.",
+            advice: "Vary a number that changes neither parts nor elements.",
         }
-    }
-
-    /// Unit of the number that is varied, if it is known.
-    fn unit(&self) -> Option<&'static str> {
-        lissom_model::unit_of(&registry(), &self.path)
-    }
-
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
-        let mut summary = crate::summary::of_request("campbell", name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
-        insert("vary", json!(self.path));
-        insert("unit", json!(self.unit()));
-        insert("multiples", json!(self.rays));
-        insert("values", json!(self.points.len()));
-        insert("lines", json!(self.lines));
-        let crossing = |of: &Crossing| {
-            json!({
-                "line": of.line + 1,
-                "multiple": of.ray,
-                "value": of.value,
-                "rotation": of.spin,
-                "whirl": of.whirl,
-                "axes": if of.at_rest { "at rest" } else { "of the nodes" },
-            })
-        };
-        insert("critical_speeds", self.crossings.iter().map(crossing).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.warnings);
-        summary
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Modes { path => path, value => value, error => error } => {
+            error.diagnostic().within(&format!("at `{path}` = {value}"))
+        },
     }
 }

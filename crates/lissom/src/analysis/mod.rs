@@ -1,0 +1,106 @@
+//! Analyses without time steps: what each declares. Its command, its results folder and its function in Python are made from this.
+
+mod registry;
+
+use std::fmt::Display;
+
+use lissom_core::diagnostics::Diagnose;
+use lissom_model::output::{FigureError, Graphic, Summary};
+use lissom_model::{Document, Report};
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+use crate::analysis_warning::AnalysisWarning;
+use crate::command_error::CommandError;
+use crate::model::{Model, Override};
+
+pub use registry::{ANALYSES, Outcome, Registered, Results};
+
+/// The request of an analysis. With the feature `command-line` its fields are the options of the command.
+pub trait Analysis: DeserializeOwned {
+    /// Name of the analysis: that of its command.
+    const NAME: &'static str;
+    /// Last word in the name of its folder of results.
+    const FOLDER: &'static str = Self::NAME;
+    /// Its result.
+    type Report: AnalysisReport;
+    /// Its failure.
+    type Error: AnalysisError + 'static;
+
+    /// Analyses `model` with `overrides`.
+    ///
+    /// # Errors
+    /// If the model or the request is invalid, or there is no result.
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<Self::Report, Self::Error>;
+}
+
+/// The result of an analysis.
+pub trait AnalysisReport {
+    /// Names and texts of its tables.
+    fn tables(&self) -> Vec<(String, String)>;
+
+    /// Its figure, if it has one.
+    fn figure(&self, _title: &str) -> Option<Result<Graphic, FigureError>> {
+        None
+    }
+
+    /// Inserts its contents into `summary.json`.
+    fn add_facts(&self, insert: &mut dyn FnMut(&str, Value));
+
+    /// Its warnings.
+    fn warnings(&self) -> &[AnalysisWarning];
+
+    /// Its lines on the terminal, after the title of the model.
+    fn text(&self) -> String;
+}
+
+/// The failure of an analysis.
+pub trait AnalysisError: Diagnose + Display {
+    /// What is invalid or failed.
+    fn origin(&self) -> Origin<'_>;
+}
+
+/// Origin of a failure.
+#[derive(Clone, Copy, Debug)]
+pub enum Origin<'e> {
+    /// The model is invalid.
+    Model(&'e Report),
+    /// The request is invalid for the model.
+    Request,
+    /// There is no result.
+    Computation,
+}
+
+impl AnalysisError for CommandError {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Request
+    }
+}
+
+impl AnalysisError for Report {
+    fn origin(&self) -> Origin<'_> {
+        Origin::Model(self)
+    }
+}
+
+/// The contents of `summary.json`.
+pub fn summary<A: Analysis>(
+    report: &A::Report,
+    name: &str,
+    overrides: &[Override],
+    document: &Document,
+) -> Summary {
+    let mut summary = crate::summary::of_request(A::NAME, name, overrides, document);
+    let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
+    insert("stopped", json!("end"));
+    report.add_facts(&mut insert);
+    crate::summary::add_warnings(&mut summary, report.warnings());
+    summary
+}
+
+/// Parser of an option that is a count, from this minimum on.
+#[cfg(feature = "command-line")]
+pub(crate) fn count_from(minimum: i64) -> impl clap::builder::TypedValueParser<Value = usize> {
+    use clap::builder::TypedValueParser;
+    clap::value_parser!(u32).range(minimum..).map(|count| count as usize)
+}

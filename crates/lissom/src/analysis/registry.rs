@@ -1,0 +1,59 @@
+//! The registry of the analyses without time steps.
+
+use lissom_model::output::Summary;
+use toml::de::ValueDeserializer;
+
+use super::{Analysis, AnalysisError, AnalysisReport};
+use crate::campbell::CampbellRequest;
+use crate::command_error::CommandError;
+use crate::diagnostic::with_code;
+use crate::model::{Model, Override};
+
+/// All analyses. On the command line each is also a line of `commands`.
+pub const ANALYSES: &[Registered] = &[Registered::of::<CampbellRequest>()];
+
+/// Files of a result, or the reason for their absence.
+pub type Outcome = Result<Results, Box<dyn AnalysisError>>;
+
+/// An analysis in the registry.
+#[derive(Clone, Copy, Debug)]
+pub struct Registered {
+    /// Its name.
+    pub name: &'static str,
+    /// Computes it for a request as a TOML value.
+    pub compute: fn(&Model, &[Override], &str) -> Outcome,
+}
+
+/// The files of a result, as texts.
+#[derive(Clone, Debug)]
+pub struct Results {
+    /// Names and texts of the tables.
+    pub tables: Vec<(String, String)>,
+    /// The contents of `summary.json`.
+    pub summary: Summary,
+    /// Warnings with their codes.
+    pub warnings: Vec<String>,
+}
+
+impl Registered {
+    const fn of<A: Analysis>() -> Self {
+        Self { name: A::NAME, compute: compute::<A> }
+    }
+}
+
+fn boxed(error: impl AnalysisError + 'static) -> Box<dyn AnalysisError> {
+    Box::new(error)
+}
+
+fn compute<A: Analysis>(model: &Model, overrides: &[Override], request: &str) -> Outcome {
+    let request = ValueDeserializer::parse(request)
+        .and_then(A::deserialize)
+        .map_err(|error| boxed(CommandError::Request(error.message().to_owned())))?;
+    let report = request.compute(model, overrides).map_err(boxed)?;
+    let document = model.document(overrides).map_err(boxed)?;
+    Ok(Results {
+        tables: report.tables(),
+        summary: super::summary::<A>(&report, model.name(), overrides, &document),
+        warnings: report.warnings().iter().map(with_code).collect(),
+    })
+}

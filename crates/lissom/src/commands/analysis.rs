@@ -1,0 +1,74 @@
+//! Commands of analyses without time steps.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::analysis::{self, Analysis, AnalysisError, AnalysisReport, Origin};
+use lissom::{Document, Model, Override, summary};
+
+use super::model_arguments::ModelArguments;
+use super::outcome::{Exit, Failure, show_warnings, warn};
+use super::results::{draw, folder_for, unwritable};
+use crate::terminal;
+
+// The help of the command is that of the request: a comment of documentation here would replace it.
+#[derive(Args)]
+pub(super) struct AnalysisCommand<A: Analysis + Args> {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    #[command(flatten)]
+    request: A,
+
+    #[arg(long, short, value_name = "DIR", help = format!("Folder for the results [default: out/<name of the model file>-{}]", A::FOLDER))]
+    out: Option<PathBuf>,
+
+    /// Print nothing.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl<A: Analysis + Args> AnalysisCommand<A> {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        let folder = self.model.folder(self.out, A::FOLDER);
+        report((&model, &self.model.set, &document), &self.request, &folder, self.quiet)
+    }
+}
+
+/// Computes an analysis and writes its results to a folder.
+pub(super) fn report<A: Analysis>(
+    (model, overrides, document): (&Model, &[Override], &Document),
+    request: &A,
+    path: &Path,
+    quiet: bool,
+) -> Result<Exit, Failure> {
+    show_warnings(document);
+    let found = match request.compute(model, overrides) {
+        Err(error) => match error.origin() {
+            Origin::Model(report) => return Err(report.clone().into()),
+            Origin::Request => return Err(Failure::new(Exit::BadModel, &error)),
+            Origin::Computation => Err(error),
+        },
+        found => found,
+    };
+    let (folder, found) =
+        folder_for(path, found, || summary::of_request(A::NAME, model.name(), overrides, document))?;
+    let heading = document.title.as_deref().unwrap_or(model.name());
+    for (name, text) in found.tables() {
+        folder.write_table(&name, &text).map_err(unwritable)?;
+    }
+    if let Some(figure) = found.figure(heading) {
+        draw(&folder, figure)?;
+    }
+    let summary = analysis::summary::<A>(&found, model.name(), overrides, document);
+    folder.write_summary(&summary).map_err(unwritable)?;
+    if !quiet {
+        for warning in found.warnings() {
+            warn(warning);
+        }
+        let text = found.text();
+        terminal::print(&format!("{heading}\n{text}  results in {}\n", path.display()));
+    }
+    Ok(Exit::Done)
+}
