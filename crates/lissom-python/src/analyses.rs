@@ -3,7 +3,6 @@
 use std::str::FromStr;
 
 use lissom::analysis::ANALYSES;
-use lissom::buckling::BucklingRunError;
 use lissom::gradient::{GradientError, Target};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
@@ -98,24 +97,6 @@ pub(crate) fn modes(
         let found = found_modes(&model, &request)?;
         let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
         let tables = vec![("modes.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
-        Ok(files(tables, &summary, &found.warnings))
-    })
-}
-
-/// Results of `lissom buckling`.
-#[pyfunction]
-pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>) -> PyResult<Files> {
-    let model = model.clone();
-    interruptible(py, move || {
-        let found =
-            lissom::buckling::buckling(&model.model, &model.overrides, count).map_err(
-                |error| match error {
-                    BucklingRunError::Model(report) => of_report(&report),
-                    other => solution(&other),
-                },
-            )?;
-        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
-        let tables = vec![("buckling.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
         Ok(files(tables, &summary, &found.warnings))
     })
 }

@@ -1,18 +1,20 @@
 //! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness,
 //! interpolated and extrapolated from them, is singular.
 
-use lissom_core::diagnostics::Diagnose;
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::linear::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
+use lissom_core::number::{Written, duration};
 use lissom_core::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
+use lissom_model::Report;
 use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
 use lissom_model::lower::{Lowered, lower};
-use lissom_model::output::Summary;
-use lissom_model::{Document, Report};
+use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::shapes_table;
@@ -22,6 +24,37 @@ const FIRST: f64 = 0.25;
 const MAX_STEPS: usize = 500;
 /// Rotations under the loads above which the stiffness is not assumed to change in proportion to them [rad].
 const LARGE_TURN: f64 = 0.05;
+
+/// Estimate the load factors at which a model buckles, from its stiffness with and without the loads.
+///
+/// The results go to a folder: `buckling.csv` (number, load factor), `shapes.csv` and `summary.json`. The loads of the model must be
+/// smaller than the critical ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Example:
+  lissom buckling column.toml --count 3
+
+Exit code: 0 success; 2 wrong model or command line; 3 no equilibrium, loads that already exceed the critical ones, or \
+load factors missed.")
+)]
+pub struct BucklingRequest {
+    /// Number of load factors, the lowest first [default: 5].
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analysis::counts(1..)))]
+    pub count: Option<usize>,
+}
+
+impl Analysis for BucklingRequest {
+    const NAME: &'static str = "buckling";
+    type Report = BucklingReport;
+    type Error = BucklingRunError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<BucklingReport, BucklingRunError> {
+        buckling(model, overrides, self.count)
+    }
+}
 
 /// Why load factors were not found.
 #[derive(Debug, thiserror::Error)]
@@ -45,6 +78,15 @@ pub enum BucklingRunError {
     /// Some modes were not found.
     #[error("{}", self.diagnostic())]
     Missing(usize),
+}
+
+impl AnalysisError for BucklingRunError {
+    fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::Model(report) => Origin::Model(report),
+            _ => Origin::Computation,
+        }
+    }
 }
 
 /// Buckling modes of a model, with warnings.
@@ -144,29 +186,43 @@ impl BucklingReport {
         }
         text
     }
+}
 
-    /// The table `shapes.csv`, as that of natural modes.
-    pub fn shapes_csv(&self) -> String {
-        shapes_table(&self.shapes, false)
+impl AnalysisReport for BucklingReport {
+    fn tables(&self) -> Vec<(String, String)> {
+        let tables = [("buckling.csv", self.csv()), ("shapes.csv", shapes_table(&self.shapes, false))];
+        tables.map(|(name, text)| (name.to_owned(), text)).to_vec()
     }
 
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
-        let mut summary = of_request(name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
+    fn add_facts(&self, insert: &mut dyn FnMut(&str, Value)) {
         insert("asked", json!(self.asked));
         insert("found", json!(self.buckling.modes.len()));
         insert("completeness", json!(self.buckling.completeness.name()));
         insert("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
         insert("largest_turn", json!(self.turn));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.warnings);
-        summary
     }
-}
 
-/// Contents that are known before the load factors.
-pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
-    crate::summary::of_request("buckling", name, overrides, document)
+    fn warnings(&self) -> Vec<Diagnostic> {
+        self.warnings.iter().map(Diagnose::diagnostic).collect()
+    }
+
+    fn text(&self) -> String {
+        let modes = &self.buckling.modes;
+        let mut text = format!(
+            "  {} load factors ({} requested), {}, {}\n",
+            modes.len(),
+            self.asked,
+            match self.buckling.completeness {
+                Completeness::Counted => "none missed according to a count of pivots",
+                _ => "not counted",
+            },
+            duration(self.wall.as_secs_f64())
+        );
+        for (index, mode) in modes.iter().enumerate() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "  {:>4}   {:.9e}", index + 1, Written(mode.load_factor));
+        }
+        text
+    }
 }

@@ -230,7 +230,7 @@ class Model(ModelTables):
 
     def buckling(self, count: int | None = None) -> Buckling:
         """Load factors at which the model buckles, by a linear estimate, as `lissom buckling` finds them."""
-        return self._told(Buckling(_lissom.buckling(self._native, _at_least(1, count, "count"))))
+        return self._told(Buckling(self._analysed("buckling", count=_at_least(1, count, "count"))))
 
     def path(self, **analysis: Any) -> Path:
         """Follows the equilibria under the loads times a load factor, as `lissom run` does for an analysis of kind `path`.

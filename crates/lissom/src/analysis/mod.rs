@@ -4,13 +4,12 @@ mod registry;
 
 use std::fmt::Display;
 
-use lissom_core::diagnostics::Diagnose;
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_model::output::{FigureError, Graphic, Summary};
 use lissom_model::{Document, Report};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-use crate::analysis_warning::AnalysisWarning;
 use crate::command_error::CommandError;
 use crate::model::{Model, Override};
 
@@ -48,7 +47,7 @@ pub trait AnalysisReport {
     fn add_facts(&self, insert: &mut dyn FnMut(&str, Value));
 
     /// Its warnings.
-    fn warnings(&self) -> &[AnalysisWarning];
+    fn warnings(&self) -> Vec<Diagnostic>;
 
     /// Its lines on the terminal, after the title of the model.
     fn text(&self) -> String;
@@ -94,13 +93,15 @@ pub fn summary<A: Analysis>(
     let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
     insert("stopped", json!("end"));
     report.add_facts(&mut insert);
-    crate::summary::add_warnings(&mut summary, report.warnings());
+    crate::summary::add_warnings(&mut summary, &report.warnings());
     summary
 }
 
-/// Parser of an option that is a count, from this minimum on.
+/// Parser of an option that is a count in a range.
 #[cfg(feature = "command-line")]
-pub(crate) fn count_from(minimum: i64) -> impl clap::builder::TypedValueParser<Value = usize> {
+pub(crate) fn counts(
+    range: impl std::ops::RangeBounds<i64>,
+) -> impl clap::builder::TypedValueParser<Value = usize> {
     use clap::builder::TypedValueParser;
-    clap::value_parser!(u32).range(minimum..).map(|count| count as usize)
+    clap::value_parser!(u32).range(range).map(|count| count as usize)
 }

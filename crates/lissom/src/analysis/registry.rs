@@ -4,13 +4,15 @@ use lissom_model::output::Summary;
 use toml::de::ValueDeserializer;
 
 use super::{Analysis, AnalysisError, AnalysisReport};
+use crate::buckling::BucklingRequest;
 use crate::campbell::CampbellRequest;
 use crate::command_error::CommandError;
 use crate::diagnostic::with_code;
 use crate::model::{Model, Override};
 
 /// All analyses. On the command line each is also a line of `commands`.
-pub const ANALYSES: &[Registered] = &[Registered::of::<CampbellRequest>()];
+pub const ANALYSES: &[Registered] =
+    &[Registered::of::<BucklingRequest>(), Registered::of::<CampbellRequest>()];
 
 /// Files of a result, or the reason for their absence.
 pub type Outcome = Result<Results, Box<dyn AnalysisError>>;

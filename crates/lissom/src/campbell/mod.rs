@@ -14,7 +14,7 @@ use lissom_model::Report;
 use serde::Deserialize;
 
 #[cfg(feature = "command-line")]
-use crate::analysis::count_from;
+use crate::analysis::counts;
 use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
@@ -52,7 +52,7 @@ pub struct CampbellRequest {
     #[cfg_attr(feature = "command-line", arg(long, value_name = "PATH=FROM:TO:VALUES"))]
     pub vary: Variation,
     /// Number of modes, the lowest first.
-    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = 8, value_parser = count_from(1)))]
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = 8, value_parser = counts(1..)))]
     pub count: usize,
     /// Multiples of the rotor speed whose crossings with the frequencies are critical speeds.
     #[cfg_attr(feature = "command-line", arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..)))]

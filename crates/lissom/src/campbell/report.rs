@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::linear::Mode;
 use lissom_core::number::{Written, duration};
 use lissom_model::lower::registry::registry;
@@ -12,7 +13,6 @@ use super::figure::{CampbellLine, CampbellPlot};
 use super::page::common_whirl;
 use super::{CampbellReport, Crossing, Point, PointMode, of_line};
 use crate::analysis::AnalysisReport;
-use crate::analysis_warning::AnalysisWarning;
 
 impl CampbellReport {
     /// The table `campbell.csv`: value, rotation [Hz], line from 1, frequency [Hz] and damping ratio in the axes of the nodes,
@@ -114,8 +114,8 @@ impl AnalysisReport for CampbellReport {
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
-    fn warnings(&self) -> &[AnalysisWarning] {
-        &self.warnings
+    fn warnings(&self) -> Vec<Diagnostic> {
+        self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
     fn text(&self) -> String {

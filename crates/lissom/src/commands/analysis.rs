@@ -65,7 +65,7 @@ pub(super) fn report<A: Analysis>(
     folder.write_summary(&summary).map_err(unwritable)?;
     if !quiet {
         for warning in found.warnings() {
-            warn(warning);
+            warn(&warning);
         }
         let text = found.text();
         terminal::print(&format!("{heading}\n{text}  results in {}\n", path.display()));

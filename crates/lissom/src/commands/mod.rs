@@ -1,7 +1,6 @@
 //! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
 
 mod analysis;
-mod buckling;
 mod check;
 mod completions;
 mod explain;
@@ -36,6 +35,7 @@ use std::process::ExitCode;
 
 use analysis::AnalysisCommand;
 use clap::{Parser, Subcommand};
+use lissom::buckling::BucklingRequest;
 use lissom::campbell::CampbellRequest;
 
 use crate::terminal;
@@ -112,7 +112,7 @@ enum Command {
     Run(run::Run),
     Check(check::Check),
     Modes(modes::Modes),
-    Buckling(buckling::Buckling),
+    Buckling(AnalysisCommand<BucklingRequest>),
     Gradient(gradient::Gradient),
     Campbell(AnalysisCommand<CampbellRequest>),
     Response(response::Response),

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use lissom::buckling::BucklingRequest;
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::{
@@ -119,7 +120,7 @@ impl Run {
                 return super::modes::report(asked, &ModeRequest::default(), &task.folder, shown);
             }
             AnalysisKind::Buckling { .. } => {
-                return super::buckling::report(asked, None, &task.folder, self.quiet);
+                return super::analysis::report(asked, &BucklingRequest::default(), &task.folder, self.quiet);
             }
             AnalysisKind::Path { .. } => {
                 let wanted =
