@@ -7,7 +7,6 @@ use lissom::gradient::{GradientError, Target};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
-use lissom::response::{FrequencyError, ResponseRequest};
 use lissom::{AnalysisWarning, Document, Record, Session, Summary, with_code};
 use pyo3::prelude::*;
 
@@ -33,13 +32,6 @@ fn of_modes(error: &ModesError) -> PyErr {
     match error {
         ModesError::Model(report) => of_report(report),
         other => refused(matches!(other, ModesError::Time { .. } | ModesError::Shift(_)), other),
-    }
-}
-
-fn of_frequency(error: &FrequencyError) -> PyErr {
-    match error {
-        FrequencyError::Model(report) => of_report(report),
-        other => refused(other.is_of_question(), other),
     }
 }
 
@@ -77,8 +69,7 @@ pub(crate) fn linearize_here(
     document: &Document,
     (inputs, outputs): (&[String], &[String]),
 ) -> PyResult<Files> {
-    let found =
-        linearize_session(session, document, inputs, outputs).map_err(|error| of_frequency(&error))?;
+    let found = linearize_session(session, document, inputs, outputs).map_err(|error| of_analysis(&error))?;
     Ok(of_linear(&found, model.model.name(), &model.overrides, document))
 }
 
@@ -137,27 +128,6 @@ pub(crate) fn analyse(model: &NativeModel, py: Python<'_>, name: &str, request: 
     })
 }
 
-/// Results of `lissom response`, without its pictures.
-#[pyfunction]
-pub(crate) fn response(
-    model: &NativeModel,
-    py: Python<'_>,
-    inputs: Vec<String>,
-    outputs: Vec<String>,
-    range: (f64, f64, usize),
-    state: &str,
-) -> PyResult<Files> {
-    let (from, to, points) = range;
-    let request = ResponseRequest { about: about(state)?, inputs, outputs, from, to, points };
-    let model = model.clone();
-    interruptible(py, move || {
-        let found = lissom::response::response(&model.model, &model.overrides, &request)
-            .map_err(|error| of_frequency(&error))?;
-        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
-        Ok(files(vec![("response.csv", found.csv())], &summary, &found.warnings))
-    })
-}
-
 /// Results of `lissom linearize`.
 #[pyfunction]
 pub(crate) fn linearize(
@@ -171,7 +141,7 @@ pub(crate) fn linearize(
     let model = model.clone();
     interruptible(py, move || {
         let found = lissom::linearize::linearize(&model.model, &model.overrides, &request)
-            .map_err(|error| of_frequency(&error))?;
+            .map_err(|error| of_analysis(&error))?;
         Ok(of_linear(&found, model.model.name(), &model.overrides, &model.document()?))
     })
 }

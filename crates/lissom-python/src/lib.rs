@@ -27,7 +27,6 @@ fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(analyses::modes, module)?)?;
     module.add_function(wrap_pyfunction!(analyses::gradient, module)?)?;
     module.add_function(wrap_pyfunction!(analyses::analyse, module)?)?;
-    module.add_function(wrap_pyfunction!(analyses::response, module)?)?;
     module.add_function(wrap_pyfunction!(analyses::linearize, module)?)?;
     module.add_function(wrap_pyfunction!(analyses::path, module)?)?;
     module.add_function(wrap_pyfunction!(animation::animation, module)?)?;

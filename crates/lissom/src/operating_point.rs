@@ -10,6 +10,7 @@ use lissom_model::channels::Channel;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
 use lissom_motion::rotation_part;
+use serde::Deserialize;
 
 use crate::analysis_warning::AnalysisWarning;
 use crate::modes::ModesError;
@@ -27,7 +28,8 @@ const STEADY: f64 = 1e-6;
 const STEADY_ROTATION: f64 = 1e-5;
 
 /// The state about which a model is linearised.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "String")]
 pub enum OperatingPoint {
     /// Static equilibrium: for a model with load steps at their end, for others under the loads at the start.
     Static,
@@ -62,6 +64,14 @@ impl std::str::FromStr for OperatingPoint {
                 _ => Err("it must be `static`, `undeformed`, `rotation` or a time in seconds".to_owned()),
             },
         }
+    }
+}
+
+impl TryFrom<String> for OperatingPoint {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse().map_err(|reason| format!("`about` is \"{text}\": {reason}"))
     }
 }
 

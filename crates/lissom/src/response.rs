@@ -1,16 +1,19 @@
 //! Frequency response: amplitudes of outputs for harmonic inputs of unit amplitude, without time integration.
 
-use lissom_core::diagnostics::Diagnose;
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::linear::{FrequencyResponse, LinearModel, Mode, ModeKind, ModeOptions, ResponseError};
-use lissom_model::output::{BodePlot, Column, Summary, quoted};
+use lissom_core::number::{Written, duration};
+use lissom_model::output::{BodePlot, Column, FigureError, Graphic, quoted};
 use lissom_model::{Document, Report};
 use num_complex::Complex64;
+use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
@@ -36,21 +39,66 @@ const BESIDE: f64 = 1e-4;
 /// Damping ratios below this are considered zero.
 const UNDAMPED: f64 = 1e-9;
 
-/// The request.
-#[derive(Clone, Debug, PartialEq)]
+/// Compute the response of outputs to harmonic inputs, for the model linearised about a state.
+///
+/// The results go to a folder: `response.csv` (frequency, then magnitude, phase in degrees, real and imaginary part of each
+/// output per unit of each input), `response.svg` and `response.png` (Bode plot) and `summary.json`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Examples:
+  lissom response examples/tip-crank.toml --input drive --output midspan.u3 --from 0.1 --to 100
+
+An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), such as `motor`, or
+`loads.motor` if several entries have the same name.
+Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or no response.")
+)]
 pub struct ResponseRequest {
-    /// The state about which the model is linearised.
-    pub about: OperatingPoint,
-    /// Names of inputs, loads and prescribed motions.
+    /// Inputs: entries of [inputs], loads or prescribed motions.
+    #[cfg_attr(
+        feature = "command-line",
+        arg(long = "input", value_name = "NAME,…", value_delimiter = ',', required = true)
+    )]
     pub inputs: Vec<String>,
-    /// Names of outputs or of their columns.
+    /// Outputs, or columns of them.
+    #[cfg_attr(
+        feature = "command-line",
+        arg(long = "output", value_name = "NAME,…", value_delimiter = ',', required = true)
+    )]
     pub outputs: Vec<String>,
     /// First frequency [Hz].
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub from: f64,
     /// Last frequency [Hz].
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub to: f64,
-    /// Number of frequencies; more are inserted where a response changes fast.
+    /// Number of frequencies, spaced logarithmically; more are added where a response changes rapidly.
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", default_value_t = DEFAULT_POINTS, value_parser = crate::analysis::counts(2..=1_000_000)))]
     pub points: usize,
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
+    #[cfg_attr(
+        feature = "command-line",
+        arg(
+            long,
+            value_name = "STATE|TIME",
+            default_value = "static",
+            hide_default_value = true,
+            allow_negative_numbers = true
+        )
+    )]
+    pub about: OperatingPoint,
+}
+
+impl Analysis for ResponseRequest {
+    const NAME: &'static str = "response";
+    type Report = ResponseReport;
+    type Error = FrequencyError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<ResponseReport, FrequencyError> {
+        response(model, overrides, self)
+    }
 }
 
 /// Why no response was found.
@@ -96,10 +144,13 @@ impl From<ModesError> for FrequencyError {
     }
 }
 
-impl FrequencyError {
-    /// Whether the request is invalid, as opposed to a failed computation.
-    pub fn is_of_question(&self) -> bool {
-        matches!(self, Self::Port(_) | Self::Range { .. } | Self::State(ModesError::Time { .. }))
+impl AnalysisError for FrequencyError {
+    fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::Model(report) => Origin::Model(report),
+            Self::Port(_) | Self::Range { .. } | Self::State(ModesError::Time { .. }) => Origin::Request,
+            _ => Origin::Computation,
+        }
     }
 }
 
@@ -358,25 +409,33 @@ impl ResponseReport {
         text
     }
 
-    /// The Bode plot.
-    pub fn figure(&self, title: &str) -> BodePlot {
+    /// Frequency [Hz] and magnitude at the largest magnitude of a response.
+    pub fn peak(&self, transfer: &Transfer) -> (f64, f64) {
+        let sizes = self.frequencies.iter().zip(&transfer.amplitudes).map(|(&f, value)| (f, value.norm()));
+        sizes.reduce(|most, one| if one.1 > most.1 { one } else { most }).unwrap_or((0.0, 0.0))
+    }
+}
+
+impl AnalysisReport for ResponseReport {
+    fn tables(&self) -> Vec<(String, String)> {
+        vec![("response.csv".to_owned(), self.csv())]
+    }
+
+    fn figure(&self, title: &str) -> Option<Result<Graphic, FigureError>> {
         let curve = |transfer: &Transfer| {
             let of = |part: fn(&Complex64) -> f64| transfer.amplitudes.iter().map(part).collect();
             (transfer.name(), of(|value| value.norm()), of(|value| value.arg()))
         };
-        BodePlot {
+        let plot = BodePlot {
             name: "response".to_owned(),
             title: title.to_owned(),
             frequencies: self.frequencies.clone(),
             curves: self.transfers.iter().map(curve).collect(),
-        }
+        };
+        Some(plot.draw())
     }
 
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
-        let mut summary = crate::summary::of_request("response", name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
+    fn add_facts(&self, insert: &mut dyn FnMut(&str, Value)) {
         insert("about", json!(self.about));
         insert("frequencies", json!(self.frequencies.len()));
         insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
@@ -397,13 +456,26 @@ impl ResponseReport {
         };
         insert("transfers", self.transfers.iter().map(peak).collect());
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.warnings);
-        summary
     }
 
-    /// Frequency [Hz] and magnitude at the largest magnitude of a response.
-    pub fn peak(&self, transfer: &Transfer) -> (f64, f64) {
-        let sizes = self.frequencies.iter().zip(&transfer.amplitudes).map(|(&f, value)| (f, value.norm()));
-        sizes.reduce(|most, one| if one.1 > most.1 { one } else { most }).unwrap_or((0.0, 0.0))
+    fn warnings(&self) -> Vec<Diagnostic> {
+        self.warnings.iter().map(Diagnose::diagnostic).collect()
+    }
+
+    fn text(&self) -> String {
+        let [coordinates, multipliers] = self.unknowns;
+        let mut text = format!(
+            "  response about {} at {} frequencies, {coordinates} coordinates, {multipliers} multipliers, {}\n",
+            self.about,
+            self.frequencies.len(),
+            duration(self.wall.as_secs_f64())
+        );
+        for transfer in &self.transfers {
+            let (frequency, most) = self.peak(transfer);
+            let (name, unit) = (transfer.name(), &transfer.output.unit);
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "  {name}: largest {} {unit} at {} Hz", Written(most), Written(frequency));
+        }
+        text
     }
 }

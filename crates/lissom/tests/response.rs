@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
+use lissom::analysis::{AnalysisError, Origin};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize};
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::response::{FrequencyError, ResponseReport, ResponseRequest, response};
@@ -562,7 +563,7 @@ fn questions_without_sense_are_refused() {
         (ask(&["push"], &["place"], 0.0, 1.0), "must be greater than zero"),
         (ask(&["push"], &["place"], 2.0, 1.0), "the first smaller than the last"),
     ] {
-        assert!(error.is_of_question() && error.to_string().contains(words), "{error}");
+        assert!(matches!(error.origin(), Origin::Request) && error.to_string().contains(words), "{error}");
     }
     let idle = OSCILLATOR.replace("scale = \"50*command^2\"", "");
     let error =

@@ -304,8 +304,9 @@ class Model(ModelTables):
             points: number of frequencies in equal ratios; more are put where a response changes fast.
             about: the state, as for `modes`.
         """
-        asked = (float(start), float(end), _at_least(2, points, "points") or 2)
-        return self._told(Response(_lissom.response(self._native, _names(inputs), _names(outputs), asked, _about(about))))
+        ports = {"inputs": _names(inputs), "outputs": _names(outputs), "about": _about(about)}
+        count = _at_least(2, points, "points")
+        return self._told(Response(self._analysed("response", **ports, **{"from": float(start), "to": float(end)}, points=count)))
 
     def linearize(
         self, inputs: str | Sequence[str] = (), outputs: str | Sequence[str] = (), *, about: About = "static"

@@ -9,10 +9,14 @@ use crate::campbell::CampbellRequest;
 use crate::command_error::CommandError;
 use crate::diagnostic::with_code;
 use crate::model::{Model, Override};
+use crate::response::ResponseRequest;
 
 /// All analyses. On the command line each is also a line of `commands`.
-pub const ANALYSES: &[Registered] =
-    &[Registered::of::<BucklingRequest>(), Registered::of::<CampbellRequest>()];
+pub const ANALYSES: &[Registered] = &[
+    Registered::of::<BucklingRequest>(),
+    Registered::of::<CampbellRequest>(),
+    Registered::of::<ResponseRequest>(),
+];
 
 /// Files of a result, or the reason for their absence.
 pub type Outcome = Result<Results, Box<dyn AnalysisError>>;

@@ -1,6 +1,7 @@
 //! Options and results common to all commands that linearise a model about a state.
 
 use clap::Args;
+use lissom::analysis::{AnalysisError, Origin};
 use lissom::modes::OperatingPoint;
 use lissom::response::FrequencyError;
 
@@ -24,7 +25,7 @@ pub(super) struct StateArgument {
 pub(super) fn answered<T>(found: Result<T, FrequencyError>) -> Result<Result<T, FrequencyError>, Failure> {
     match found {
         Err(FrequencyError::Model(report)) => Err(report.into()),
-        Err(error) if error.is_of_question() => Err(Failure::new(Exit::BadModel, &error)),
+        Err(error) if matches!(error.origin(), Origin::Request) => Err(Failure::new(Exit::BadModel, &error)),
         other => Ok(other),
     }
 }

@@ -22,7 +22,6 @@ pub(crate) mod outcome;
 mod path;
 mod plot;
 mod reduce;
-mod response;
 mod results;
 mod run;
 mod schema;
@@ -37,6 +36,7 @@ use analysis::AnalysisCommand;
 use clap::{Parser, Subcommand};
 use lissom::buckling::BucklingRequest;
 use lissom::campbell::CampbellRequest;
+use lissom::response::ResponseRequest;
 
 use crate::terminal;
 
@@ -115,7 +115,7 @@ enum Command {
     Buckling(AnalysisCommand<BucklingRequest>),
     Gradient(gradient::Gradient),
     Campbell(AnalysisCommand<CampbellRequest>),
-    Response(response::Response),
+    Response(AnalysisCommand<ResponseRequest>),
     Linearize(linearize::Linearize),
     Reduce(reduce::Reduce),
     Fmu(fmu::Fmu),
