@@ -3,7 +3,6 @@
 use std::str::FromStr;
 
 use lissom::analysis::ANALYSES;
-use lissom::gradient::{GradientError, Target};
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
@@ -89,29 +88,6 @@ pub(crate) fn modes(
         let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
         let tables = vec![("modes.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
         Ok(files(tables, &summary, &found.warnings))
-    })
-}
-
-/// Results of `lissom gradient`.
-#[pyfunction]
-pub(crate) fn gradient(
-    model: &NativeModel,
-    py: Python<'_>,
-    of: &str,
-    by: Vec<String>,
-    confirms: bool,
-) -> PyResult<Files> {
-    let target: Target = of.parse().map_err(|words: String| question(words))?;
-    let of = of.to_owned();
-    let model = model.clone();
-    interruptible(py, move || {
-        let found = lissom::gradient::gradient(&model.model, &model.overrides, &target, &by, confirms)
-            .map_err(|error| match error {
-                GradientError::Model(report) => of_report(&report),
-                other => refused(other.is_of_question(), &other),
-            })?;
-        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?, &of);
-        Ok(files(vec![("gradient.csv", found.csv())], &summary, &[]))
     })
 }
 

@@ -361,6 +361,7 @@ catalogued! {
         Model { 0 => report } => report.diagnostic(),
         Initial { 0 => error } => error.diagnostic(),
         Step { 0 => error } => error.diagnostic(),
+        Target { 0 => error } => error.diagnostic(),
     }
 
     Failure ReduceError {

@@ -12,11 +12,14 @@ use std::time::{Duration, Instant};
 use lissom_core::diagnostics::{Entry, Severity};
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Switch;
+use lissom_core::number::{Written, duration};
 use lissom_model::document::AnalysisKind;
-use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
+use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analysis::{Analysis, AnalysisError, AnalysisReport, Origin};
+use crate::command_error::CommandError;
 use crate::model::{Model, Override};
 use crate::session::{Session, SessionError};
 pub use confirmation::Confirmation;
@@ -27,6 +30,48 @@ use runs::by_runs;
 
 /// Upper bound of Newton's tolerance: the remaining error is divided by the distance of the neighbours.
 const TOLERANCE: f64 = 1e-12;
+
+/// Compute derivatives of an output with respect to numbers of the model file.
+///
+/// The results go to a folder: `gradient.csv` (path, number, derivative) and `summary.json`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Examples:
+  lissom gradient examples/pendulum.toml --of bob.x@0.5 --by point_masses.bob.mass,springs.spring.stiffness
+  lissom gradient examples/tip-crank.toml --of midspan.u3@max --by materials.steel.E
+
+Exit code: 0 success; 2 wrong model or command line; 3 no solution.")
+)]
+pub struct GradientRequest {
+    /// Output column, and a scalar derived from it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "OUTPUT[@TIME|max|rms]"))]
+    pub of: String,
+    /// Paths of numbers in the model file, such as `bodies.top.mass,springs.s.stiffness`.
+    #[cfg_attr(
+        feature = "command-line",
+        arg(long, value_name = "PATH,…", value_delimiter = ',', required = true)
+    )]
+    pub by: Vec<String>,
+    /// Skip the run with perturbed numbers that verifies the derivatives.
+    #[cfg_attr(feature = "command-line", arg(long, display_order = 901))]
+    pub unconfirmed: bool,
+}
+
+impl Analysis for GradientRequest {
+    const NAME: &'static str = "gradient";
+    type Report = GradientReport;
+    type Error = GradientError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<GradientReport, GradientError> {
+        let target =
+            self.of.parse().map_err(|reason| GradientError::Target(CommandError::Request(reason)))?;
+        let report = gradient(model, overrides, &target, &self.by, !self.unconfirmed)?;
+        Ok(GradientReport { of: self.of.clone(), ..report })
+    }
+}
 
 /// The scalar of an output that is differentiated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,6 +126,9 @@ pub enum GradientError {
     /// A step has no solution, or a neighbouring model's has none.
     #[error(transparent)]
     Step(#[from] StepError),
+    /// The scalar is unknown.
+    #[error(transparent)]
+    Target(CommandError),
     /// The model has no such column.
     #[error("{}", self.diagnostic())]
     Column {
@@ -138,19 +186,20 @@ pub enum GradientError {
     },
 }
 
-impl GradientError {
-    /// Whether the request is invalid, as opposed to a failed computation.
-    pub fn is_of_question(&self) -> bool {
-        matches!(
-            self,
-            Self::Column { .. }
-                | Self::Number(_)
-                | Self::Time { .. }
-                | Self::NotInTime(_)
-                | Self::Unlike(_)
-                | Self::KinkMoves { .. }
-                | Self::Feedback
-        )
+impl AnalysisError for GradientError {
+    fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::Model(report) => Origin::Model(report),
+            Self::Target(_)
+            | Self::Column { .. }
+            | Self::Number(_)
+            | Self::Time { .. }
+            | Self::NotInTime(_)
+            | Self::Unlike(_)
+            | Self::KinkMoves { .. }
+            | Self::Feedback => Origin::Request,
+            _ => Origin::Computation,
+        }
     }
 }
 
@@ -202,6 +251,8 @@ impl Method {
 /// Derivatives of a measure of an output.
 #[derive(Clone, Debug)]
 pub struct GradientReport {
+    /// The measure, as requested.
+    pub of: String,
     /// The measure's own value.
     pub value: f64,
     /// Time of the value, or of the largest one [s]; none for a mean.
@@ -275,7 +326,8 @@ pub fn gradient(
     } else {
         None
     };
-    Ok(GradientReport { value, time, derivatives, steps, corrections, confirmation, wall: began.elapsed() })
+    let (of, wall) = (String::new(), began.elapsed());
+    Ok(GradientReport { of, value, time, derivatives, steps, corrections, confirmation, wall })
 }
 
 /// Signs of the switching functions of forces with kinks or jumps.
@@ -356,6 +408,7 @@ fn across_switches(
         derivatives.push(Derivative { path, number, value: found.value, method: Method::Runs });
     }
     Ok(GradientReport {
+        of: String::new(),
         value,
         time,
         derivatives,
@@ -446,13 +499,15 @@ impl GradientReport {
         };
         Some(Diagnostic::of(&ENTRIES[0], cause, ""))
     }
+}
 
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document, of: &str) -> Summary {
-        let mut summary = crate::summary::of_request("gradient", name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
-        insert("of", json!(of));
+impl AnalysisReport for GradientReport {
+    fn tables(&self) -> Vec<(String, String)> {
+        vec![("gradient.csv".to_owned(), self.csv())]
+    }
+
+    fn add_facts(&self, insert: &mut dyn FnMut(&str, Value)) {
+        insert("of", json!(self.of));
         insert("value", json!(self.value));
         insert("time", json!(self.time));
         let derivative = |of: &Derivative| json!({ "path": of.path, "number": of.number, "derivative": of.value, "way": of.method.name() });
@@ -465,7 +520,30 @@ impl GradientReport {
         };
         insert("confirmed", self.confirmation.as_ref().map_or(Value::Null, confirmed));
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.doubt());
-        summary
+    }
+
+    fn warnings(&self) -> Vec<Diagnostic> {
+        self.doubt().into_iter().collect()
+    }
+
+    fn text(&self) -> String {
+        let time = self.time.map_or_else(String::new, |time| format!(" at t = {} s", Written(time)));
+        let mut text = format!(
+            "  {} = {:.9e}{time}, {} steps, {} corrections, {}\n",
+            self.of,
+            Written(self.value),
+            self.steps,
+            self.corrections,
+            duration(self.wall.as_secs_f64())
+        );
+        for Derivative { path, number, value, .. } in &self.derivatives {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "  by {path} = {}: {:.9e}", Written(*number), Written(*value));
+        }
+        if let Some(Confirmation::Confirmed { missed, runs }) = &self.confirmation {
+            let missed = Written(*missed);
+            let _ = writeln!(text, "  verified to {missed:.1e} by {runs} run(s) with all numbers perturbed");
+        }
+        text
     }
 }

@@ -4,6 +4,7 @@ use crate::support::cantilever;
 use crate::support::rail;
 
 use cantilever::CANTILEVER;
+use lissom::analysis::{AnalysisError, Origin};
 use lissom::gradient::{Confirmation, GradientError, Method, Target, gradient};
 use lissom::{Model, Override};
 
@@ -329,7 +330,8 @@ fn numbers_that_move_kinks_are_refused() {
                     let error = gradient(&model, &[], &target, &paths, true).map(|_| ()).unwrap_err();
                     assert!(matches!(error, GradientError::KinkMoves { .. }), "{force}, {analysis}: {error}");
                     assert!(
-                        error.is_of_question() && error.to_string().contains("smooth it over"),
+                        matches!(error.origin(), Origin::Request)
+                            && error.to_string().contains("smooth it over"),
                         "{error}"
                     );
                 }

@@ -258,7 +258,7 @@ class Model(ModelTables):
             by: paths of numbers, as `["bodies.top.mass", "springs.s.stiffness"]`.
             confirm: whether the derivatives are verified by a run with all numbers perturbed.
         """
-        return Gradient(_lissom.gradient(self._native, of, _names(by), confirm))
+        return Gradient(self._analysed("gradient", of=of, by=_names(by), unconfirmed=not confirm))
 
     def campbell(
         self,

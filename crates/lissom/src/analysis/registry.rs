@@ -8,6 +8,7 @@ use crate::buckling::BucklingRequest;
 use crate::campbell::CampbellRequest;
 use crate::command_error::CommandError;
 use crate::diagnostic::with_code;
+use crate::gradient::GradientRequest;
 use crate::model::{Model, Override};
 use crate::response::ResponseRequest;
 
@@ -16,6 +17,7 @@ pub const ANALYSES: &[Registered] = &[
     Registered::of::<BucklingRequest>(),
     Registered::of::<CampbellRequest>(),
     Registered::of::<ResponseRequest>(),
+    Registered::of::<GradientRequest>(),
 ];
 
 /// Files of a result, or the reason for their absence.

@@ -20,11 +20,11 @@ pub(super) struct AnalysisCommand<A: Analysis + Args> {
     #[command(flatten)]
     request: A,
 
-    #[arg(long, short, value_name = "DIR", help = format!("Folder for the results [default: out/<name of the model file>-{}]", A::FOLDER))]
+    #[arg(long, short, value_name = "DIR", display_order = 900, help = format!("Folder for the results [default: out/<name of the model file>-{}]", A::FOLDER))]
     out: Option<PathBuf>,
 
     /// Print nothing.
-    #[arg(long, short)]
+    #[arg(long, short, display_order = 902)]
     quiet: bool,
 }
 

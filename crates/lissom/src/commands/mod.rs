@@ -6,7 +6,6 @@ mod completions;
 mod explain;
 mod export;
 mod fmu;
-mod gradient;
 mod import;
 mod initial_scene;
 mod kinds;
@@ -36,6 +35,7 @@ use analysis::AnalysisCommand;
 use clap::{Parser, Subcommand};
 use lissom::buckling::BucklingRequest;
 use lissom::campbell::CampbellRequest;
+use lissom::gradient::GradientRequest;
 use lissom::response::ResponseRequest;
 
 use crate::terminal;
@@ -113,7 +113,7 @@ enum Command {
     Check(check::Check),
     Modes(modes::Modes),
     Buckling(AnalysisCommand<BucklingRequest>),
-    Gradient(gradient::Gradient),
+    Gradient(AnalysisCommand<GradientRequest>),
     Campbell(AnalysisCommand<CampbellRequest>),
     Response(AnalysisCommand<ResponseRequest>),
     Linearize(linearize::Linearize),
