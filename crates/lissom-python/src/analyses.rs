@@ -4,9 +4,9 @@ use std::str::FromStr;
 
 use lissom::analysis::ANALYSES;
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
-use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint};
+use lissom::modes::OperatingPoint;
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
-use lissom::{AnalysisWarning, Document, Record, Session, Summary, with_code};
+use lissom::{Document, Record, Session, with_code};
 use pyo3::prelude::*;
 
 use crate::errors::{SolutionError, of_analysis, of_report, question, refused, solution};
@@ -17,35 +17,9 @@ use crate::watch::{Watch, interruptible};
 /// Names and texts of files, the summary as JSON, and warnings.
 pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
 
-fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[AnalysisWarning]) -> Files {
-    let owned = texts.into_iter().map(|(name, text)| (name.to_owned(), text));
-    (owned.collect(), json(summary), warnings.iter().map(with_code).collect())
-}
-
 /// The state to linearise about.
 fn about(words: &str) -> PyResult<OperatingPoint> {
     OperatingPoint::from_str(words).map_err(|reason| question(format!("`about` is \"{words}\": {reason}")))
-}
-
-fn of_modes(error: &ModesError) -> PyErr {
-    match error {
-        ModesError::Model(report) => of_report(report),
-        other => refused(matches!(other, ModesError::Time { .. } | ModesError::Shift(_)), other),
-    }
-}
-
-/// The request for `modes`.
-pub(crate) fn mode_request(
-    count: Option<usize>,
-    state: Option<&str>,
-    shift: Option<f64>,
-) -> PyResult<ModeRequest> {
-    Ok(ModeRequest { count, about: state.map(about).transpose()?, shift })
-}
-
-/// Modes of a model.
-pub(crate) fn found_modes(model: &NativeModel, request: &ModeRequest) -> PyResult<ModeReport> {
-    lissom::modes::modes(&model.model, &model.overrides, request).map_err(|error| of_modes(&error))
 }
 
 fn of_linear(
@@ -70,25 +44,6 @@ pub(crate) fn linearize_here(
 ) -> PyResult<Files> {
     let found = linearize_session(session, document, inputs, outputs).map_err(|error| of_analysis(&error))?;
     Ok(of_linear(&found, model.model.name(), &model.overrides, document))
-}
-
-/// Results of `lissom modes`.
-#[pyfunction]
-pub(crate) fn modes(
-    model: &NativeModel,
-    py: Python<'_>,
-    count: Option<usize>,
-    state: Option<&str>,
-    shift: Option<f64>,
-) -> PyResult<Files> {
-    let request = mode_request(count, state, shift)?;
-    let model = model.clone();
-    interruptible(py, move || {
-        let found = found_modes(&model, &request)?;
-        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
-        let tables = vec![("modes.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
-        Ok(files(tables, &summary, &found.warnings))
-    })
 }
 
 /// Results of the analysis called `name`, for its request as a TOML value.

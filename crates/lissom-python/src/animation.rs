@@ -5,6 +5,8 @@ use std::num::NonZero;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use lissom::analysis::{self, Analysis};
+use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::view::Results;
 use lissom::{Record, ResultFolder, Session, summary};
@@ -12,7 +14,7 @@ use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;
 
-use crate::errors::{self, SolutionError, of_report, solution};
+use crate::errors::{self, SolutionError, of_analysis, of_report, solution};
 use crate::model::NativeModel;
 use crate::watch::{Watch, interruptible};
 
@@ -71,20 +73,14 @@ pub(crate) fn animation(
     })
 }
 
-/// The page of the natural modes in the tables `modes.csv` and `shapes.csv`, which `modes` gave for the same question.
+/// The page of the natural modes in the tables `modes.csv` and `shapes.csv`, for a request as a TOML value.
 #[pyfunction]
-pub(crate) fn modes_animation(
-    model: &NativeModel,
-    py: Python<'_>,
-    count: Option<usize>,
-    state: Option<String>,
-    shift: Option<f64>,
-) -> PyResult<String> {
-    let request = crate::analyses::mode_request(count, state.as_deref(), shift)?;
+pub(crate) fn modes_animation(model: &NativeModel, py: Python<'_>, request: &str) -> PyResult<String> {
+    let request: ModeRequest = analysis::request(request).map_err(|error| of_analysis(&error))?;
     let model = model.clone();
     interruptible(py, move || {
         let document = model.document()?;
-        let found = crate::analyses::found_modes(&model, &request)?;
+        let found = request.compute(&model.model, &model.overrides).map_err(|error| of_analysis(&error))?;
         let lowered = lower(&document).map_err(|report| of_report(&report))?;
         let scene = Scene::of(&document, &lowered);
         let bytes = Bytes::default();

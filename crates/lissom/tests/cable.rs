@@ -205,7 +205,8 @@ fn irvine(lambda_squared: f64, below: f64) -> Vec<f64> {
 
 fn found(cable: &Cable, elements: usize, count: usize) -> (Vec<f64>, ModeReport) {
     let model = Model::from_text("cable.toml", &cable.model(elements, "modes"));
-    let request = ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), shift: None };
+    let request =
+        ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     let report = modes(&model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(report.completeness, Completeness::Counted);
     (report.modes.iter().map(|mode| mode.frequency / cable.unit()).collect(), report)

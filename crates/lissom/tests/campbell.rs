@@ -360,7 +360,7 @@ fn peak(signal: &[f64], step: f64, rate: f64) -> (f64, [f64; 2]) {
 #[test]
 fn a_three_bladed_rotor_decays_with_the_frequencies_of_its_diagram() {
     let text = turbine();
-    let ask = ModeRequest { count: Some(9), about: Some(OperatingPoint::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(9), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     let model = Model::from_text("model.toml", &text);
     let found = modes(&model, &[], &ask).unwrap_or_else(|error| panic!("{error}"));
     let mut session = model.session(&[]).unwrap();
@@ -437,7 +437,7 @@ kind = "dynamics"
 end = 1
 step = 1e-3
 "#;
-    let ask = ModeRequest { count: Some(4), about: Some(OperatingPoint::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(4), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     let found = modes(&Model::from_text("model.toml", text), &[], &ask).expect("some modes are constant");
     let words = found.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
     for part in ["omitted", "coefficients change as the model rotates", "Floquet"] {
@@ -475,7 +475,7 @@ stiffness = 1e5
         other => panic!("{other:?}"),
     }
     // Nothing turns.
-    let ask = ModeRequest { count: Some(2), about: Some(OperatingPoint::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(2), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     let still = OVERHUNG.replace("speed = 10.0", "speed = 0.0");
     let error = modes(&Model::from_text("model.toml", &still), &[], &ask).expect_err("it is at rest");
     assert!(error.to_string().contains("nothing rotates"), "{error}");

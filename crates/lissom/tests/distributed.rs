@@ -148,7 +148,8 @@ fn a_path_begins_without_forces_per_length() {
 #[test]
 fn the_undeformed_state_is_without_forces_per_length() {
     let find = |text: &str| {
-        let request = ModeRequest { count: Some(2), about: Some(OperatingPoint::Undeformed), shift: None };
+        let request =
+            ModeRequest { count: Some(2), about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
         modes(&Model::from_text("beam.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
     };
     let [alone, loaded] =

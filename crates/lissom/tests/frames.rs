@@ -6,7 +6,7 @@ use lissom::Model;
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 
 fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
-    let request = ModeRequest { count: Some(count), about: Some(about), shift: None };
+    let request = ModeRequest { count: Some(count), about: Some(about), ..ModeRequest::default() };
     modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -187,7 +187,7 @@ step = 0.005
 #[test]
 fn modes_are_those_of_the_matrices() {
     let text = oscillator("0").replace(&format!("{STIFFNESS:?}"), "[30, 40, 25]");
-    let request = ModeRequest { count: None, about: None, shift: None };
+    let request = ModeRequest::default();
     let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
     // 2ω² - 30 and ω² - 40, coupled by 0.5 ω²: 1.75 ω⁴ - 110 ω² + 1200 = 0; 1.5 ω² = 25.
     let root = (110.0_f64 * 110.0 - 4.0 * 1.75 * 1200.0).sqrt();

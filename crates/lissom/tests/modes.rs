@@ -13,7 +13,7 @@ fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
 }
 
 fn try_find(text: &str, about: OperatingPoint, count: usize) -> Result<ModeReport, ModesError> {
-    let request = ModeRequest { count: Some(count), about: Some(about), shift: None };
+    let request = ModeRequest { count: Some(count), about: Some(about), ..ModeRequest::default() };
     modes(&Model::from_text("model.toml", text), &[], &request)
 }
 
@@ -387,8 +387,12 @@ step = 1e-3
 fn modes_near_a_frequency_are_those_of_the_whole_list() {
     let text = beam(12, 3, CLAMP);
     let all = frequencies(&find(&text, OperatingPoint::Undeformed, 30));
-    let request =
-        ModeRequest { count: Some(4), about: Some(OperatingPoint::Undeformed), shift: Some(all[14] * 1.001) };
+    let request = ModeRequest {
+        count: Some(4),
+        about: Some(OperatingPoint::Undeformed),
+        shift: Some(all[14] * 1.001),
+        ..ModeRequest::default()
+    };
     let some = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
     assert_eq!(some.completeness, Completeness::Counted);
     let mut nearest = all.clone();
@@ -545,7 +549,8 @@ fn frequencies_that_come_several_times_are_counted_whole_wherever_the_count_cuts
 fn fewer_modes_than_asked_for_are_reported() {
     let text = beam(1, 1, CLAMP);
     let reported = |count: Option<usize>| {
-        let request = ModeRequest { count, about: Some(OperatingPoint::Undeformed), shift: None };
+        let request =
+            ModeRequest { count, about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
         let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
         (report.modes.len(), report.warnings)
     };

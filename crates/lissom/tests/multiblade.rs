@@ -131,7 +131,11 @@ fn blades_on_a_support_of_two_stiffnesses_resonate_as_coleman_says() {
         let mut has_flutter = false;
         for speed in [3.0, 12.0, 20.0, 24.0, 40.0] {
             let text = rotor(blades, speed);
-            let ask = ModeRequest { count: Some(8), about: Some(OperatingPoint::Rotation), shift: None };
+            let ask = ModeRequest {
+                count: Some(8),
+                about: Some(OperatingPoint::Rotation),
+                ..ModeRequest::default()
+            };
             let found = modes(&Model::from_text("model.toml", &text), &[], &ask)
                 .unwrap_or_else(|error| panic!("{blades} blades at {speed}: {error}"));
             assert!(found.warnings.contains(&AnalysisWarning::AxesAtRest), "{:?}", found.warnings);
@@ -165,7 +169,7 @@ fn blades_on_a_support_of_two_stiffnesses_resonate_as_coleman_says() {
 
 #[test]
 fn modes_of_two_blades_are_left_out_with_the_reason() {
-    let ask = ModeRequest { count: Some(6), about: Some(OperatingPoint::Rotation), shift: None };
+    let ask = ModeRequest { count: Some(6), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     // Both blades against each other do not move the hub: that mode alone has constant coefficients.
     let found =
         modes(&Model::from_text("model.toml", &rotor(2, 12.0)), &[], &ask).expect("one mode is constant");

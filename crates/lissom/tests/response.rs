@@ -416,7 +416,8 @@ fn feedback_and_states_respond_as_in_steps_over_time() {
         assert!((amplitude - wanted).norm() < 2e-3 * wanted.norm(), "{output}: {amplitude} for {wanted}");
     }
     // Its modes: the characteristic polynomial of the loop.
-    let request = ModeRequest { count: Some(5), about: Some(OperatingPoint::Static), shift: None };
+    let request =
+        ModeRequest { count: Some(5), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     let report = modes(&model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
     let inertia = 0.2 + 2.0 * 0.25;
     let gravity = gravity_stiffness();

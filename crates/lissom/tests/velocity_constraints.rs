@@ -11,7 +11,8 @@ use lissom_core::linear::{Completeness, ModeKind};
 const GRAVITY: f64 = 9.81;
 
 fn find(text: &str, count: usize) -> ModeReport {
-    let request = ModeRequest { count: Some(count), about: Some(OperatingPoint::Time(0.0)), shift: None };
+    let request =
+        ModeRequest { count: Some(count), about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
     modes(&Model::from_text("model.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -198,7 +199,8 @@ fn a_coin_in_a_circle_has_the_frequency_of_eulers_equations() {
 #[test]
 fn modes_of_an_uneven_wheel_are_refused() {
     let text = disc(8.0).replace("\"1.7*0.2^2/4\", \"1.7*0.2^2/2\", \"1.7*0.2^2/4\"", "0.012, 0.03, 0.025");
-    let request = ModeRequest { count: Some(6), about: Some(OperatingPoint::Time(0.0)), shift: None };
+    let request =
+        ModeRequest { count: Some(6), about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
     match modes(&Model::from_text("model.toml", &text), &[], &request) {
         Err(error) => assert!(error.to_string().contains("change"), "{error}"),
         Ok(report) => {

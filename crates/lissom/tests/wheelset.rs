@@ -243,7 +243,7 @@ fn steady(set: &[(&str, &str)]) -> ModeReport {
     let middle = ["x0", "y0", "z0", "yaw", "roll"].map(|name| format!("parameters.{name}"));
     let middle = middle.iter().map(|path| (path.as_str(), "0"));
     let all: Vec<_> = middle.chain(set.iter().copied()).collect();
-    let request = ModeRequest { count: None, about: Some(OperatingPoint::Time(0.0)), shift: None };
+    let request = ModeRequest { about: Some(OperatingPoint::Time(0.0)), ..ModeRequest::default() };
     modes(&Model::from_text("wheelset.toml", MODEL), &given(&all), &request)
         .unwrap_or_else(|error| panic!("{error}"))
 }

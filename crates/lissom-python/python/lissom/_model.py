@@ -224,9 +224,10 @@ class Model(ModelTables):
             ModelError: if the question makes no sense for the model. SolutionError: if the state is not reached or no
             equilibrium, or modes were missed.
         """
-        question = (_at_least(1, count, "count"), None if about is None else _about(about), None if shift is None else float(shift))
-        found = Modes(_lissom.modes(self._native, *question), functools.partial(_lissom.modes_animation, self._native, *question))
-        return self._told(found)
+        state = None if about is None else _about(about)
+        request = _request(count=_at_least(1, count, "count"), about=state, shift=None if shift is None else float(shift))
+        page = functools.partial(_lissom.modes_animation, self._native, request)
+        return self._told(Modes(_lissom.analyse(self._native, "modes", request), page))
 
     def buckling(self, count: int | None = None) -> Buckling:
         """Load factors at which the model buckles, by a linear estimate, as `lissom buckling` finds them."""
@@ -321,9 +322,8 @@ class Model(ModelTables):
         return self._told(linear_model(_lissom.linearize(self._native, _names(inputs), _names(outputs), _about(about))))
 
     def _analysed(self, name: str, **request: Any) -> Files:
-        """The files of an analysis; values that are None are those of the program."""
-        given = {key: of for key, of in request.items() if of is not None}
-        return _lissom.analyse(self._native, name, _toml.value(given))
+        """The files of an analysis."""
+        return _lissom.analyse(self._native, name, _request(**request))
 
     def _told(self, found: Told) -> Told:
         for words in found.warnings:
@@ -362,6 +362,11 @@ def loads(text: str, name: str = "model", /, **overrides: Any) -> Model:
 
 def _names(names: str | Sequence[str]) -> list[str]:
     return [names] if isinstance(names, str) else [str(name) for name in names]
+
+
+def _request(**values: Any) -> str:
+    """The request of an analysis as TOML; values that are None are those of the program."""
+    return _toml.value({key: of for key, of in values.items() if of is not None})
 
 
 def _about(state: About) -> str:

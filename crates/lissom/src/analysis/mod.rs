@@ -9,8 +9,10 @@ use lissom_model::output::{FigureError, Graphic, Summary};
 use lissom_model::{Document, Report};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
+use toml::de::ValueDeserializer;
 
 use crate::command_error::CommandError;
+use crate::folder::ResultFolder;
 use crate::model::{Model, Override};
 
 pub use registry::{ANALYSES, Outcome, Registered, Results};
@@ -41,6 +43,14 @@ pub trait AnalysisReport {
     /// Its figure, if it has one.
     fn figure(&self, _title: &str) -> Option<Result<Graphic, FigureError>> {
         None
+    }
+
+    /// Writes its other files.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    fn write_more(&self, _folder: &ResultFolder, _document: &Document) -> Result<(), Diagnostic> {
+        Ok(())
     }
 
     /// Inserts its contents into `summary.json`.
@@ -80,6 +90,15 @@ impl AnalysisError for Report {
     fn origin(&self) -> Origin<'_> {
         Origin::Model(self)
     }
+}
+
+/// The request in a TOML value.
+///
+/// # Errors
+/// If it is not a request of this analysis.
+pub fn request<A: Analysis>(text: &str) -> Result<A, CommandError> {
+    let read = ValueDeserializer::parse(text).and_then(A::deserialize);
+    read.map_err(|error| CommandError::Request(error.message().to_owned()))
 }
 
 /// The contents of `summary.json`.

@@ -1,21 +1,21 @@
 //! The registry of the analyses without time steps.
 
 use lissom_model::output::Summary;
-use toml::de::ValueDeserializer;
 
 use super::{Analysis, AnalysisError, AnalysisReport};
 use crate::buckling::BucklingRequest;
 use crate::campbell::CampbellRequest;
-use crate::command_error::CommandError;
 use crate::diagnostic::with_code;
 use crate::gradient::GradientRequest;
 use crate::model::{Model, Override};
+use crate::modes::ModeRequest;
 use crate::response::ResponseRequest;
 
 /// All analyses. On the command line each is also a line of `commands`.
 pub const ANALYSES: &[Registered] = &[
     Registered::of::<BucklingRequest>(),
     Registered::of::<CampbellRequest>(),
+    Registered::of::<ModeRequest>(),
     Registered::of::<ResponseRequest>(),
     Registered::of::<GradientRequest>(),
 ];
@@ -54,9 +54,7 @@ fn boxed(error: impl AnalysisError + 'static) -> Box<dyn AnalysisError> {
 }
 
 fn compute<A: Analysis>(model: &Model, overrides: &[Override], request: &str) -> Outcome {
-    let request = ValueDeserializer::parse(request)
-        .and_then(A::deserialize)
-        .map_err(|error| boxed(CommandError::Request(error.message().to_owned())))?;
+    let request: A = super::request(request).map_err(boxed)?;
     let report = request.compute(model, overrides).map_err(boxed)?;
     let document = model.document(overrides).map_err(boxed)?;
     Ok(Results {

@@ -61,6 +61,7 @@ pub(super) fn report<A: Analysis>(
     if let Some(figure) = found.figure(heading) {
         draw(&folder, figure)?;
     }
+    found.write_more(&folder, document).map_err(|error| Failure::new(Exit::Failed, &error))?;
     let summary = analysis::summary::<A>(&found, model.name(), overrides, document);
     folder.write_summary(&summary).map_err(unwritable)?;
     if !quiet {

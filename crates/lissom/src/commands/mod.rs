@@ -15,7 +15,6 @@ mod live;
 #[cfg(test)]
 mod manual;
 mod model_arguments;
-mod modes;
 mod new;
 pub(crate) mod outcome;
 mod path;
@@ -36,6 +35,7 @@ use clap::{Parser, Subcommand};
 use lissom::buckling::BucklingRequest;
 use lissom::campbell::CampbellRequest;
 use lissom::gradient::GradientRequest;
+use lissom::modes::ModeRequest;
 use lissom::response::ResponseRequest;
 
 use crate::terminal;
@@ -111,7 +111,7 @@ pub(crate) struct Line {
 enum Command {
     Run(run::Run),
     Check(check::Check),
-    Modes(modes::Modes),
+    Modes(AnalysisCommand<ModeRequest>),
     Buckling(AnalysisCommand<BucklingRequest>),
     Gradient(AnalysisCommand<GradientRequest>),
     Campbell(AnalysisCommand<CampbellRequest>),

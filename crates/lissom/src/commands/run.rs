@@ -116,8 +116,8 @@ impl Run {
         let asked = (&task.model, &task.overrides[..], &document);
         match document.analysis.kind {
             AnalysisKind::Modes { .. } => {
-                let shown = (task.plots, self.quiet);
-                return super::modes::report(asked, &ModeRequest::default(), &task.folder, shown);
+                let request = ModeRequest { no_plots: !task.plots, ..ModeRequest::default() };
+                return super::analysis::report(asked, &request, &task.folder, self.quiet);
             }
             AnalysisKind::Buckling { .. } => {
                 return super::analysis::report(asked, &BucklingRequest::default(), &task.folder, self.quiet);

@@ -71,7 +71,7 @@ fn chain(masses: &[f64], stiffness: &[f64], damping: &[f64]) -> (String, Vec<(f6
 
 #[test]
 fn every_mode_is_found_beside_one_that_grows() {
-    let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), shift: None };
+    let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     let report = find(NEAR_GROWTH, &[], &all);
     let expected = [
         (1.619, 0.0),
@@ -94,7 +94,7 @@ fn every_mode_is_found_beside_one_that_grows() {
 
 #[test]
 fn all_modes_of_chains_are_found_whatever_their_stiffness_and_damping() {
-    let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), shift: None };
+    let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     for (stiffness, damping) in [
         ([-40.0, 30.0, 100.0], [1.0, 0.5, 0.2]),
         ([-1.0, 1e4, 1e6], [0.1, 20.0, 3.0]),
@@ -126,7 +126,8 @@ fn redundant_joints_leave_frequencies_alone() {
         let c = k[0] * k[1] * (j[0] + j[1] + j[2]);
         let high = 0.5 * (b + (b * b - 4.0 * a * c).sqrt()) / a;
         let exact = [c / (a * high), high].map(|square: f64| square.sqrt() / TAU);
-        let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), shift: None };
+        let all =
+            ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
         let report = find(GEARED_TRAIN, &[("springs.k1.stiffness", &format!("{k1:?}"))], &all);
         assert_eq!(report.modes.len(), 3, "{}", report.csv());
         for (mode, exact) in report.modes[1..].iter().zip(exact) {
@@ -138,7 +139,7 @@ fn redundant_joints_leave_frequencies_alone() {
 #[test]
 fn redundant_joints_with_damping_have_their_modes() {
     let damped = GEARED_TRAIN.replace("stiffness=25000.0", "stiffness=25000.0\ndamping=10");
-    let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), shift: None };
+    let all = ModeRequest { count: Some(20), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     let report = find(&damped, &[], &all);
     assert_eq!(report.modes.len(), 3, "{}", report.csv());
     near(report.modes[1].frequency, 22.602_25, 1e-3);
@@ -146,7 +147,7 @@ fn redundant_joints_with_damping_have_their_modes() {
 
 #[test]
 fn a_blade_of_any_axial_stiffness_has_its_modes_in_rotation() {
-    let six = ModeRequest { count: Some(6), about: Some(OperatingPoint::Rotation), shift: None };
+    let six = ModeRequest { count: Some(6), about: Some(OperatingPoint::Rotation), ..ModeRequest::default() };
     let soft = find(&STIFF_BLADE.replace("1e13,1e13,1e13", "1e11,1e11,1e11"), &[], &six);
     let stiff = find(STIFF_BLADE, &[], &six);
     assert_eq!(stiff.modes.len(), 6, "{:?}", stiff.warnings);
@@ -184,7 +185,7 @@ fn axial(law: &str) -> String {
 
 #[test]
 fn kinks_and_jumps_of_forces_are_reported_beside_modes() {
-    let all = ModeRequest { count: Some(5), about: Some(OperatingPoint::Static), shift: None };
+    let all = ModeRequest { count: Some(5), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     let warns =
         |text: &str| find(text, &[], &all).warnings.iter().any(|own| own.code() == "linearization-kink");
     for law in [

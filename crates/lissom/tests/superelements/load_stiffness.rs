@@ -117,7 +117,11 @@ fn frequencies_in_rotation_are_those_of_the_beam() {
             )
         };
         for speed in [10.0, 25.0, 49.0] {
-            let request = ModeRequest { count: Some(4), about: Some(OperatingPoint::Rotation), shift: None };
+            let request = ModeRequest {
+                count: Some(4),
+                about: Some(OperatingPoint::Rotation),
+                ..ModeRequest::default()
+            };
             let of = |model: &Model| -> Vec<f64> {
                 let found = modes(model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
                 found.modes.iter().map(|mode| mode.frequency).collect()

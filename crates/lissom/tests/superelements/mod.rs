@@ -81,7 +81,8 @@ fn using(report: &ReduceReport, rest: &str) -> Model {
 }
 
 fn frequencies(model: &Model, count: usize) -> Vec<f64> {
-    let request = ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), shift: None };
+    let request =
+        ModeRequest { count: Some(count), about: Some(OperatingPoint::Static), ..ModeRequest::default() };
     let found = modes(model, &[], &request).unwrap_or_else(|error| panic!("{error}"));
     found.modes.iter().map(|mode| mode.frequency).collect()
 }

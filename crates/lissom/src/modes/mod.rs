@@ -1,8 +1,9 @@
 //! Natural modes of a model about a state: computes the state, linearises there, and reports the modes in tables.
 
+mod report;
+
 use lissom_core::diagnostics::Diagnose;
-use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use lissom_core::errors::{InitialError, StepError};
@@ -11,16 +12,17 @@ use lissom_core::linear::{
     Completeness, Departure, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind,
     ModeOptions, Modes, NodeShape, SteadyError,
 };
+use lissom_model::Report;
 use lissom_model::document::AnalysisKind;
-use lissom_model::output::Summary;
-use lissom_model::{Document, Report};
-use serde_json::{Value, json};
+use serde::Deserialize;
 
+use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::session::SessionError;
 
 pub use crate::operating_point::OperatingPoint;
+pub(crate) use report::shapes_table;
 
 /// Number of shapes that are drawn.
 const DRAWN: usize = 20;
@@ -34,15 +36,52 @@ const BEYOND_ROUND_OFF: f64 = 30.0;
 /// … unless round-off dominates the comparison.
 const MAX_ROUND_OFF: f64 = 1e-2;
 
-/// The request; omitted values are those of the model's table `[analysis]` if it is of kind `modes`.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// Compute natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
+///
+/// The results go to a folder: `modes.csv` (number, frequency, damping ratio, kind), `shapes.csv` (displacement and rotation of
+/// every node), `energy.csv` (share of each part in kinetic and strain energy), `participation.csv` (effective masses), `shapes.svg` (a
+/// picture of the first shapes), `summary.json` (eigenvalues) and files for `lissom view`.
+// Omitted values are those of the model's table `[analysis]` if it is of kind `modes`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(default)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Examples:
+  lissom modes examples/tip-crank.toml --about undeformed
+  lissom modes examples/tip-crank.toml --count 40 --shift 100   the modes nearest to 100 Hz
+  lissom modes examples/top.toml --about 0.5      about the state at t = 0.5 s
+
+Kinds: rigid (frequency 0), oscillation, decay (overdamped), divergence and flutter (growing).
+Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about, or modes were missed.")
+)]
 pub struct ModeRequest {
-    /// Number of modes; default 20.
+    /// Number of modes, the lowest first [default: 20].
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "N", value_parser = crate::analysis::counts(1..)))]
     pub count: Option<usize>,
-    /// The state; default static equilibrium.
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file) or a time of the model's analysis [s].
+    #[cfg_attr(
+        feature = "command-line",
+        arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)
+    )]
     pub about: Option<OperatingPoint>,
-    /// Frequency near which modes are searched for [Hz]; default the lowest ones.
+    /// Compute the modes nearest to this frequency [default: the lowest ones].
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "HZ", allow_negative_numbers = true))]
     pub shift: Option<f64>,
+    /// Do not draw the shapes.
+    #[cfg_attr(feature = "command-line", arg(long, display_order = 901))]
+    pub no_plots: bool,
+}
+
+impl Analysis for ModeRequest {
+    const NAME: &'static str = "modes";
+    type Report = ModeReport;
+    type Error = ModesError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<ModeReport, ModesError> {
+        modes(model, overrides, self)
+    }
 }
 
 /// Why modes were not found.
@@ -109,6 +148,16 @@ pub enum ModesError {
     /// Some modes were not found.
     #[error("{}", self.diagnostic())]
     Missing(usize),
+}
+
+impl AnalysisError for ModesError {
+    fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::Model(report) => Origin::Model(report),
+            Self::Time { .. } | Self::Shift(_) => Origin::Request,
+            _ => Origin::Computation,
+        }
+    }
 }
 
 impl From<SessionError> for ModesError {
@@ -197,6 +246,9 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         let is_counted = report.completeness == Completeness::Counted;
         let evidence = if is_counted { "the model has" } else { "the search found" };
         report.warnings.push(AnalysisWarning::FewerModes { wanted: count, evidence, found: number });
+    }
+    if request.no_plots {
+        report.moved.clear();
     }
     report.about = about.name();
     report.wall = began.elapsed();
@@ -331,122 +383,4 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
         warnings,
         wall: Duration::ZERO,
     }
-}
-
-impl ModeReport {
-    /// The table `modes.csv`: number from 1, frequency |s|/(2π) [Hz], damping ratio [-], kind.
-    pub fn csv(&self) -> String {
-        let mut text = "mode,frequency,damping,kind\n".to_owned();
-        for (index, mode) in self.modes.iter().enumerate() {
-            let Mode { frequency, damping, kind, .. } = mode;
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "{},{frequency:?},{damping:?},{}", index + 1, kind.name());
-        }
-        text
-    }
-
-    /// The table `shapes.csv`: by mode and node its position [m], displacement [m] and rotation [rad] in global axes for unit modal
-    /// mass, and imaginary parts of both where a mode has any.
-    pub fn shapes_csv(&self) -> String {
-        let is_complex = self.modes.iter().any(|mode| mode.shape.iter().any(|value| value.im != 0.0));
-        shapes_table(&self.shapes, is_complex)
-    }
-
-    /// The table `energy.csv`: by mode and part its shares in kinetic and strain energy [-], empty where a mode has none.
-    pub fn energy_csv(&self) -> String {
-        let mut text = "mode,part,kinetic,strain\n".to_owned();
-        for (index, (kinetic, strain)) in self.shares.iter().zip(&self.strain_shares).enumerate() {
-            let parts: BTreeSet<&String> = kinetic.keys().chain(strain.keys()).collect();
-            for part in parts {
-                let of = |shares: &BTreeMap<String, f64>| {
-                    if shares.is_empty() {
-                        return String::new();
-                    }
-                    format!("{:?}", shares.get(part).copied().unwrap_or(0.0))
-                };
-                // Writing to a string cannot fail.
-                let _ = writeln!(text, "{},{},{},{}", index + 1, quoted(part), of(kinetic), of(strain));
-            }
-        }
-        text
-    }
-
-    /// The table `participation.csv`: effective masses of each mode along [kg] and about [kg m²] the axes of space, the last row
-    /// those of the whole model.
-    pub fn participation_csv(&self) -> String {
-        let mut text = "mode,x,y,z,rx,ry,rz\n".to_owned();
-        let numbered = self.effective_masses.iter().enumerate();
-        let named = numbered.map(|(index, masses)| ((index + 1).to_string(), masses));
-        for (name, masses) in named.chain([("all".to_owned(), &self.masses)]) {
-            let numbers: Vec<String> = masses.iter().map(|value| format!("{value:?}")).collect();
-            // Writing to a string cannot fail.
-            let _ = writeln!(text, "{name},{}", numbers.join(","));
-        }
-        text
-    }
-
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
-        let mut summary = of_request(name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
-        insert("about", json!(self.about));
-        insert("time", json!(self.time));
-        insert("asked", json!(self.asked));
-        insert("found", json!(self.modes.len()));
-        insert("completeness", json!(self.completeness.name()));
-        insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
-        insert("multipliers", json!(self.unknowns[1]));
-        insert("rigid_modes", json!(self.count(ModeKind::Rigid)));
-        insert("masses", json!(self.masses));
-        let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
-            json!({
-                "mode": index + 1,
-                "frequency": mode.frequency,
-                "damping": mode.damping,
-                "kind": mode.kind.name(),
-                "eigenvalue": [mode.eigenvalue.re, mode.eigenvalue.im],
-                "residual": mode.residual,
-                "kinetic_shares": shares,
-                "strain_shares": self.strain_shares[index],
-                "effective_masses": self.effective_masses[index],
-            })
-        };
-        insert("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.warnings);
-        summary
-    }
-
-    fn count(&self, kind: ModeKind) -> usize {
-        self.modes.iter().filter(|mode| mode.kind == kind).count()
-    }
-}
-
-/// Contents that are known before the modes; the summary of a failed search contains the reason.
-pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
-    crate::summary::of_request("modes", name, overrides, document)
-}
-
-/// A table of shapes, by number and node.
-pub(crate) fn shapes_table(shapes: &[Vec<NodeShape>], is_complex: bool) -> String {
-    let mut text = "mode,node,x,y,z,u1,u2,u3,r1,r2,r3".to_owned();
-    text += if is_complex { ",u1_im,u2_im,u3_im,r1_im,r2_im,r3_im\n" } else { "\n" };
-    for (index, shape) in shapes.iter().enumerate() {
-        for node in shape {
-            // Writing to a string cannot fail.
-            let _ = write!(text, "{},{}", index + 1, quoted(&node.node));
-            let motion = || node.displacement.iter().chain(&node.rotation);
-            let numbers = node.position.iter().copied().chain(motion().map(|value| value.re));
-            for value in numbers.chain(motion().filter(|_| is_complex).map(|value| value.im)) {
-                let _ = write!(text, ",{value:?}");
-            }
-            text.push('\n');
-        }
-    }
-    text
-}
-
-fn quoted(name: &str) -> String {
-    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
 }
