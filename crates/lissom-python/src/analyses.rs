@@ -1,12 +1,9 @@
 //! Analyses without time integration: each returns the texts of its command's files, so that Python reads identical values.
 
-use std::str::FromStr;
-
-use lissom::analysis::ANALYSES;
-use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
-use lissom::modes::OperatingPoint;
+use lissom::analysis::{ANALYSES, Results};
+use lissom::linearize::{LinearizeRequest, linearize_session};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
-use lissom::{Document, Record, Session, with_code};
+use lissom::{Document, Record, Session};
 use pyo3::prelude::*;
 
 use crate::errors::{SolutionError, of_analysis, of_report, question, refused, solution};
@@ -17,22 +14,8 @@ use crate::watch::{Watch, interruptible};
 /// Names and texts of files, the summary as JSON, and warnings.
 pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
 
-/// The state to linearise about.
-fn about(words: &str) -> PyResult<OperatingPoint> {
-    OperatingPoint::from_str(words).map_err(|reason| question(format!("`about` is \"{words}\": {reason}")))
-}
-
-fn of_linear(
-    found: &LinearizeReport,
-    name: &str,
-    overrides: &[lissom::Override],
-    document: &Document,
-) -> Files {
-    (
-        found.files.clone(),
-        json(&found.summary(name, overrides, document)),
-        found.warnings.iter().map(with_code).collect(),
-    )
+fn files(found: Results) -> Files {
+    (found.tables, json(&found.summary), found.warnings)
 }
 
 /// The linear model at the state of `session`, as files.
@@ -43,7 +26,7 @@ pub(crate) fn linearize_here(
     (inputs, outputs): (&[String], &[String]),
 ) -> PyResult<Files> {
     let found = linearize_session(session, document, inputs, outputs).map_err(|error| of_analysis(&error))?;
-    Ok(of_linear(&found, model.model.name(), &model.overrides, document))
+    Ok(files(Results::of::<LinearizeRequest>(&found, model.model.name(), &model.overrides, document)))
 }
 
 /// Results of the analysis called `name`, for its request as a TOML value.
@@ -54,26 +37,7 @@ pub(crate) fn analyse(model: &NativeModel, py: Python<'_>, name: &str, request: 
     let model = model.clone();
     interruptible(py, move || {
         let found = (analysis.compute)(&model.model, &model.overrides, &request);
-        let found = found.map_err(|error| of_analysis(&*error))?;
-        Ok((found.tables, json(&found.summary), found.warnings))
-    })
-}
-
-/// Results of `lissom linearize`.
-#[pyfunction]
-pub(crate) fn linearize(
-    model: &NativeModel,
-    py: Python<'_>,
-    inputs: Vec<String>,
-    outputs: Vec<String>,
-    state: &str,
-) -> PyResult<Files> {
-    let request = LinearizeRequest { about: about(state)?, inputs, outputs };
-    let model = model.clone();
-    interruptible(py, move || {
-        let found = lissom::linearize::linearize(&model.model, &model.overrides, &request)
-            .map_err(|error| of_analysis(&error))?;
-        Ok(of_linear(&found, model.model.name(), &model.overrides, &model.document()?))
+        Ok(files(found.map_err(|error| of_analysis(&*error))?))
     })
 }
 

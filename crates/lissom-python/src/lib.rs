@@ -25,7 +25,6 @@ fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<batch::Batch>()?;
     module.add_class::<sweep::NativeSweep>()?;
     module.add_function(wrap_pyfunction!(analyses::analyse, module)?)?;
-    module.add_function(wrap_pyfunction!(analyses::linearize, module)?)?;
     module.add_function(wrap_pyfunction!(analyses::path, module)?)?;
     module.add_function(wrap_pyfunction!(animation::animation, module)?)?;
     module.add_function(wrap_pyfunction!(animation::modes_animation, module)?)?;

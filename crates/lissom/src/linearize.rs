@@ -5,12 +5,16 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
+use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::kinematics::Quantity;
 use lissom_core::linear::{LinearModel, OutputDerivatives, StateSpace, StateSpaceError};
+use lissom_core::number::duration;
 use lissom_model::Document;
-use lissom_model::output::{Summary, full_matrix, quoted, sparse_matrix};
+use lissom_model::output::{full_matrix, quoted, sparse_matrix};
+use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::analysis::{Analysis, AnalysisReport};
 use crate::analysis_warning::AnalysisWarning;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
@@ -19,15 +23,54 @@ use crate::ports::{self, Input, Observed};
 use crate::response::FrequencyError;
 use crate::session::Session;
 
-/// The request.
-#[derive(Clone, Debug, PartialEq)]
+/// Write the matrices of the model linearised about a state.
+///
+/// The results go to a folder, in the Matrix Market format: mass `M.mtx`, damping `D.mtx`, stiffness `K.mtx`, gradient of the
+/// constraints `G.mtx`, `inputs.mtx`, `outputs-*.mtx`, `unknowns.csv` (names of the rows). For models with up to 600
+/// coordinates also `state-space-A.mtx` … `state-space-D.mtx` with `states.csv`.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Examples:
+  lissom linearize examples/tip-crank.toml
+  lissom linearize examples/tip-crank.toml --input drive --output midspan
+
+An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), such as `motor`, or
+`loads.motor` if several entries have the same name.
+Exit code: 0 success; 2 wrong model or command line; 3 no state to linearise about.")
+)]
 pub struct LinearizeRequest {
-    /// The state about which the model is linearised.
-    pub about: OperatingPoint,
-    /// Names of inputs, loads and prescribed motions.
+    /// Inputs: entries of [inputs], loads or prescribed motions.
+    #[cfg_attr(feature = "command-line", arg(long = "input", value_name = "NAME,…", value_delimiter = ','))]
     pub inputs: Vec<String>,
-    /// Names of outputs or of their columns.
+    /// Outputs, or columns of them.
+    #[cfg_attr(feature = "command-line", arg(long = "output", value_name = "NAME,…", value_delimiter = ','))]
     pub outputs: Vec<String>,
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
+    #[cfg_attr(
+        feature = "command-line",
+        arg(
+            long,
+            value_name = "STATE|TIME",
+            default_value = "static",
+            hide_default_value = true,
+            allow_negative_numbers = true
+        )
+    )]
+    pub about: OperatingPoint,
+}
+
+impl Analysis for LinearizeRequest {
+    const NAME: &'static str = "linearize";
+    const FOLDER: &'static str = "linear";
+    type Report = LinearizeReport;
+    type Error = FrequencyError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<LinearizeReport, FrequencyError> {
+        linearize(model, overrides, self)
+    }
 }
 
 /// A linear model as texts of matrices.
@@ -213,12 +256,12 @@ fn unknowns(model: &LinearModel<'_>) -> String {
     text
 }
 
-impl LinearizeReport {
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
-        let mut summary = crate::summary::of_request("linearize", name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
+impl AnalysisReport for LinearizeReport {
+    fn tables(&self) -> Vec<(String, String)> {
+        self.files.clone()
+    }
+
+    fn add_facts(&self, insert: &mut dyn FnMut(&str, Value)) {
         insert("about", json!(self.about));
         insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
         insert("multipliers", json!(self.unknowns[1]));
@@ -230,7 +273,24 @@ impl LinearizeReport {
         }
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
         insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.warnings);
-        summary
+    }
+
+    fn warnings(&self) -> Vec<Diagnostic> {
+        self.warnings.iter().map(Diagnose::diagnostic).collect()
+    }
+
+    fn text(&self) -> String {
+        let [coordinates, multipliers] = self.unknowns;
+        let equations = match &self.state_space {
+            Ok(matrices) => format!("first-order equations in {} states", matrices.states.len()),
+            Err(reason) => format!("no first-order equations: {reason}"),
+        };
+        format!(
+            "  linear model about {}: {coordinates} coordinates, {multipliers} multipliers, {} inputs, {} outputs, {}\n  {equations}\n",
+            self.about,
+            self.inputs.len(),
+            self.outputs.len(),
+            duration(self.wall.as_secs_f64())
+        )
     }
 }

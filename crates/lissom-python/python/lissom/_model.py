@@ -319,7 +319,8 @@ class Model(ModelTables):
             outputs: outputs, or columns of them.
             about: the state, as for `modes`.
         """
-        return self._told(linear_model(_lissom.linearize(self._native, _names(inputs), _names(outputs), _about(about))))
+        files = self._analysed("linearize", inputs=_names(inputs), outputs=_names(outputs), about=_about(about))
+        return self._told(linear_model(files))
 
     def _analysed(self, name: str, **request: Any) -> Files:
         """The files of an analysis."""

@@ -1,5 +1,6 @@
 //! The registry of the analyses without time steps.
 
+use lissom_model::Document;
 use lissom_model::output::Summary;
 
 use super::{Analysis, AnalysisError, AnalysisReport};
@@ -7,6 +8,7 @@ use crate::buckling::BucklingRequest;
 use crate::campbell::CampbellRequest;
 use crate::diagnostic::with_code;
 use crate::gradient::GradientRequest;
+use crate::linearize::LinearizeRequest;
 use crate::model::{Model, Override};
 use crate::modes::ModeRequest;
 use crate::response::ResponseRequest;
@@ -17,6 +19,7 @@ pub const ANALYSES: &[Registered] = &[
     Registered::of::<CampbellRequest>(),
     Registered::of::<ModeRequest>(),
     Registered::of::<ResponseRequest>(),
+    Registered::of::<LinearizeRequest>(),
     Registered::of::<GradientRequest>(),
 ];
 
@@ -43,6 +46,22 @@ pub struct Results {
     pub warnings: Vec<String>,
 }
 
+impl Results {
+    /// The files of a report on a model of this name.
+    pub fn of<A: Analysis>(
+        report: &A::Report,
+        name: &str,
+        overrides: &[Override],
+        document: &Document,
+    ) -> Self {
+        Self {
+            tables: report.tables(),
+            summary: super::summary::<A>(report, name, overrides, document),
+            warnings: report.warnings().iter().map(with_code).collect(),
+        }
+    }
+}
+
 impl Registered {
     const fn of<A: Analysis>() -> Self {
         Self { name: A::NAME, compute: compute::<A> }
@@ -57,9 +76,5 @@ fn compute<A: Analysis>(model: &Model, overrides: &[Override], request: &str) ->
     let request: A = super::request(request).map_err(boxed)?;
     let report = request.compute(model, overrides).map_err(boxed)?;
     let document = model.document(overrides).map_err(boxed)?;
-    Ok(Results {
-        tables: report.tables(),
-        summary: super::summary::<A>(&report, model.name(), overrides, &document),
-        warnings: report.warnings().iter().map(with_code).collect(),
-    })
+    Ok(Results::of::<A>(&report, model.name(), overrides, &document))
 }

@@ -9,8 +9,6 @@ mod fmu;
 mod import;
 mod initial_scene;
 mod kinds;
-mod linearization;
-mod linearize;
 mod live;
 #[cfg(test)]
 mod manual;
@@ -35,6 +33,7 @@ use clap::{Parser, Subcommand};
 use lissom::buckling::BucklingRequest;
 use lissom::campbell::CampbellRequest;
 use lissom::gradient::GradientRequest;
+use lissom::linearize::LinearizeRequest;
 use lissom::modes::ModeRequest;
 use lissom::response::ResponseRequest;
 
@@ -116,7 +115,7 @@ enum Command {
     Gradient(AnalysisCommand<GradientRequest>),
     Campbell(AnalysisCommand<CampbellRequest>),
     Response(AnalysisCommand<ResponseRequest>),
-    Linearize(linearize::Linearize),
+    Linearize(AnalysisCommand<LinearizeRequest>),
     Reduce(reduce::Reduce),
     Fmu(fmu::Fmu),
     Kinds(kinds::Kinds),
