@@ -3,6 +3,7 @@
 mod registry;
 
 use std::fmt::Display;
+use std::path::Path;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_model::output::{FigureError, Graphic, Summary};
@@ -61,6 +62,11 @@ pub trait AnalysisReport {
 
     /// Its lines on the terminal, after the title of the model.
     fn text(&self) -> String;
+
+    /// The last line, about the folder of results.
+    fn ending(&self, folder: &Path) -> String {
+        format!("results in {}", folder.display())
+    }
 }
 
 /// The failure of an analysis.

@@ -11,6 +11,7 @@ use crate::gradient::GradientRequest;
 use crate::linearize::LinearizeRequest;
 use crate::model::{Model, Override};
 use crate::modes::ModeRequest;
+use crate::reduce::ReduceRequest;
 use crate::response::ResponseRequest;
 
 /// All analyses. On the command line each is also a line of `commands`.
@@ -18,6 +19,7 @@ pub const ANALYSES: &[Registered] = &[
     Registered::of::<BucklingRequest>(),
     Registered::of::<CampbellRequest>(),
     Registered::of::<ModeRequest>(),
+    Registered::of::<ReduceRequest>(),
     Registered::of::<ResponseRequest>(),
     Registered::of::<LinearizeRequest>(),
     Registered::of::<GradientRequest>(),

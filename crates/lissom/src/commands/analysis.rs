@@ -68,8 +68,7 @@ pub(super) fn report<A: Analysis>(
         for warning in found.warnings() {
             warn(&warning);
         }
-        let text = found.text();
-        terminal::print(&format!("{heading}\n{text}  results in {}\n", path.display()));
+        terminal::print(&format!("{heading}\n{}  {}\n", found.text(), found.ending(path)));
     }
     Ok(Exit::Done)
 }

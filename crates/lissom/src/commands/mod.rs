@@ -17,7 +17,6 @@ mod new;
 pub(crate) mod outcome;
 mod path;
 mod plot;
-mod reduce;
 mod results;
 mod run;
 mod schema;
@@ -35,6 +34,7 @@ use lissom::campbell::CampbellRequest;
 use lissom::gradient::GradientRequest;
 use lissom::linearize::LinearizeRequest;
 use lissom::modes::ModeRequest;
+use lissom::reduce::ReduceRequest;
 use lissom::response::ResponseRequest;
 
 use crate::terminal;
@@ -116,7 +116,7 @@ enum Command {
     Campbell(AnalysisCommand<CampbellRequest>),
     Response(AnalysisCommand<ResponseRequest>),
     Linearize(AnalysisCommand<LinearizeRequest>),
-    Reduce(reduce::Reduce),
+    Reduce(AnalysisCommand<ReduceRequest>),
     Fmu(fmu::Fmu),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),

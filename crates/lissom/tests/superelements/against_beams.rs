@@ -28,7 +28,7 @@ fn blade(axis: char, is_tapered: bool, is_twisted: bool) -> String {
 fn reduced_blade(blade: &str, modes: usize, corrections: bool) -> ReduceReport {
     let request = ReduceRequest {
         corrections,
-        name: "blade".to_owned(),
+        name: Some("blade".to_owned()),
         ..request(&["blade.start", "blade.end"], modes)
     };
     reduce(&Model::from_text("model.toml", &format!("{blade}{MODES}")), &[], &request)

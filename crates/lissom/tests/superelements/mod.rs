@@ -59,7 +59,7 @@ fn request(interfaces: &[&str], modes: usize) -> ReduceRequest {
         modes,
         corrections: true,
         about: OperatingPoint::Static,
-        name: "part".to_owned(),
+        name: Some("part".to_owned()),
     }
 }
 
@@ -348,7 +348,7 @@ fn a_reduced_part_can_be_reduced_again() {
         modes: 10,
         corrections: true,
         about: OperatingPoint::Static,
-        name: "again".to_owned(),
+        name: Some("again".to_owned()),
     };
     let again = reduce(&using(&first, MODES), &[], &request).unwrap_or_else(|error| panic!("{error}"));
     let found = frequencies(&using(&again, &format!("{}{MODES}", clamp("again.part_bar_start"))), 3);
@@ -535,7 +535,7 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
         modes: 4,
         corrections: false,
         about: OperatingPoint::Static,
-        name: "rod".to_owned(),
+        name: Some("rod".to_owned()),
     };
     let rod = Model::read(&path("connecting-rod.toml")).expect("a text");
     let report = reduce(&rod, &[], &request).unwrap_or_else(|error| panic!("{error}"));

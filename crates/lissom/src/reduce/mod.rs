@@ -1,25 +1,24 @@
 //! Reduction of a flexible assembly to the matrices of a superelement: selection of the parts, their state, and the files
 //! that describe the superelement.
 
+mod report;
+
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
-use std::fmt::Write;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-use lissom_core::elements::superelement::{Damping, ReducedMatrices};
+use lissom_core::elements::superelement::ReducedMatrices;
 use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linear::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_model::Document;
 use lissom_model::document::{Attachment, Component, NodeReference};
 use lissom_model::lower::{Lowered, Names, lower, lower_locked};
-use lissom_model::output::{Summary, full_matrix};
-use lissom_model::toml_text::quoted;
-use lissom_motion::Vector3;
-use serde_json::{Value, json};
+use serde::Deserialize;
 
+use crate::analysis::{Analysis, AnalysisError, Origin};
 use crate::analysis_warning::AnalysisWarning;
-use crate::export::npy;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
 use crate::operating_point::OperatingPoint;
@@ -28,27 +27,76 @@ use crate::operating_point::OperatingPoint;
 /// with the square of their number.
 const SOUGHT: [usize; 2] = [3, 24];
 
-/// The request.
-#[derive(Clone, Debug, PartialEq)]
+/// Reduce flexible parts to a superelement with a few interface nodes and modes.
+///
+/// The results go to a folder: the matrices in the Matrix Market format and as a NumPy archive, and NAME.toml with the table
+/// `[superelements.NAME]` that uses them. The stiffness includes the effect of the stresses in the state `--about`, by default static
+/// equilibrium without gravity. Joints, springs and loads between an interface and the rest of the model are omitted.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(
+    feature = "command-line",
+    derive(clap::Args),
+    command(after_help = "\
+Examples:
+  lissom reduce examples/tip-crank.toml --interfaces beam.start,beam.end --modes 6
+  lissom reduce turbine.toml --part blade1 --interfaces blade1.beam.start --modes 10 --name blade
+
+Exit code: 0 success; 2 wrong model or command line; 3 no such state, or parts that are not one elastic assembly.")
+)]
 pub struct ReduceRequest {
-    /// Names of bodies, point masses, beams, superelements or entries of `[parts]` that are reduced; all if there are none.
+    /// Parts to be reduced: bodies, point masses, beams, superelements, entries of [parts] [default: all].
+    #[cfg_attr(feature = "command-line", arg(long = "part", value_name = "NAME,…", value_delimiter = ','))]
     pub parts: Vec<String>,
-    /// The interfaces by the names of their nodes; the first one carries the floating frame.
+    /// Interface nodes for joints, such as beam.start,beam.end; the floating frame is attached to the first one.
+    #[cfg_attr(
+        feature = "command-line",
+        arg(long, value_name = "NODE,…", value_delimiter = ',', required = true)
+    )]
     pub interfaces: Vec<String>,
     /// Number of modes with fixed interfaces.
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "NUMBER", default_value_t = 10))]
     pub modes: usize,
-    /// Whether correction shapes are added, which compensate for omitted modes if loads and rotation change the
-    /// stiffness.
+    /// Omit correction shapes, which compensate for truncated modes where loads and rotation change the stiffness.
+    #[cfg_attr(feature = "command-line", arg(long = "modes-alone", action = clap::ArgAction::SetFalse))]
     pub corrections: bool,
-    /// The state, whose stresses are included in the stiffness.
+    /// State about which the model is reduced: `static`, `undeformed` or a time of the model's analysis [s].
+    #[cfg_attr(
+        feature = "command-line",
+        arg(long, value_name = "STATE|TIME", default_value = "static", allow_negative_numbers = true)
+    )]
     pub about: OperatingPoint,
-    /// Name of the superelement.
-    pub name: String,
+    /// Name of the superelement [default: that of the only part, or of the model file].
+    #[cfg_attr(feature = "command-line", arg(long, value_name = "NAME"))]
+    pub name: Option<String>,
+}
+
+impl ReduceRequest {
+    /// Name of the superelement, with underscores for letters that names cannot have.
+    fn name(&self, model: &Model) -> String {
+        let given = self.name.clone().unwrap_or_else(|| match self.parts.as_slice() {
+            [part] => part.clone(),
+            _ => Path::new(model.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        });
+        given.replace(|c: char| !(c.is_alphanumeric() || matches!(c, '_' | '-')), "_")
+    }
+}
+
+impl Analysis for ReduceRequest {
+    const NAME: &'static str = "reduce";
+    const FOLDER: &'static str = "reduced";
+    type Report = ReduceReport;
+    type Error = ReduceError;
+
+    fn compute(&self, model: &Model, overrides: &[Override]) -> Result<ReduceReport, ReduceError> {
+        reduce(model, overrides, self)
+    }
 }
 
 /// A reduced assembly, as files and with its properties.
 #[derive(Clone, Debug)]
 pub struct ReduceReport {
+    /// Name of the superelement.
+    pub name: String,
     /// Names of text files and their texts.
     pub files: Vec<(String, String)>,
     /// The matrices as a NumPy archive.
@@ -92,10 +140,13 @@ pub enum ReduceError {
     Archive(#[from] std::io::Error),
 }
 
-impl ReduceError {
-    /// Whether the request is invalid, as opposed to a failed computation.
-    pub fn is_of_question(&self) -> bool {
-        matches!(self, Self::Question(_) | Self::State(ModesError::Time { .. }))
+impl AnalysisError for ReduceError {
+    fn origin(&self) -> Origin<'_> {
+        match self {
+            Self::State(ModesError::Model(report)) => Origin::Model(report),
+            Self::Question(_) | Self::State(ModesError::Time { .. }) => Origin::Request,
+            _ => Origin::Computation,
+        }
     }
 }
 
@@ -170,9 +221,10 @@ pub fn reduce(
     let labels: Vec<String> = chosen.interfaces.iter().map(|name| label(name)).collect();
     let unknowns = [found.unknowns, matrices.mass.nrows()];
     let mass = (0..3).map(|k| total(&matrices, labels.len(), k)).sum::<f64>() / 3.0;
+    let name = request.name(model);
     Ok(ReduceReport {
-        files: files(request, (&labels, &found.places), &matrices),
-        archive: archive((&labels, &found.places), &matrices)?,
+        files: report::files(&name, (&labels, &found.places), &matrices),
+        archive: report::archive((&labels, &found.places), &matrices)?,
         frequencies: found.frequencies,
         corrections: found.corrections,
         interfaces: labels,
@@ -181,6 +233,7 @@ pub fn reduce(
         is_preloaded: !matrices.preload.is_empty(),
         warnings,
         wall: began.elapsed(),
+        name,
     })
 }
 
@@ -474,118 +527,5 @@ impl Chosen {
             ));
         }
         Ok(own)
-    }
-}
-
-/// The files that describe the superelement.
-fn files(
-    request: &ReduceRequest,
-    (labels, places): (&[String], &[Vector3]),
-    matrices: &ReducedMatrices,
-) -> Vec<(String, String)> {
-    let name = &request.name;
-    let mut keys = vec![("mass", &matrices.mass), ("stiffness", &matrices.stiffness)];
-    if let Damping::Matrix(damping) = &matrices.damping {
-        keys.push(("damping", damping));
-    }
-    let mut files = Vec::new();
-    let mut text = format!(
-        "# {name}: reduced by `lissom reduce`. Copy the table into a model in the same folder as its matrices, or include this file as\n\
-         # an entry of [parts]. Joints refer to its interfaces as {}.\n\
-         lissom = 1\n\n[superelements.{name}]\ninterfaces = [\n",
-        labels.iter().map(|label| format!("\"{name}.{label}\"")).collect::<Vec<_>>().join(", ")
-    );
-    for (label, place) in labels.iter().zip(places) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            text,
-            "  {{ name = {}, at = [{:?}, {:?}, {:?}] }},",
-            quoted(label),
-            place.x,
-            place.y,
-            place.z
-        );
-    }
-    text += "]\n";
-    let size = matrices.mass.nrows();
-    let comment =
-        format!("six rows for each of {}, then {} modes", labels.join(", "), size - 6 * labels.len());
-    for (key, matrix) in keys {
-        let file = format!("{name}-{key}.mtx");
-        let _ = writeln!(text, "{key} = {}", quoted(&file));
-        files.push((
-            file,
-            full_matrix(&format!("{key} of {name}: {comment}"), [size, size], |i, j| matrix[(i, j)]),
-        ));
-    }
-    if !matrices.preload.is_empty() {
-        let file = format!("{name}-preload.mtx");
-        let _ = writeln!(text, "preload = {}", quoted(&file));
-        let column =
-            full_matrix(&format!("preload of {name}: {comment}"), [size, 1], |i, _| matrices.preload[i]);
-        files.push((file, column));
-    }
-    if let Some(geometric) = &matrices.geometric {
-        let file = format!("{name}-geometric.mtx");
-        let _ = writeln!(text, "geometric = {}", quoted(&file));
-        let stacked = geometric.stacked();
-        let column =
-            full_matrix(&format!("geometric of {name}: {comment}"), [stacked.nrows(), size], |i, j| {
-                stacked[(i, j)]
-            });
-        files.push((file, column));
-    }
-    files.push((format!("{name}.toml"), text));
-    files
-}
-
-/// The matrices as arrays for NumPy.
-fn archive(
-    (labels, places): (&[String], &[Vector3]),
-    matrices: &ReducedMatrices,
-) -> std::io::Result<Vec<u8>> {
-    let size = matrices.mass.nrows();
-    // Rows and columns are equal: the matrices are symmetric.
-    let square = |values: &[f64]| npy::numbers(&[size, size], values);
-    let mut arrays = vec![
-        ("mass.npy", square(matrices.mass.as_slice())),
-        ("stiffness.npy", square(matrices.stiffness.as_slice())),
-    ];
-    if let Damping::Matrix(damping) = &matrices.damping {
-        arrays.push(("damping.npy", square(damping.as_slice())));
-    }
-    if !matrices.preload.is_empty() {
-        arrays.push(("preload.npy", npy::numbers(&[size], &matrices.preload)));
-    }
-    if let Some(geometric) = &matrices.geometric {
-        // By rows.
-        let stacked = geometric.stacked();
-        let by_rows = stacked.transpose();
-        arrays.push(("geometric.npy", npy::numbers(&[stacked.nrows(), size], by_rows.as_slice())));
-    }
-    let flat: Vec<f64> = places.iter().flat_map(|place| place.iter().copied()).collect();
-    arrays.push(("interfaces.npy", npy::texts(labels)));
-    arrays.push(("places.npy", npy::numbers(&[places.len(), 3], &flat)));
-    let arrays: Vec<(&str, &[u8])> = arrays.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect();
-    crate::archive::zip(&arrays)
-}
-
-impl ReduceReport {
-    /// The contents of `summary.json`.
-    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
-        let mut summary = crate::summary::of_request("reduce", name, overrides, document);
-        let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
-        insert("stopped", json!("end"));
-        insert("interfaces", json!(self.interfaces));
-        insert("unknowns", json!(self.unknowns[0]));
-        insert("reduced_unknowns", json!(self.unknowns[1]));
-        insert("frequencies", json!(self.frequencies));
-        insert("corrections", json!(self.corrections));
-        insert("mass", json!(self.mass));
-        insert("preloaded", json!(self.is_preloaded));
-        insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
-        crate::summary::add_warnings(&mut summary, &self.warnings);
-        summary
     }
 }
