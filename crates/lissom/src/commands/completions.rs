@@ -20,11 +20,12 @@ pub(super) struct Completions {
 }
 
 impl Completions {
-    pub(super) fn run(self) -> Exit {
+    #[expect(clippy::unnecessary_wraps, reason = "all commands return this type")]
+    pub(super) fn run(self) -> Result<Exit, Failure> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Line::command(), "lissom", &mut script);
         terminal::print(&String::from_utf8_lossy(&script));
-        Exit::Done
+        Ok(Exit::Done)
     }
 }
 

@@ -1,4 +1,4 @@
-//! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
+//! The subcommands. A new one is a file here and a line in [`commands!`].
 
 mod analysis;
 mod check;
@@ -37,50 +37,71 @@ use lissom::modes::ModeRequest;
 use lissom::reduce::ReduceRequest;
 use lissom::response::ResponseRequest;
 
+use self::outcome::{Exit, Failure};
 use crate::terminal;
 
-/// The help of the program: its commands by topic.
-const HELP: &str = "\
-{about-with-newline}
-{usage-heading} {usage}
+/// Defines the commands, and lists them by topic in the help of the program.
+macro_rules! commands {
+    ($($topic:literal { $($name:ident($command:ty) $words:literal,)* })*) => {
+        #[derive(Subcommand)]
+        enum Command {
+            $($($name($command),)*)*
+        }
 
-Models:
-  new          Write a commented model to start from: a slider crank with a flexible rod
-  check        Find errors, degrees of freedom and redundant constraints
-  kinds        List kinds, keys, functions and schemes of model files
-  schema       Print the JSON schema of model files, for completion in editors
-  import       Convert a robot description (URDF, MJCF) to a model file
+        impl Command {
+            fn run(self) -> Result<Exit, Failure> {
+                match self {
+                    $($(Self::$name(command) => command.run(),)*)*
+                }
+            }
+        }
 
-Simulation:
-  run          Simulate a model as specified in its table `[analysis]`
-  live         Show a model in the browser and simulate it again whenever it is saved
-  sweep        Solve a model for many parameter values, on all processors
-  gradient     Compute derivatives of an output with respect to numbers of the model
-  study        Study the effects of scaling, scheme, step size and solver
-  fmu          Export a model as a functional mock-up unit (FMI 3.0, co-simulation)
+        /// The help of the program: its commands by topic.
+        fn help() -> String {
+            let mut text = "{about-with-newline}\n{usage-heading} {usage}\n".to_owned();
+            $(text += concat!("\n", $topic, ":\n");
+            $(text += &format!("  {:<11}  {}\n", stringify!($name).to_lowercase(), $words);)*)*
+            text + "  help         Print this message, or the help of a command\n\nOptions:\n{options}{after-help}"
+        }
+    };
+}
 
-Linearised models:
-  modes        Compute natural frequencies, damping ratios and shapes
-  campbell     Compute natural frequencies over a parameter, such as the speed of a rotor
-  buckling     Estimate the load factors at which a model buckles
-  response     Compute the response of outputs to harmonic inputs
-  linearize    Write the matrices of a model
-  reduce       Reduce flexible parts to a superelement
-
-Results:
-  view         Show results as an animation with plots, in one HTML file
-  snapshot     Draw a mechanism at one or several instants, as SVG or PNG
-  plot         Plot one or several folders of results
-  export       Export results to ParaView, Blender, NumPy or pandas
-  explain      Explain warnings and failures
-
-Program:
-  completions  Print the completion script for a shell
-  man          Print the manual page of the program or of a command
-  help         Print this message, or the help of a command
-
-Options:
-{options}{after-help}";
+commands! {
+    "Models" {
+        New(new::New) "Write a commented model to start from: a slider crank with a flexible rod",
+        Check(check::Check) "Find errors, degrees of freedom and redundant constraints",
+        Kinds(kinds::Kinds) "List kinds, keys, functions and schemes of model files",
+        Schema(schema::Schema) "Print the JSON schema of model files, for completion in editors",
+        Import(import::Import) "Convert a robot description (URDF, MJCF) to a model file",
+    }
+    "Simulation" {
+        Run(run::Run) "Simulate a model as specified in its table `[analysis]`",
+        Live(live::Live) "Show a model in the browser and simulate it again whenever it is saved",
+        Sweep(sweep::SweepCommand) "Solve a model for many parameter values, on all processors",
+        Gradient(AnalysisCommand<GradientRequest>) "Compute derivatives of an output with respect to numbers of the model",
+        Study(study::Study) "Study the effects of scaling, scheme, step size and solver",
+        Fmu(fmu::Fmu) "Export a model as a functional mock-up unit (FMI 3.0, co-simulation)",
+    }
+    "Linearised models" {
+        Modes(AnalysisCommand<ModeRequest>) "Compute natural frequencies, damping ratios and shapes",
+        Campbell(AnalysisCommand<CampbellRequest>) "Compute natural frequencies over a parameter, such as the speed of a rotor",
+        Buckling(AnalysisCommand<BucklingRequest>) "Estimate the load factors at which a model buckles",
+        Response(AnalysisCommand<ResponseRequest>) "Compute the response of outputs to harmonic inputs",
+        Linearize(AnalysisCommand<LinearizeRequest>) "Write the matrices of a model",
+        Reduce(AnalysisCommand<ReduceRequest>) "Reduce flexible parts to a superelement",
+    }
+    "Results" {
+        View(view::View) "Show results as an animation with plots, in one HTML file",
+        Snapshot(snapshot::Snapshot) "Draw a mechanism at one or several instants, as SVG or PNG",
+        Plot(plot::Plot) "Plot one or several folders of results",
+        Export(export::Export) "Export results to ParaView, Blender, NumPy or pandas",
+        Explain(explain::Explain) "Explain warnings and failures",
+    }
+    "Program" {
+        Completions(completions::Completions) "Print the completion script for a shell",
+        Man(completions::Man) "Print the manual page of the program or of a command",
+    }
+}
 
 /// Flexible multibody dynamics: simulates mechanisms of rigid bodies, flexible beams, joints and springs,
 /// described in a TOML file.
@@ -88,7 +109,7 @@ Options:
 #[command(
     name = "lissom",
     version,
-    help_template = HELP,
+    help_template = help(),
     after_help = "\
 Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
@@ -106,64 +127,10 @@ pub(crate) struct Line {
     command: Command,
 }
 
-#[derive(Subcommand)]
-enum Command {
-    Run(run::Run),
-    Check(check::Check),
-    Modes(AnalysisCommand<ModeRequest>),
-    Buckling(AnalysisCommand<BucklingRequest>),
-    Gradient(AnalysisCommand<GradientRequest>),
-    Campbell(AnalysisCommand<CampbellRequest>),
-    Response(AnalysisCommand<ResponseRequest>),
-    Linearize(AnalysisCommand<LinearizeRequest>),
-    Reduce(AnalysisCommand<ReduceRequest>),
-    Fmu(fmu::Fmu),
-    Kinds(kinds::Kinds),
-    Schema(schema::Schema),
-    Plot(plot::Plot),
-    Snapshot(snapshot::Snapshot),
-    Export(export::Export),
-    Explain(explain::Explain),
-    Study(study::Study),
-    View(view::View),
-    Sweep(sweep::SweepCommand),
-    Live(live::Live),
-    New(new::New),
-    Import(import::Import),
-    Completions(completions::Completions),
-    Man(completions::Man),
-}
-
 impl Line {
     /// Runs the command line.
     pub(crate) fn run(self) -> ExitCode {
-        let outcome = match self.command {
-            Command::Run(command) => command.run(),
-            Command::Check(command) => command.run(),
-            Command::Modes(command) => command.run(),
-            Command::Buckling(command) => command.run(),
-            Command::Gradient(command) => command.run(),
-            Command::Campbell(command) => command.run(),
-            Command::Response(command) => command.run(),
-            Command::Linearize(command) => command.run(),
-            Command::Reduce(command) => command.run(),
-            Command::Fmu(command) => command.run(),
-            Command::Kinds(command) => command.run(),
-            Command::Schema(command) => command.run(),
-            Command::Plot(command) => command.run(),
-            Command::Snapshot(command) => command.run(),
-            Command::Export(command) => command.run(),
-            Command::Explain(command) => command.run(),
-            Command::Study(command) => command.run(),
-            Command::View(command) => command.run(),
-            Command::Sweep(command) => command.run(),
-            Command::Live(command) => command.run(),
-            Command::New(command) => command.run(),
-            Command::Import(command) => command.run(),
-            Command::Completions(command) => Ok(command.run()),
-            Command::Man(command) => command.run(),
-        };
-        let exit = outcome.unwrap_or_else(|failure| {
+        let exit = self.command.run().unwrap_or_else(|failure| {
             terminal::complain(&failure.words);
             failure.exit
         });
@@ -180,11 +147,12 @@ mod tests {
     #[test]
     fn the_help_lists_every_command_once_and_fits_a_terminal() {
         let line = Line::command();
-        let listed = |name: &str| HELP.matches(&format!("\n  {name} ")).count();
+        let help = help();
+        let listed = |name: &str| help.matches(&format!("\n  {name} ")).count();
         for command in line.get_subcommands() {
             assert_eq!(listed(command.get_name()), 1, "{}", command.get_name());
         }
-        let rows = HELP.lines().filter(|row| row.starts_with("  "));
+        let rows = help.lines().filter(|row| row.starts_with("  "));
         assert_eq!(rows.clone().count(), line.get_subcommands().count() + 1, "with `help`");
         assert!(rows.into_iter().all(|row| row.len() <= 90));
     }
