@@ -1,6 +1,7 @@
 //! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness,
 //! interpolated and extrapolated from them, is singular.
 
+use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -224,5 +225,27 @@ impl AnalysisReport for BucklingReport {
             let _ = writeln!(text, "  {:>4}   {:.9e}", index + 1, Written(mode.load_factor));
         }
         text
+    }
+}
+
+catalogued! {
+    Failure BucklingRunError {
+        AlreadyCritical { 0 => load_factor } => "buckling-loads-critical" {
+            cause: "the loads of the model exceed a critical load at load factor {load_factor}",
+            remedy: "reduce the loads, or follow the equilibrium path by an analysis of kind `path`",
+            meaning: "The linear estimate of buckling loads requires an equilibrium under loads below the first critical load.",
+            advice: "Reduce the loads, or follow the equilibrium path by an analysis of kind `path`.",
+        }
+        Missing { 0 => missed } => "load-factors-missed" {
+            cause: "{missed} of the load factors below the last one were missed, according to the count of negative pivots",
+            remedy: "request another `count`",
+            meaning: "The search for load factors found fewer of them than the factorisation counts in the interval.",
+            advice: "Request another `count`.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Path { 0 => error } => error.diagnostic(),
+        Linear { 0 => error } => error.diagnostic(),
+        Buckling { 0 => error } => error.diagnostic(),
     }
 }

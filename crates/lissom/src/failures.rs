@@ -6,7 +6,6 @@
 use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic, Entry, Severity};
 
-use crate::buckling::BucklingRunError;
 use crate::builder::ForeignId;
 use crate::checkpoint::CheckpointError;
 use crate::command_error::CommandError;
@@ -16,16 +15,13 @@ use crate::folder::FolderError;
 use crate::gradient::GradientError;
 use crate::import::ImportError;
 use crate::joint_coordinates::JointCoordinateError;
-use crate::modes::ModesError;
 use crate::motion::{MotionError, VERSION};
 use crate::path::{PathRunError, PathSessionError};
 use crate::picture::PictureError;
 use crate::ports::PortError;
 use crate::prepared::PartError;
 use crate::prepared::StartError;
-use crate::reduce::ReduceError;
 use crate::report::RunError;
-use crate::response::FrequencyError;
 use crate::session::ReadError;
 use crate::session::SessionError;
 use crate::study::StudyError;
@@ -156,65 +152,6 @@ catalogued! {
         )),
     }
 
-    Failure ModesError {
-        Time { time => time, reason => reason } => "linearization-time" {
-            cause: "the model cannot be linearised at t = {time} s: {reason}",
-            remedy: "choose a time of the analysis, `static` or `undeformed`",
-            meaning: "The time `about` is outside of the analysis, or the analysis has no time steps.",
-            advice: "Choose a time of the analysis, `static` or `undeformed`.",
-        }
-        Shift { 0 => frequency } => "modes-shift" {
-            cause: "modes near {frequency} Hz were requested",
-            remedy: "the frequency must be a number that is not negative",
-            meaning: "The frequency near which modes are computed is negative or not a number.",
-            advice: "Choose a `shift` of zero or more, or none for the lowest modes.",
-        }
-        NotInEquilibrium { state => state, imbalance => imbalance, hint => hint } => "not-in-equilibrium" {
-            cause: "the {state} is not in equilibrium: unbalanced forces would move it by {imbalance:.1e} of the model's length, so \
-                    modes about it are not defined",
-            remedy: "{hint}",
-            meaning: "The model would start to move from the state of linearisation, so its linear equations describe no oscillation \
-                      about this state.",
-            advice: "Linearise about static equilibrium, or about the end of an analysis of kind `statics` with more load steps.",
-        }
-        Unsteady { 0 => change } => "rotation-not-steady" {
-            cause: "the velocities at the start are not a steady rotation: in the axes of the nodes they change by {change:.1e} of \
-                    their squares",
-            remedy: "remove gravity across the axis, loads fixed in space and other motions, which are not steady in rotating axes",
-            meaning: "Linearisation about `rotation` requires velocities that are constant in rotating axes.",
-            advice: "Remove gravity across the axis, loads fixed in space and motions other than the rotation.",
-        }
-        SteadyHereAlone { 0 => change } => "rotation-steady-at-azimuth" {
-            cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, such as \
-                    under gravity across the axis or other loads fixed in space",
-            remedy: "remove these loads (`--unset gravity`), or let gravity act along the axis",
-            meaning: "The velocities are steady at the azimuth of the start, but not at another one: a load is fixed in space.",
-            advice: "Remove loads that are fixed in space, or let gravity act along the axis.",
-        }
-        Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
-            cause: "mode {number} ({frequency} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
-                    rotating and non-rotating parts are coupled across the axis, for example by a flexible support; there are no \
-                    multi-blade coordinates in which the coefficients are constant, because {reason}",
-            remedy: "such modes require Floquet theory, which is not implemented",
-            meaning: "The linear equations of a rotating model have periodic coefficients, so natural modes do not exist.",
-            advice: "Use at least three identical blades for multi-blade coordinates, a rigid support, or a simulation in time.",
-        }
-        Missing { 0 => missed } => "modes-missed" {
-            cause: "{missed} of the modes between the first and the last one were missed, according to the count of negative pivots",
-            remedy: "request another `count`; if very light parts make some frequencies thousands of times higher than others, \
-                     request fewer modes, or those near a frequency by `shift`",
-            meaning: "The search for modes found fewer modes than the factorisation counts in the interval.",
-            advice: "Request another `count`, or modes near a frequency by `shift`.",
-        }
-    } wraps {
-        Model { 0 => report } => report.diagnostic(),
-        Initial { 0 => error } => error.diagnostic(),
-        Step { 0 => error } => error.diagnostic(),
-        Steady { 0 => error } => error.diagnostic(),
-        Linear { 0 => error } => error.diagnostic(),
-        Mode { 0 => error } => error.diagnostic(),
-    }
-
     Failure PortError {
         Input { name => name, known => known } => "port-input" {
             cause: "the model has no input `{name}`; its inputs are {known}",
@@ -248,48 +185,6 @@ catalogued! {
         }
     } wraps {
         Model { 0 => error } => error.diagnostic(),
-    }
-
-    Failure FrequencyError {
-        Range { from => from, to => to } => "response-range" {
-            cause: "the frequencies are from {from} to {to} Hz",
-            remedy: "both must be greater than zero, and the first smaller than the last",
-            meaning: "The range of a frequency response is empty, or not positive.",
-            advice: "Specify two frequencies greater than zero, the smaller one first.",
-        }
-        RollsOn {} => "response-rolling" {
-            cause: "wheels are rolling in this state: their contacts move relative to the axes of the parts, in which responses are \
-                    computed",
-            remedy: "use a state at rest, or `lissom modes`, which supports axes that do not spin with the wheels",
-            meaning: "The linear equations of rolling wheels have constant coefficients only in axes that do not spin with them, which \
-                      frequency responses do not support.",
-            advice: "Linearise about a state at rest, or compute modes.",
-        }
-    } wraps {
-        Model { 0 => report } => report.diagnostic(),
-        State { 0 => error } => error.diagnostic(),
-        Port { 0 => error } => error.diagnostic(),
-        Response { frequency => frequency, error => error } => error.diagnostic().within(&format!("at {frequency} Hz")),
-    }
-
-    Failure BucklingRunError {
-        AlreadyCritical { 0 => load_factor } => "buckling-loads-critical" {
-            cause: "the loads of the model exceed a critical load at load factor {load_factor}",
-            remedy: "reduce the loads, or follow the equilibrium path by an analysis of kind `path`",
-            meaning: "The linear estimate of buckling loads requires an equilibrium under loads below the first critical load.",
-            advice: "Reduce the loads, or follow the equilibrium path by an analysis of kind `path`.",
-        }
-        Missing { 0 => missed } => "load-factors-missed" {
-            cause: "{missed} of the load factors below the last one were missed, according to the count of negative pivots",
-            remedy: "request another `count`",
-            meaning: "The search for load factors found fewer of them than the factorisation counts in the interval.",
-            advice: "Request another `count`.",
-        }
-    } wraps {
-        Model { 0 => report } => report.diagnostic(),
-        Path { 0 => error } => error.diagnostic(),
-        Linear { 0 => error } => error.diagnostic(),
-        Buckling { 0 => error } => error.diagnostic(),
     }
 
     Failure GradientError {
@@ -362,31 +257,6 @@ catalogued! {
         Initial { 0 => error } => error.diagnostic(),
         Step { 0 => error } => error.diagnostic(),
         Target { 0 => error } => error.diagnostic(),
-    }
-
-    Failure ReduceError {
-        Question { 0 => reason } => "reduction-request" {
-            cause: "{reason}",
-            remedy: "",
-            meaning: "The parts, interfaces or modes requested for a reduction do not match the model, or have elements that a \
-                      superelement cannot represent.",
-            advice: "Follow the message: change the interfaces, or remove the named elements by `--unset`.",
-        }
-        Matrices { 0 => error } => "reduction-matrices" {
-            cause: "the reduced {error}, so the reduction cannot be used",
-            remedy: "check whether the parts are free to move as a rigid body",
-            meaning: "The reduced matrices are not those of a free part: rigid motions cause forces, or the mass is not positive.",
-            advice: "Remove connections of the parts to the ground, and check their masses.",
-        }
-        Archive { 0 => error } => "reduction-archive" {
-            cause: "the archive of matrices cannot be packed: {error}",
-            remedy: "reduce the number of modes or interfaces",
-            meaning: "The matrices exceed the size of a NumPy archive, or memory is insufficient.",
-            advice: "Reduce the number of modes or interfaces.",
-        }
-    } wraps {
-        State { 0 => error } => error.diagnostic(),
-        Reduction { 0 => error } => error.diagnostic(),
     }
 
     Failure SweepError {

@@ -1,5 +1,6 @@
 //! Frequency response: amplitudes of outputs for harmonic inputs of unit amplitude, without time integration.
 
+use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -477,5 +478,29 @@ impl AnalysisReport for ResponseReport {
             let _ = writeln!(text, "  {name}: largest {} {unit} at {} Hz", Written(most), Written(frequency));
         }
         text
+    }
+}
+
+catalogued! {
+    Failure FrequencyError {
+        Range { from => from, to => to } => "response-range" {
+            cause: "the frequencies are from {from} to {to} Hz",
+            remedy: "both must be greater than zero, and the first smaller than the last",
+            meaning: "The range of a frequency response is empty, or not positive.",
+            advice: "Specify two frequencies greater than zero, the smaller one first.",
+        }
+        RollsOn {} => "response-rolling" {
+            cause: "wheels are rolling in this state: their contacts move relative to the axes of the parts, in which responses are \
+                    computed",
+            remedy: "use a state at rest, or `lissom modes`, which supports axes that do not spin with the wheels",
+            meaning: "The linear equations of rolling wheels have constant coefficients only in axes that do not spin with them, which \
+                      frequency responses do not support.",
+            advice: "Linearise about a state at rest, or compute modes.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        State { 0 => error } => error.diagnostic(),
+        Port { 0 => error } => error.diagnostic(),
+        Response { frequency => frequency, error => error } => error.diagnostic().within(&format!("at {frequency} Hz")),
     }
 }

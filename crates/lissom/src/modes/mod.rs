@@ -2,6 +2,7 @@
 
 mod report;
 
+use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -382,5 +383,66 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
         unknowns: [layout.coordinate_count(), layout.multiplier_rows().len()],
         warnings,
         wall: Duration::ZERO,
+    }
+}
+
+catalogued! {
+    Failure ModesError {
+        Time { time => time, reason => reason } => "linearization-time" {
+            cause: "the model cannot be linearised at t = {time} s: {reason}",
+            remedy: "choose a time of the analysis, `static` or `undeformed`",
+            meaning: "The time `about` is outside of the analysis, or the analysis has no time steps.",
+            advice: "Choose a time of the analysis, `static` or `undeformed`.",
+        }
+        Shift { 0 => frequency } => "modes-shift" {
+            cause: "modes near {frequency} Hz were requested",
+            remedy: "the frequency must be a number that is not negative",
+            meaning: "The frequency near which modes are computed is negative or not a number.",
+            advice: "Choose a `shift` of zero or more, or none for the lowest modes.",
+        }
+        NotInEquilibrium { state => state, imbalance => imbalance, hint => hint } => "not-in-equilibrium" {
+            cause: "the {state} is not in equilibrium: unbalanced forces would move it by {imbalance:.1e} of the model's length, so \
+                    modes about it are not defined",
+            remedy: "{hint}",
+            meaning: "The model would start to move from the state of linearisation, so its linear equations describe no oscillation \
+                      about this state.",
+            advice: "Linearise about static equilibrium, or about the end of an analysis of kind `statics` with more load steps.",
+        }
+        Unsteady { 0 => change } => "rotation-not-steady" {
+            cause: "the velocities at the start are not a steady rotation: in the axes of the nodes they change by {change:.1e} of \
+                    their squares",
+            remedy: "remove gravity across the axis, loads fixed in space and other motions, which are not steady in rotating axes",
+            meaning: "Linearisation about `rotation` requires velocities that are constant in rotating axes.",
+            advice: "Remove gravity across the axis, loads fixed in space and motions other than the rotation.",
+        }
+        SteadyHereAlone { 0 => change } => "rotation-steady-at-azimuth" {
+            cause: "the rotation is not steady: at another azimuth the twists of nodes change by {change:.1e} of their squares, such as \
+                    under gravity across the axis or other loads fixed in space",
+            remedy: "remove these loads (`--unset gravity`), or let gravity act along the axis",
+            meaning: "The velocities are steady at the azimuth of the start, but not at another one: a load is fixed in space.",
+            advice: "Remove loads that are fixed in space, or let gravity act along the axis.",
+        }
+        Periodic { number => number, frequency => frequency, departure => departure, reason => reason } => "periodic-coefficients" {
+            cause: "mode {number} ({frequency} Hz) belongs to coefficients that change as the model rotates ({departure:.1e}): \
+                    rotating and non-rotating parts are coupled across the axis, for example by a flexible support; there are no \
+                    multi-blade coordinates in which the coefficients are constant, because {reason}",
+            remedy: "such modes require Floquet theory, which is not implemented",
+            meaning: "The linear equations of a rotating model have periodic coefficients, so natural modes do not exist.",
+            advice: "Use at least three identical blades for multi-blade coordinates, a rigid support, or a simulation in time.",
+        }
+        Missing { 0 => missed } => "modes-missed" {
+            cause: "{missed} of the modes between the first and the last one were missed, according to the count of negative pivots",
+            remedy: "request another `count`; if very light parts make some frequencies thousands of times higher than others, \
+                     request fewer modes, or those near a frequency by `shift`",
+            meaning: "The search for modes found fewer modes than the factorisation counts in the interval.",
+            advice: "Request another `count`, or modes near a frequency by `shift`.",
+        }
+    } wraps {
+        Model { 0 => report } => report.diagnostic(),
+        Initial { 0 => error } => error.diagnostic(),
+        Step { 0 => error } => error.diagnostic(),
+        Steady { 0 => error } => error.diagnostic(),
+        Linear { 0 => error } => error.diagnostic(),
+        Mode { 0 => error } => error.diagnostic(),
     }
 }

@@ -3,6 +3,7 @@
 
 mod report;
 
+use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -527,5 +528,32 @@ impl Chosen {
             ));
         }
         Ok(own)
+    }
+}
+
+catalogued! {
+    Failure ReduceError {
+        Question { 0 => reason } => "reduction-request" {
+            cause: "{reason}",
+            remedy: "",
+            meaning: "The parts, interfaces or modes requested for a reduction do not match the model, or have elements that a \
+                      superelement cannot represent.",
+            advice: "Follow the message: change the interfaces, or remove the named elements by `--unset`.",
+        }
+        Matrices { 0 => error } => "reduction-matrices" {
+            cause: "the reduced {error}, so the reduction cannot be used",
+            remedy: "check whether the parts are free to move as a rigid body",
+            meaning: "The reduced matrices are not those of a free part: rigid motions cause forces, or the mass is not positive.",
+            advice: "Remove connections of the parts to the ground, and check their masses.",
+        }
+        Archive { 0 => error } => "reduction-archive" {
+            cause: "the archive of matrices cannot be packed: {error}",
+            remedy: "reduce the number of modes or interfaces",
+            meaning: "The matrices exceed the size of a NumPy archive, or memory is insufficient.",
+            advice: "Reduce the number of modes or interfaces.",
+        }
+    } wraps {
+        State { 0 => error } => error.diagnostic(),
+        Reduction { 0 => error } => error.diagnostic(),
     }
 }
