@@ -1,5 +1,7 @@
 //! Analyses without time integration: each returns the texts of its command's files, so that Python reads identical values.
 
+use std::time::Instant;
+
 use lissom::analysis::{ANALYSES, Results};
 use lissom::linearize::{LinearizeRequest, linearize_session};
 use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
@@ -25,8 +27,15 @@ pub(crate) fn linearize_here(
     document: &Document,
     (inputs, outputs): (&[String], &[String]),
 ) -> PyResult<Files> {
+    let began = Instant::now();
     let found = linearize_session(session, document, inputs, outputs).map_err(|error| of_analysis(&error))?;
-    Ok(files(Results::of::<LinearizeRequest>(&found, model.model.name(), &model.overrides, document)))
+    Ok(files(Results::of::<LinearizeRequest>(
+        &found,
+        began.elapsed(),
+        model.model.name(),
+        &model.overrides,
+        document,
+    )))
 }
 
 /// Results of the analysis called `name`, for its request as a TOML value.

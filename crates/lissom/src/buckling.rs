@@ -4,10 +4,9 @@
 use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 use lissom_core::linear::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
-use lissom_core::number::{Written, duration};
+use lissom_core::number::Written;
 use lissom_core::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
 use lissom_model::Report;
 use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
@@ -103,8 +102,6 @@ pub struct BucklingReport {
     pub turn: f64,
     /// Warnings.
     pub warnings: Vec<AnalysisWarning>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 /// The lowest load factors at which `model` with `overrides` buckles: `count` of them, or as many as the model requests.
@@ -116,7 +113,6 @@ pub fn buckling(
     overrides: &[Override],
     count: Option<usize>,
 ) -> Result<BucklingReport, BucklingRunError> {
-    let began = Instant::now();
     let document = model.document(overrides)?;
     let own = match document.analysis.kind {
         AnalysisKind::Buckling { count } => count,
@@ -173,7 +169,6 @@ pub fn buckling(
         asked,
         turn,
         warnings,
-        wall: began.elapsed(),
     })
 }
 
@@ -201,24 +196,22 @@ impl AnalysisReport for BucklingReport {
         insert("completeness", json!(self.buckling.completeness.name()));
         insert("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
         insert("largest_turn", json!(self.turn));
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
-    fn text(&self) -> String {
+    fn text(&self, time: &str) -> String {
         let modes = &self.buckling.modes;
         let mut text = format!(
-            "  {} load factors ({} requested), {}, {}\n",
+            "  {} load factors ({} requested), {}, {time}\n",
             modes.len(),
             self.asked,
             match self.buckling.completeness {
                 Completeness::Counted => "none missed according to a count of pivots",
                 _ => "not counted",
-            },
-            duration(self.wall.as_secs_f64())
+            }
         );
         for (index, mode) in modes.iter().enumerate() {
             // Writing to a string cannot fail.

@@ -7,12 +7,11 @@ mod runs;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 use lissom_core::diagnostics::{Entry, Severity};
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Switch;
-use lissom_core::number::{Written, duration};
+use lissom_core::number::Written;
 use lissom_model::document::AnalysisKind;
 use lissom_model::{Document, Report};
 use serde::Deserialize;
@@ -265,8 +264,6 @@ pub struct GradientReport {
     pub corrections: usize,
     /// Verification of direct derivatives by whole runs; none if there are none, or if it was not requested.
     pub confirmation: Option<Confirmation>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 /// Derivatives of `target` with respect to the numbers at `paths` of `model`, with `overrides`. If `confirms`, direct
@@ -281,7 +278,6 @@ pub fn gradient(
     paths: &[String],
     confirms: bool,
 ) -> Result<GradientReport, GradientError> {
-    let began = Instant::now();
     let document = prepared(model, overrides, target)?;
     let mut session = Session::new(&document)?;
     let system = session.simulation().system();
@@ -305,7 +301,7 @@ pub fn gradient(
         if is_dynamic && switches.have_changed(&session) {
             let numbers =
                 sensitivities.into_numbers().0.into_iter().map(|(path, number, _)| (path, number)).collect();
-            return across_switches((model, overrides, target), column, numbers, began);
+            return across_switches((model, overrides, target), column, numbers);
         }
         sensitivities.advance(&mut session)?;
         history.note(&session, column, &mut |column| sensitivities.derivatives(&session, column));
@@ -326,8 +322,7 @@ pub fn gradient(
     } else {
         None
     };
-    let (of, wall) = (String::new(), began.elapsed());
-    Ok(GradientReport { of, value, time, derivatives, steps, corrections, confirmation, wall })
+    Ok(GradientReport { of: String::new(), value, time, derivatives, steps, corrections, confirmation })
 }
 
 /// Signs of the switching functions of forces with kinks or jumps.
@@ -391,7 +386,6 @@ fn across_switches(
     asked: Asked<'_>,
     column: usize,
     numbers: Vec<(String, f64)>,
-    began: Instant,
 ) -> Result<GradientReport, GradientError> {
     let tolerance = Some(TOLERANCE_OF_RUNS);
     let own = run(asked, std::iter::empty(), column, tolerance)?;
@@ -415,7 +409,6 @@ fn across_switches(
         steps: own.steps(),
         corrections: 0,
         confirmation: Some(Confirmation::Confirmed { missed, runs }),
-        wall: began.elapsed(),
     })
 }
 
@@ -519,22 +512,20 @@ impl AnalysisReport for GradientReport {
             Confirmation::Untold { runs } => json!({ "missed": null, "runs": runs }),
         };
         insert("confirmed", self.confirmation.as_ref().map_or(Value::Null, confirmed));
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.doubt().into_iter().collect()
     }
 
-    fn text(&self) -> String {
-        let time = self.time.map_or_else(String::new, |time| format!(" at t = {} s", Written(time)));
+    fn text(&self, time: &str) -> String {
+        let at = self.time.map_or_else(String::new, |time| format!(" at t = {} s", Written(time)));
         let mut text = format!(
-            "  {} = {:.9e}{time}, {} steps, {} corrections, {}\n",
+            "  {} = {:.9e}{at}, {} steps, {} corrections, {time}\n",
             self.of,
             Written(self.value),
             self.steps,
-            self.corrections,
-            duration(self.wall.as_secs_f64())
+            self.corrections
         );
         for Derivative { path, number, value, .. } in &self.derivatives {
             // Writing to a string cannot fail.

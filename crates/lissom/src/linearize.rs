@@ -3,12 +3,10 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::kinematics::Quantity;
 use lissom_core::linear::{LinearModel, OutputDerivatives, StateSpace, StateSpaceError};
-use lissom_core::number::duration;
 use lissom_model::Document;
 use lissom_model::output::{full_matrix, quoted, sparse_matrix};
 use serde::Deserialize;
@@ -90,8 +88,6 @@ pub struct LinearizeReport {
     pub unknowns: [usize; 2],
     /// Warnings about it.
     pub warnings: Vec<AnalysisWarning>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 /// Linearises `model` with `overrides`.
@@ -103,7 +99,6 @@ pub fn linearize(
     overrides: &[Override],
     request: &LinearizeRequest,
 ) -> Result<LinearizeReport, FrequencyError> {
-    let began = Instant::now();
     let document = model.document(overrides).map_err(FrequencyError::Model)?;
     let mut report = request.about.linearized(&document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(&document, &reached, &request.inputs)?;
@@ -111,7 +106,6 @@ pub fn linearize(
         report_of(reached, &inputs, &outputs)
     })?;
     report.about = request.about.name();
-    report.wall = began.elapsed();
     Ok(report)
 }
 
@@ -126,14 +120,12 @@ pub fn linearize_session(
     inputs: &[String],
     outputs: &[String],
 ) -> Result<LinearizeReport, FrequencyError> {
-    let began = Instant::now();
     let mut report = operating_point::now(session, document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(document, &reached, inputs)?;
         let outputs = ports::outputs(&reached, outputs)?;
         report_of(reached, &inputs, &outputs)
     })?;
     report.about = OperatingPoint::Time(session.progress().time).name();
-    report.wall = began.elapsed();
     Ok(report)
 }
 
@@ -220,7 +212,6 @@ fn report_of(
         about: String::new(),
         unknowns: [count, multipliers],
         warnings,
-        wall: Duration::ZERO,
     })
 }
 
@@ -272,25 +263,23 @@ impl AnalysisReport for LinearizeReport {
             Err(reason) => insert("without_state_space", json!(reason.to_string())),
         }
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
-    fn text(&self) -> String {
+    fn text(&self, time: &str) -> String {
         let [coordinates, multipliers] = self.unknowns;
         let equations = match &self.state_space {
             Ok(matrices) => format!("first-order equations in {} states", matrices.states.len()),
             Err(reason) => format!("no first-order equations: {reason}"),
         };
         format!(
-            "  linear model about {}: {coordinates} coordinates, {multipliers} multipliers, {} inputs, {} outputs, {}\n  {equations}\n",
+            "  linear model about {}: {coordinates} coordinates, {multipliers} multipliers, {} inputs, {} outputs, {time}\n  {equations}\n",
             self.about,
             self.inputs.len(),
-            self.outputs.len(),
-            duration(self.wall.as_secs_f64())
+            self.outputs.len()
         )
     }
 }

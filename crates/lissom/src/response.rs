@@ -4,10 +4,9 @@ use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::f64::consts::TAU;
 use std::fmt::Write;
-use std::time::{Duration, Instant};
 
 use lissom_core::linear::{FrequencyResponse, LinearModel, Mode, ModeKind, ModeOptions, ResponseError};
-use lissom_core::number::{Written, duration};
+use lissom_core::number::Written;
 use lissom_model::output::{BodePlot, Column, FigureError, Graphic, quoted};
 use lissom_model::{Document, Report};
 use num_complex::Complex64;
@@ -188,8 +187,6 @@ pub struct ResponseReport {
     pub unknowns: [usize; 2],
     /// Warnings about them.
     pub warnings: Vec<AnalysisWarning>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 /// Frequency response of `model` with `overrides`.
@@ -201,7 +198,6 @@ pub fn response(
     overrides: &[Override],
     request: &ResponseRequest,
 ) -> Result<ResponseReport, FrequencyError> {
-    let began = Instant::now();
     let &ResponseRequest { from, to, .. } = request;
     if !(from > 0.0 && to > from && to.is_finite()) {
         return Err(FrequencyError::Range { from, to });
@@ -209,7 +205,6 @@ pub fn response(
     let document = model.document(overrides).map_err(FrequencyError::Model)?;
     let mut report = request.about.linearized(&document, |reached| of_state(&document, reached, request))?;
     report.about = request.about.name();
-    report.wall = began.elapsed();
     Ok(report)
 }
 
@@ -253,7 +248,6 @@ fn of_state(
         about: String::new(),
         unknowns,
         warnings,
-        wall: Duration::ZERO,
     })
 }
 
@@ -456,20 +450,18 @@ impl AnalysisReport for ResponseReport {
             })
         };
         insert("transfers", self.transfers.iter().map(peak).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
-    fn text(&self) -> String {
+    fn text(&self, time: &str) -> String {
         let [coordinates, multipliers] = self.unknowns;
         let mut text = format!(
-            "  response about {} at {} frequencies, {coordinates} coordinates, {multipliers} multipliers, {}\n",
+            "  response about {} at {} frequencies, {coordinates} coordinates, {multipliers} multipliers, {time}\n",
             self.about,
-            self.frequencies.len(),
-            duration(self.wall.as_secs_f64())
+            self.frequencies.len()
         );
         for transfer in &self.transfers {
             let (frequency, most) = self.peak(transfer);

@@ -4,6 +4,7 @@ mod registry;
 
 use std::fmt::Display;
 use std::path::Path;
+use std::time::Duration;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_model::output::{FigureError, Graphic, Summary};
@@ -60,8 +61,8 @@ pub trait AnalysisReport {
     /// Its warnings.
     fn warnings(&self) -> Vec<Diagnostic>;
 
-    /// Its lines on the terminal, after the title of the model.
-    fn text(&self) -> String;
+    /// Its lines on the terminal, after the title of the model; the first one ends with the duration of the analysis.
+    fn text(&self, time: &str) -> String;
 
     /// The last line, about the folder of results.
     fn ending(&self, folder: &Path) -> String {
@@ -107,9 +108,10 @@ pub fn request<A: Analysis>(text: &str) -> Result<A, CommandError> {
     read.map_err(|error| CommandError::Request(error.message().to_owned()))
 }
 
-/// The contents of `summary.json`.
+/// The contents of `summary.json`, with the duration of the analysis.
 pub fn summary<A: Analysis>(
     report: &A::Report,
+    wall: Duration,
     name: &str,
     overrides: &[Override],
     document: &Document,
@@ -118,6 +120,7 @@ pub fn summary<A: Analysis>(
     let mut insert = |name: &str, fact: Value| crate::summary::insert(&mut summary, name, fact);
     insert("stopped", json!("end"));
     report.add_facts(&mut insert);
+    insert("wall_seconds", json!(wall.as_secs_f64()));
     crate::summary::add_warnings(&mut summary, &report.warnings());
     summary
 }

@@ -1,5 +1,7 @@
 //! The registry of the analyses without time steps.
 
+use std::time::{Duration, Instant};
+
 use lissom_model::Document;
 use lissom_model::output::Summary;
 
@@ -52,13 +54,14 @@ impl Results {
     /// The files of a report on a model of this name.
     pub fn of<A: Analysis>(
         report: &A::Report,
+        wall: Duration,
         name: &str,
         overrides: &[Override],
         document: &Document,
     ) -> Self {
         Self {
             tables: report.tables(),
-            summary: super::summary::<A>(report, name, overrides, document),
+            summary: super::summary::<A>(report, wall, name, overrides, document),
             warnings: report.warnings().iter().map(with_code).collect(),
         }
     }
@@ -76,7 +79,8 @@ fn boxed(error: impl AnalysisError + 'static) -> Box<dyn AnalysisError> {
 
 fn compute<A: Analysis>(model: &Model, overrides: &[Override], request: &str) -> Outcome {
     let request: A = super::request(request).map_err(boxed)?;
+    let began = Instant::now();
     let report = request.compute(model, overrides).map_err(boxed)?;
     let document = model.document(overrides).map_err(boxed)?;
-    Ok(Results::of::<A>(&report, model.name(), overrides, &document))
+    Ok(Results::of::<A>(&report, began.elapsed(), model.name(), overrides, &document))
 }

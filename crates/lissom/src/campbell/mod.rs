@@ -5,7 +5,6 @@ pub(crate) mod page;
 mod report;
 
 use std::str::FromStr;
-use std::time::{Duration, Instant};
 
 use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
@@ -204,8 +203,6 @@ pub struct CampbellReport {
     pub rays: Vec<u32>,
     /// Warnings.
     pub warnings: Vec<AnalysisWarning>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 impl Analysis for CampbellRequest {
@@ -235,7 +232,6 @@ pub fn campbell(
     overrides: &[Override],
     request: &CampbellRequest,
 ) -> Result<CampbellReport, CampbellError> {
-    let began = Instant::now();
     let &Variation { ref path, from, to, values } = &request.vary;
     if !(from.is_finite() && to.is_finite()) || from == to {
         return Err(CampbellError::Range { path: path.clone(), from, to });
@@ -257,7 +253,6 @@ pub fn campbell(
         crossings,
         rays: request.rays.clone(),
         warnings: search.warnings,
-        wall: began.elapsed(),
     })
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::linear::Mode;
-use lissom_core::number::{Written, duration};
+use lissom_core::number::Written;
 use lissom_model::lower::registry::registry;
 use lissom_model::output::{FigureError, Graphic};
 use serde_json::{Value, json};
@@ -111,21 +111,15 @@ impl AnalysisReport for CampbellReport {
             })
         };
         insert("critical_speeds", self.crossings.iter().map(crossing).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
-    fn text(&self) -> String {
-        let mut text = format!(
-            "  {} lines over {} values of {}, {}\n",
-            self.lines,
-            self.points.len(),
-            self.path,
-            duration(self.wall.as_secs_f64())
-        );
+    fn text(&self, time: &str) -> String {
+        let mut text =
+            format!("  {} lines over {} values of {}, {time}\n", self.lines, self.points.len(), self.path);
         for crossing in &self.crossings {
             // Writing to a string cannot fail.
             let _ = writeln!(

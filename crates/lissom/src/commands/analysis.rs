@@ -1,10 +1,12 @@
 //! Commands of analyses without time steps.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use clap::Args;
 use lissom::analysis::{self, Analysis, AnalysisError, AnalysisReport, Origin};
 use lissom::{Document, Model, Override, summary};
+use lissom_core::number::duration;
 
 use super::model_arguments::ModelArguments;
 use super::outcome::{Exit, Failure, show_warnings, warn};
@@ -44,6 +46,7 @@ pub(super) fn report<A: Analysis>(
     quiet: bool,
 ) -> Result<Exit, Failure> {
     show_warnings(document);
+    let began = Instant::now();
     let found = match request.compute(model, overrides) {
         Err(error) => match error.origin() {
             Origin::Model(report) => return Err(report.clone().into()),
@@ -52,6 +55,7 @@ pub(super) fn report<A: Analysis>(
         },
         found => found,
     };
+    let wall = began.elapsed();
     let (folder, found) =
         folder_for(path, found, || summary::of_request(A::NAME, model.name(), overrides, document))?;
     let heading = document.title.as_deref().unwrap_or(model.name());
@@ -62,13 +66,17 @@ pub(super) fn report<A: Analysis>(
         draw(&folder, figure)?;
     }
     found.write_more(&folder, document).map_err(|error| Failure::new(Exit::Failed, &error))?;
-    let summary = analysis::summary::<A>(&found, model.name(), overrides, document);
+    let summary = analysis::summary::<A>(&found, wall, model.name(), overrides, document);
     folder.write_summary(&summary).map_err(unwritable)?;
     if !quiet {
         for warning in found.warnings() {
             warn(&warning);
         }
-        terminal::print(&format!("{heading}\n{}  {}\n", found.text(), found.ending(path)));
+        terminal::print(&format!(
+            "{heading}\n{}  {}\n",
+            found.text(&duration(wall.as_secs_f64())),
+            found.ending(path)
+        ));
     }
     Ok(Exit::Done)
 }

@@ -5,7 +5,6 @@ mod report;
 use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeMap;
-use std::time::{Duration, Instant};
 
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Kinematics;
@@ -204,8 +203,6 @@ pub struct ModeReport {
     pub unknowns: [usize; 2],
     /// Warnings.
     pub warnings: Vec<AnalysisWarning>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 /// Natural modes of `model` with `overrides`.
@@ -213,7 +210,6 @@ pub struct ModeReport {
 /// # Errors
 /// If the model is invalid, the state cannot be reached or is not in equilibrium, or modes were missed.
 pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Result<ModeReport, ModesError> {
-    let began = Instant::now();
     let document = model.document(overrides)?;
     let (mut count, mut about, mut shift) =
         (lissom_model::document::DEFAULT_MODE_COUNT, OperatingPoint::Static, None);
@@ -252,7 +248,6 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         report.moved.clear();
     }
     report.about = about.name();
-    report.wall = began.elapsed();
     if let Completeness::Missing(missed) = report.completeness {
         return Err(ModesError::Missing(missed));
     }
@@ -382,7 +377,6 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
         time: model.kinematics().time,
         unknowns: [layout.coordinate_count(), layout.multiplier_rows().len()],
         warnings,
-        wall: Duration::ZERO,
     }
 }
 

@@ -7,7 +7,7 @@ use std::io;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::kinematics::Kinematics;
 use lissom_core::linear::{Completeness, Mode, ModeKind, NodeShape};
-use lissom_core::number::{DIGITS, duration, written};
+use lissom_core::number::{DIGITS, written};
 use lissom_model::Document;
 use lissom_model::files::FileError;
 use lissom_model::lower::lower;
@@ -155,14 +155,13 @@ impl AnalysisReport for ModeReport {
             })
         };
         insert("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
-    fn text(&self) -> String {
+    fn text(&self, time: &str) -> String {
         let [coordinates, multipliers] = self.unknowns;
         let number = self.modes.len();
         let [fewer, counted] = match self.completeness {
@@ -175,9 +174,8 @@ impl AnalysisReport for ModeReport {
             String::new()
         };
         let mut text = format!(
-            "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {counted}, {}\n",
-            self.about,
-            duration(self.wall.as_secs_f64())
+            "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {counted}, {time}\n",
+            self.about
         );
         // Writing to a string cannot fail.
         let _ = writeln!(

@@ -7,7 +7,6 @@ use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::time::{Duration, Instant};
 
 use lissom_core::elements::superelement::ReducedMatrices;
 use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
@@ -116,8 +115,6 @@ pub struct ReduceReport {
     pub is_preloaded: bool,
     /// Warnings.
     pub warnings: Vec<AnalysisWarning>,
-    /// Wall-clock time.
-    pub wall: Duration,
 }
 
 /// Why a reduction failed.
@@ -164,7 +161,6 @@ pub fn reduce(
     overrides: &[Override],
     request: &ReduceRequest,
 ) -> Result<ReduceReport, ReduceError> {
-    let began = Instant::now();
     let mut document = model.document(overrides).map_err(ModesError::from)?;
     let has_gravity = document.gravity.norm() > 0.0;
     document.gravity.fill(0.0);
@@ -233,7 +229,6 @@ pub fn reduce(
         mass,
         is_preloaded: !matrices.preload.is_empty(),
         warnings,
-        wall: began.elapsed(),
         name,
     })
 }

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::elements::superelement::{Damping, ReducedMatrices};
-use lissom_core::number::duration;
 use lissom_model::Document;
 use lissom_model::output::full_matrix;
 use lissom_model::toml_text::quoted;
@@ -131,24 +130,22 @@ impl AnalysisReport for ReduceReport {
         insert("mass", json!(self.mass));
         insert("preloaded", json!(self.is_preloaded));
         insert("files", self.files.iter().map(|(name, _)| json!(name)).collect());
-        insert("wall_seconds", json!(self.wall.as_secs_f64()));
     }
 
     fn warnings(&self) -> Vec<Diagnostic> {
         self.warnings.iter().map(Diagnose::diagnostic).collect()
     }
 
-    fn text(&self) -> String {
+    fn text(&self, time: &str) -> String {
         let [before, after] = self.unknowns;
         let mut text = format!(
-            "  superelement `{}`: {before} coordinates to {after}, {} interfaces, {} modes and {} corrections, {} kg{}, {}\n",
+            "  superelement `{}`: {before} coordinates to {after}, {} interfaces, {} modes and {} corrections, {} kg{}, {time}\n",
             self.name,
             self.interfaces.len(),
             self.frequencies.len(),
             self.corrections,
             self.mass,
-            if self.is_preloaded { ", preloaded" } else { "" },
-            duration(self.wall.as_secs_f64())
+            if self.is_preloaded { ", preloaded" } else { "" }
         );
         if !self.frequencies.is_empty() {
             let listed: Vec<String> =
