@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use clap::Args;
 use lissom::analysis::{self, Analysis, AnalysisError, AnalysisReport, Origin};
-use lissom::{Document, Model, Override, summary};
+use lissom::{Document, FolderError, Model, Override, ResultFolder, summary};
 use lissom_core::number::duration;
 
 use super::model_arguments::ModelArguments;
 use super::outcome::{Exit, Failure, show_warnings, warn};
-use super::results::{draw, folder_for, unwritable};
+use super::results::unwritable;
 use crate::terminal;
 
 // The help of the command is that of the request: a comment of documentation here would replace it.
@@ -47,23 +47,29 @@ pub(super) fn report<A: Analysis>(
 ) -> Result<Exit, Failure> {
     show_warnings(document);
     let began = Instant::now();
-    let found = match request.compute(model, overrides) {
-        Err(error) => match error.origin() {
-            Origin::Model(report) => return Err(report.clone().into()),
-            Origin::Request => return Err(Failure::new(Exit::BadModel, &error)),
-            Origin::Computation => Err(error),
-        },
-        found => found,
-    };
+    let found = request.compute(model, overrides);
     let wall = began.elapsed();
-    let (folder, found) =
-        folder_for(path, found, || summary::of_request(A::NAME, model.name(), overrides, document))?;
+    match found.as_ref().map_err(|error| (error.origin(), error)) {
+        Err((Origin::Model(report), _)) => return Err(report.clone().into()),
+        Err((Origin::Request, error)) => return Err(Failure::new(Exit::BadModel, error)),
+        Err((Origin::Computation, _)) | Ok(_) => {}
+    }
+    // Earlier results would be wrong beside new ones, also beside the reason of a failure.
+    let folder = ResultFolder::create(path).map_err(unwritable)?;
+    folder.clear().map_err(unwritable)?;
+    let found = found.or_else(|error| {
+        let mut summary = summary::of_request(A::NAME, model.name(), overrides, document);
+        summary::of_failure(&mut summary, &error);
+        folder.write_summary(&summary).map_err(unwritable)?;
+        Err(Failure::new(Exit::Failed, &error))
+    })?;
     let heading = document.title.as_deref().unwrap_or(model.name());
     for (name, text) in found.tables() {
         folder.write_table(&name, &text).map_err(unwritable)?;
     }
     if let Some(figure) = found.figure(heading) {
-        draw(&folder, figure)?;
+        let drawn = figure.map_err(FolderError::from);
+        drawn.and_then(|drawn| ResultFolder::write_graphic(path, &drawn)).map_err(unwritable)?;
     }
     found.write_more(&folder, document).map_err(|error| Failure::new(Exit::Failed, &error))?;
     let summary = analysis::summary::<A>(&found, wall, model.name(), overrides, document);
