@@ -24,10 +24,15 @@ pub(super) struct ModelArguments {
 }
 
 impl ModelArguments {
+    /// The text, without what is removed from it.
+    pub(super) fn text(&self) -> Result<Model, Failure> {
+        let model = Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        Ok(model.without(self.unset.clone()))
+    }
+
     /// The text and the checked document.
     pub(super) fn read(&self) -> Result<(Model, Document), Failure> {
-        let model = Model::read(&self.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
-        let model = model.without(self.unset.clone());
+        let model = self.text()?;
         let document = model.document(&self.set)?;
         Ok((model, document))
     }

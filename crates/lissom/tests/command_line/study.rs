@@ -101,6 +101,7 @@ fn mistakes_have_their_exit_codes() {
     for arguments in [
         &["study", "conditioning", &model][..],
         &["study", "conditioning", &model, "--steps", "never"],
+        &["study", "conditioning", &model, "--steps", "0.1", "--unset", "point_masses.bob"],
         &["study", "conditioning", &model, "--steps", "0.1", "--vary", "mass"],
         &["study", "conditioning", &model, "--steps", "0.1", "--vary", "point_masses.ball.mass=1"],
         &["study", "factorization", "nowhere.toml"],

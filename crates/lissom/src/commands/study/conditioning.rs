@@ -4,7 +4,6 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::Model;
 use lissom::study::conditioning::{Measured, Request, SCALINGS, Table, study};
 use lissom_core::simulation::ConditionMethod;
 
@@ -63,7 +62,7 @@ fn parse_variation(text: &str) -> Result<Variation, String> {
 impl Conditioning {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        let model = self.model.text()?;
         let request = self.request();
         // The model without these values need not be consistent: its end may be before its own first step.
         let document = model.document(&request.first())?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use lissom::study::convergence::{Request, Table, study};
-use lissom::{AnalysisWarning, Diagnose, Model};
+use lissom::{AnalysisWarning, Diagnose};
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings, warn};
@@ -74,7 +74,7 @@ fn parse_reference(text: &str) -> Result<Reference, String> {
 impl Convergence {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        let model = self.model.text()?;
         let request = self.request();
         let document = model.document(&request.first())?;
         show_warnings(&document);

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use lissom::Diagnose;
 use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
-use lissom::{Diagnose, Model};
 
 use super::super::model_arguments::ModelArguments;
 use super::super::outcome::{Exit, Failure, show_warnings, warn};
@@ -51,7 +51,7 @@ pub(super) struct Roundoff {
 impl Roundoff {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let model = Model::read(&self.model.model).map_err(|error| Failure::new(Exit::BadModel, &error))?;
+        let model = self.model.text()?;
         let request = Request {
             steps: self.steps.iter().map(|step| step.trim().to_owned()).collect(),
             output: self.output,
