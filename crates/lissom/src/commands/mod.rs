@@ -145,6 +145,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn every_analysis_has_a_command() {
+        let line = Line::command();
+        for analysis in lissom::analysis::ANALYSES {
+            assert!(line.find_subcommand(analysis.name).is_some(), "{}", analysis.name);
+        }
+    }
+
+    #[test]
     fn the_help_lists_every_command_once_and_fits_a_terminal() {
         let line = Line::command();
         let help = help();
