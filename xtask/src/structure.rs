@@ -1,4 +1,5 @@
-//! `cargo xtask structure`: import cycles between the files of a crate, and between its folders. A file imports another one if it names an item that is defined there,
+//! `cargo xtask structure`: import cycles between the files of a crate, and between its folders, and the number of named numeric
+//! constants. A file imports another one if it names an item that is defined there,
 //! also through re-exports; a re-export alone is no import, and tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,6 +33,8 @@ struct Source {
     defined: BTreeSet<String>,
     imports: Vec<Import>,
     paths: Vec<Vec<String>>,
+    /// Number of named numeric constants: numbers, and vectors of real numbers.
+    constants: usize,
 }
 
 fn is_test(attributes: &[syn::Attribute]) -> bool {
@@ -70,6 +73,19 @@ impl Source {
         }
     }
 
+    fn count_constant(&mut self, kind: &syn::Type) {
+        let name = |kind: &syn::Type| match kind {
+            syn::Type::Path(own) => own.path.get_ident().map(ToString::to_string).unwrap_or_default(),
+            _ => String::new(),
+        };
+        let numbers = ["f64", "f32", "usize", "u8", "u16", "u32", "u64", "i32", "i64"];
+        let is_number = match kind {
+            syn::Type::Array(own) => name(&own.elem) == "f64",
+            _ => numbers.contains(&name(kind).as_str()),
+        };
+        self.constants += usize::from(is_number);
+    }
+
     fn define(&mut self, item: &Item) {
         let name = match item {
             Item::Const(own) => &own.ident,
@@ -99,6 +115,16 @@ impl<'ast> Visit<'ast> for Source {
                 syn::visit::visit_item(self, item);
             }
         }
+    }
+
+    fn visit_item_const(&mut self, item: &'ast syn::ItemConst) {
+        self.count_constant(&item.ty);
+        syn::visit::visit_item_const(self, item);
+    }
+
+    fn visit_impl_item_const(&mut self, item: &'ast syn::ImplItemConst) {
+        self.count_constant(&item.ty);
+        syn::visit::visit_impl_item_const(self, item);
     }
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
@@ -237,6 +263,14 @@ pub(crate) fn cycles_of_folders(root: &Path) -> Result<Vec<Vec<String>>, Structu
     Ok(cycles_of(&edges))
 }
 
+/// Number of its named numeric constants outside tests.
+///
+/// # Errors
+/// If a file cannot be read or is no Rust.
+pub(crate) fn constants(root: &Path) -> Result<usize, StructureError> {
+    Ok(Crate::read(root)?.sources.values().map(|source| source.constants).sum())
+}
+
 fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     let reach: BTreeMap<&Module, BTreeSet<Module>> =
         edges.keys().map(|module| (module, reached(edges, module))).collect();
@@ -253,7 +287,7 @@ fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     cycles
 }
 
-/// Prints the cycles of a crate.
+/// Prints the cycles of a crate and the number of its constants.
 ///
 /// # Errors
 /// If a file cannot be read or is no Rust.
@@ -264,6 +298,7 @@ pub(crate) fn run(root: &Path) -> Result<(), StructureError> {
     for folders in cycles_of_folders(root)? {
         println!("{} folders: {}", folders.len(), folders.join(", "));
     }
+    println!("{} numeric constants", constants(root)?);
     Ok(())
 }
 
@@ -274,9 +309,25 @@ mod tests {
     /// Files that may import each other.
     const MAX_CYCLE: usize = 5;
 
+    /// Named numeric constants of the crates of the core outside tests.
+    const MAX_CONSTANTS: usize = 324;
+
+    fn sources_of(name: &str) -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src")
+    }
+
     fn of(name: &str) -> Vec<Vec<String>> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src");
-        cycles(&root).expect("readable sources")
+        cycles(&sources_of(name)).expect("readable sources")
+    }
+
+    #[test]
+    fn numeric_constants_of_the_core_do_not_become_more() {
+        let count = |name| constants(&sources_of(name)).expect("readable sources");
+        let found: usize = ["lissom-mechanics", "lissom-system", "lissom-core"].map(count).iter().sum();
+        assert_eq!(
+            found, MAX_CONSTANTS,
+            "unify a constant with one of the same meaning, or lower the number"
+        );
     }
 
     #[test]
@@ -309,8 +360,7 @@ mod tests {
     #[test]
     fn folders_of_the_core_stand_on_floors() {
         for name in ["lissom-system", "lissom-core"] {
-            let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src");
-            let found = cycles_of_folders(&root).expect("readable sources");
+            let found = cycles_of_folders(&sources_of(name)).expect("readable sources");
             assert!(found.is_empty(), "folders of {name} import each other: {found:?}");
         }
     }
@@ -321,17 +371,21 @@ mod tests {
         std::fs::create_dir_all(folder.join("inner")).expect("a folder");
         let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
         write("lib.rs", "mod a;\nmod inner;\n");
-        write("a.rs", "use crate::inner::Thing;\npub struct Other(Thing);\n");
+        write("a.rs", "use crate::inner::Thing;\npub struct Other(Thing);\nconst A: [f64; 2] = [0.0; 2];\n");
         write("inner/mod.rs", "mod b;\npub use b::Thing;\n");
         write(
             "inner/b.rs",
             "pub struct Thing;\nimpl Thing { fn own(&self) -> crate::a::Other { crate::a::Other(Thing) } }\n",
         );
         let (found, folders) = (cycles(&folder), cycles_of_folders(&folder));
+        let count = constants(&folder).expect("a crate");
         write("inner/b.rs", "pub struct Thing;\n#[cfg(test)]\nmod tests { use crate::a::Other; }\n");
         let without = cycles(&folder);
         std::fs::remove_dir_all(&folder).expect("a folder");
-        assert_eq!(found.expect("a crate"), [["a", "inner/b"]]);
+        assert_eq!(
+            (found.expect("a crate").as_slice(), count),
+            ([["a", "inner/b"].map(str::to_owned).to_vec()].as_slice(), 1)
+        );
         assert_eq!(folders.expect("a crate"), [["a", "inner"]]);
         assert!(without.expect("a crate").is_empty());
     }

@@ -25,10 +25,6 @@ use crate::system::{State, System};
 const NOTEWORTHY: f64 = 0.05;
 /// A surplus of this fraction of the energy exchanged, over a run or in a single step, makes the motion invalid.
 const GROSS: f64 = 0.25;
-/// Relative accuracy of positions, with respect to the representative length: energies below are round-off.
-const PLACE: f64 = 1e-7;
-/// Relative accuracy of changes of positions, with respect to the representative length.
-const CHANGE: f64 = 1e-12;
 
 /// Input of the energy balance from a state.
 pub(crate) struct Entry<'a> {
@@ -121,9 +117,9 @@ impl EnergyBalance {
         interval: Option<f64>,
     ) -> Self {
         let energy = system.energy(at);
-        let place = PLACE * representative.length;
+        let place = round_off::POSITION * representative.length;
         // Models at rest move by round-off of positions, and then have energy although none was supplied.
-        let speed = interval.map_or(0.0, |interval| CHANGE * representative.length / interval);
+        let speed = interval.map_or(0.0, |interval| round_off::INCREMENT * representative.length / interval);
         let mut energy_balance = Self {
             energy,
             most: energy.kinetic + energy.strain,

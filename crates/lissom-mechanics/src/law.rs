@@ -5,6 +5,10 @@
 /// Lower and upper bound.
 pub type Interval = [f64; 2];
 
+/// If bounds over an interval exceed the values at its points by less than this fraction of the largest value, no feature is missed
+/// between them. Otherwise the interval is bisected.
+pub const NARROW_BOUNDS: f64 = 0.1;
+
 /// Every number.
 pub const EVERYTHING: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 

@@ -32,7 +32,6 @@ pub trait Relation: Send + Sync + Debug {
     /// Change from one instant to another without cancellation, `elapsed` [s] and `change` later. Default: the
     /// difference of the values, or for small changes, where that is round-off, the integral of the derivative.
     fn change(&self, from: RelationPoint<'_>, elapsed: f64, change: &[f64]) -> f64 {
-        const OFFSET: f64 = 0.774_596_669_241_483_4;
         let (time, start) = from;
         let at = |share: f64| {
             let mut there = Coupled::default();
@@ -43,7 +42,8 @@ pub trait Relation: Send + Sync + Debug {
         };
         let slope = |x: f64| at(0.5 + 0.5 * x)[1];
         // Three Gauss points.
-        let integral = (5.0 * (slope(-OFFSET) + slope(OFFSET)) + 8.0 * slope(0.0)) / 18.0;
+        let offset = 0.6_f64.sqrt();
+        let integral = (5.0 * (slope(-offset) + slope(offset)) + 8.0 * slope(0.0)) / 18.0;
         let ([before, ..], [after, ..]) = (at(0.0), at(1.0));
         let difference = after - before;
         // Round-off of values, and that due to the rounding of their arguments.

@@ -3,8 +3,8 @@
 use std::sync::{Arc, OnceLock};
 
 use lissom_mechanics::evaluation::batch::{AnyBatch, ElementId};
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId};
-use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, MAX_TOUCHED, Measurement};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId, USUAL_UNKNOWNS};
+use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 
 use super::System;
 
@@ -31,7 +31,7 @@ impl ElementQuantity {
     /// A quantity of an item of a batch; none if it has more unknowns than a gradient.
     pub(crate) fn new(of: Of, batch: &dyn AnyBatch, item: usize) -> Option<Self> {
         let (nodes, coordinates) = batch.unknowns(item);
-        let is_small = 6 * nodes.len() + coordinates.len() <= MAX_TOUCHED;
+        let is_small = 6 * nodes.len() + coordinates.len() <= USUAL_UNKNOWNS;
         (is_small && !batch.sees_multipliers()).then(|| Self {
             of,
             nodes: nodes.to_vec(),

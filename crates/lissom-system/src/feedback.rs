@@ -13,7 +13,7 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::{ElementId, System};
-use lissom_mechanics::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS};
+use lissom_mechanics::elements::{Element, Energy, LinearLimit, LinearRange, Tangents};
 use lissom_mechanics::evaluation::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
 use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
@@ -21,13 +21,12 @@ use lissom_mechanics::evaluation::threads::Threads;
 use lissom_mechanics::evaluation::work::{power, power_gradient, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
 use lissom_mechanics::kinematics::step_stages::StepStages;
-use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, Subject, Switch};
+use lissom_mechanics::kinematics::{
+    CoordinateId, Kinematics, Layout, NodeId, Subject, Switch, USUAL_UNKNOWNS,
+};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::signals::measurement::{Component, Gradient};
 use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
-
-/// Maximum number of local unknowns of a load or state and its signal.
-const MAX_LOCAL: usize = 255;
 
 /// Target of a signal.
 pub enum Target {
@@ -92,7 +91,7 @@ impl Driven {
                 }
             }
         }
-        (rows.len() <= MAX_LOCAL).then_some(Self { target, signal, own, nodes, coordinates, rows })
+        u8::try_from(rows.len()).is_ok().then_some(Self { target, signal, own, nodes, coordinates, rows })
     }
 
     /// Adds `factor` times a measurement's gradient to row `row` of the local matrices.

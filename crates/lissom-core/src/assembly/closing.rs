@@ -14,10 +14,11 @@ use super::columns::Columns;
 use super::groups::Groups;
 use super::{Gap, MIN_REPORTED, gap};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
+use crate::round_off;
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::system::System;
+use crate::tuning::MAX_ITERATIONS;
 
-const MAX_ITERATIONS: usize = 200;
 /// Weight of joint coordinates, which follow the parts: it only makes them unique.
 const WEIGHT_OF_COORDINATE: f64 = 1e-8;
 /// Largest displacement of a step, relative to the model's size.
@@ -30,8 +31,6 @@ const DAMPING: [f64; 3] = [1e-6, 1e8, 1e-10];
 const CLOSING_SHARE: f64 = 1e-3;
 /// Relative decrease of the squared violations below which a step is slow, and number of consecutive slow steps that are allowed.
 const SLOW_PROGRESS: (f64, usize) = (1e-8, 5);
-/// Step size relative to the model's size at which the least change has converged.
-const SETTLED: f64 = 1e-9;
 
 /// Number of unknowns up to which a dense matrix is faster.
 const DENSE: usize = 60;
@@ -247,7 +246,7 @@ impl<'a> Closing<'a> {
             let violations = self.violations(&pose);
             let step = self.solve(&pose, (&change, &violations), DAMPING[2])?;
             pose = self.moved(&pose, &step);
-            if largest(&step[..self.columns.count[1]]) <= SETTLED {
+            if largest(&step[..self.columns.count[1]]) <= round_off::EQUILIBRIUM {
                 let closed = self.close(pose, tolerance);
                 return (self.largest(&closed) <= tolerance).then_some(closed);
             }

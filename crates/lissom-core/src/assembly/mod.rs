@@ -19,6 +19,7 @@ use self::closing::{Closing, Pose};
 use self::groups::Groups;
 use self::tree::Tree;
 use crate::diagnostics::{Value, diagnostics};
+use crate::errors::MAX_LISTED;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::{JointCoordinates, Relative};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Subject};
@@ -32,8 +33,6 @@ const SHIFT: f64 = 0.05;
 const MOST_STAGES: f64 = 1000.0;
 /// Smallest gap that is reported, relative to the largest.
 const MIN_REPORTED: f64 = 0.05;
-/// Maximum number of joints that an error names.
-const MAX_LISTED: usize = 6;
 
 /// Request of an assembly.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,9 +10,7 @@ use crate::joints::attached::AttachedJoint;
 use crate::joints::{JointCoordinates, Relative};
 use crate::kinematics::{CoordinateId, Quantity};
 use crate::system::System;
-
-/// Maximum number of iterations that place a single joint; otherwise it is closed together with all others.
-const MAX_ITERATIONS: usize = 30;
+use crate::tuning::MAX_ITERATIONS;
 
 /// A tree of rigid groups.
 pub(super) struct Tree<'a> {

@@ -11,14 +11,12 @@
 use super::initial_conditions::{ConsistentInitialConditions, Inertias, gather_rates};
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{Kinematics, Quantity};
+use crate::round_off;
 use crate::system::{State, System};
+use crate::tuning::MAX_ITERATIONS;
 
 /// Largest ratio of w K and M on a diagonal: with larger ones M is lost in round-off, smaller ones require more iterations.
 const STIFF: f64 = 1e11;
-/// Iterations end if velocities change by less than this fraction of their largest change …
-const SETTLED: f64 = 1e-10;
-/// … or after this number.
-const MAX_REPETITIONS: usize = 100;
 
 impl ConsistentInitialConditions {
     /// Velocities that satisfy the constraints with the least deformation rates of flexible parts, starting from the `given` state.
@@ -46,7 +44,7 @@ impl ConsistentInitialConditions {
         let mut rates = vec![0.0; layout.size()];
         let mut impulses = vec![0.0; layout.size()];
         let mut largest = 0.0_f64;
-        for _ in 0..MAX_REPETITIONS {
+        for _ in 0..MAX_ITERATIONS {
             gather_rates(layout, &state.kinematics, &mut rates);
             pattern.multiply(&stiffness, &rates, &mut impulses);
             for impulse in &mut impulses {
@@ -54,7 +52,7 @@ impl ConsistentInitialConditions {
             }
             let change = self.project(system, &mut state, &impulses);
             largest = largest.max(change);
-            if change <= SETTLED * largest {
+            if change <= round_off::ITERATION * largest {
                 break;
             }
         }

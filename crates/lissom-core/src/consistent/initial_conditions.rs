@@ -16,15 +16,11 @@ use crate::errors::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
+use crate::round_off;
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
-
-/// Maximum number of iterations for forces that depend on multipliers.
-const MAX_REPETITIONS: usize = 100;
-
-/// Relative changes of multipliers below this are round-off if they no longer decrease.
-const REPEATED: f64 = 1e-10;
+use crate::tuning::MAX_ITERATIONS;
 
 /// Inertias that define the metric of a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -402,7 +398,7 @@ impl ConsistentInitialConditions {
     fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
         let count = system.layout().coordinate_count();
         let (mut change, mut solution) = (f64::INFINITY, Vec::new());
-        for _ in 0..MAX_REPETITIONS {
+        for _ in 0..MAX_ITERATIONS {
             let mut right = self.right_side(system, &at);
             self.solve(system, &mut right);
             if !system.sees_multipliers() {
@@ -413,13 +409,13 @@ impl ConsistentInitialConditions {
             let changes = seen.iter().zip(found).map(|(seen, found)| (seen - found).abs());
             let last =
                 std::mem::replace(&mut change, changes.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE));
-            if change == 0.0 || (change < REPEATED && change >= last) {
+            if change == 0.0 || (change < round_off::ITERATION && change >= last) {
                 return Ok(right);
             }
             at.show_multipliers(found);
             solution = right;
         }
-        if change < REPEATED { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
+        if change < round_off::ITERATION { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
     }
 
     /// [-f; -(Ḃ v + ∂²c/∂t²)] at a motion without accelerations.

@@ -12,9 +12,6 @@ use crate::system::{State, System};
 /// Smallest pivot, relative to the largest entry of its row.
 const LARGE_ENOUGH: f64 = 0.1;
 
-/// Smallest coefficient of a linear dependence that is not round-off.
-const MIN_PARTICIPATION: f64 = 1e-6;
-
 /// Count of degrees of freedom.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
@@ -125,7 +122,7 @@ fn self_stress(repeating: usize, used: Vec<(usize, f64)>, reduced: &[Reduced]) -
         }
     }
     let largest = stress.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
-    stress.retain(|&(_, value)| value.abs() > MIN_PARTICIPATION * largest);
+    stress.retain(|&(_, value)| value.abs() > round_off::NEGLIGIBLE * largest);
     stress.sort_unstable_by_key(|&(multiplier, _)| multiplier);
     stress
 }
@@ -151,7 +148,7 @@ fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, 
     let largest = force.norm().max(moment.norm());
     let mut words = Vec::new();
     for (part, name) in [(force, "translation along"), (moment, "rotation about")] {
-        if part.norm() > MIN_PARTICIPATION * largest {
+        if part.norm() > round_off::NEGLIGIBLE * largest {
             words.push(format!("{name} {}", axis(&part.normalize())));
         }
     }
@@ -162,9 +159,10 @@ fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, 
 /// Direction of an axis, by name if it is an inertial one.
 fn axis(direction: &Vector3) -> String {
     let named = ["x", "y", "z"].into_iter().zip(direction.iter());
-    let found = named.into_iter().find(|(_, part)| part.abs() > 1.0 - MIN_PARTICIPATION * MIN_PARTICIPATION);
+    let found =
+        named.into_iter().find(|(_, part)| part.abs() > 1.0 - round_off::NEGLIGIBLE * round_off::NEGLIGIBLE);
     // Of the two signs, that in which the first nonzero component is positive.
-    let first = direction.iter().find(|part| part.abs() > MIN_PARTICIPATION).copied().unwrap_or(1.0);
+    let first = direction.iter().find(|part| part.abs() > round_off::NEGLIGIBLE).copied().unwrap_or(1.0);
     let round = |value: f64| (1e3 * value * first.signum()).round() / 1e3 + 0.0;
     found.map_or_else(
         || format!("({}, {}, {})", round(direction.x), round(direction.y), round(direction.z)),

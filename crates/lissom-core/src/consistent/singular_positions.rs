@@ -15,10 +15,9 @@ use serde::{Deserialize, Serialize};
 use super::loops::{self, Gradient, Loop};
 use crate::errors::Warning;
 use crate::kinematics::{Kinematics, Subject};
+use crate::round_off;
 use crate::system::System;
 
-/// Pivots below this fraction of their equation's squared norm are round-off: the equation is redundant.
-const REPEATS: f64 = 1e-9;
 /// Pivot above which an equation that was redundant is independent.
 const INDEPENDENT: f64 = 1e-7;
 /// A pivot below this fraction of its largest value may vanish before the next check: the sine of 13 degrees, squared.
@@ -238,14 +237,14 @@ impl Known {
 
 /// Reference values of the pivots; if equations are redundant, from the eigenvalues of B Bᵀ in descending order.
 fn references(pivots: &[f64], eigenvalues: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
-    let independent = |pivot: &f64| if *pivot > REPEATS { *pivot } else { 0.0 };
+    let independent = |pivot: &f64| if *pivot > round_off::RANK { *pivot } else { 0.0 };
     let mut references: Vec<f64> = pivots.iter().map(independent).collect();
     if !references.contains(&0.0) {
         return references;
     }
     let eigenvalues = eigenvalues();
     // The rank is that of the eigenvalues: nearly dependent equations are ambiguous among the pivots.
-    let rank = eigenvalues.iter().filter(|value| **value > REPEATS).count();
+    let rank = eigenvalues.iter().filter(|value| **value > round_off::RANK).count();
     let mut by_pivot: Vec<usize> = (0..pivots.len()).collect();
     by_pivot.sort_by(|a, b| pivots[*b].total_cmp(&pivots[*a]));
     references.fill(0.0);
@@ -290,7 +289,7 @@ impl Pivots {
             let factors = &mut known[k * count + k..];
             let pivot = factors[0];
             self.pivots[k] = pivot;
-            if pivot <= REPEATS {
+            if pivot <= round_off::RANK {
                 factors[1..].fill(0.0);
                 continue;
             }
@@ -318,7 +317,8 @@ impl Pivots {
             }
         }
         let mut joints: Vec<Subject> = Vec::new();
-        let takes_part = |k: &usize| shares[*k].abs() > MIN_PARTICIPATION && self.pivots[*k] > REPEATS;
+        let takes_part =
+            |k: &usize| shares[*k].abs() > MIN_PARTICIPATION && self.pivots[*k] > round_off::RANK;
         for k in (0..equation).filter(takes_part).chain([equation]) {
             let (joint, _) = system.layout().constraint_name(found.multipliers[k]);
             let joint = Subject::new("joint", joint).called(format!("`{joint}`"));

@@ -31,22 +31,15 @@ use crate::kinematics::{Quantity, Subject};
 use crate::round_off;
 use crate::schemes::Tableau;
 use crate::system::{ParameterDifference, State};
+use crate::tuning::MAX_ITERATIONS;
 use integrated::Neighbour;
 use stages::{Stages, largest_found};
 use variation::Variation;
 
-/// One-stage corrections are iterated if the second is larger than this fraction of the first.
-const EXACT: f64 = 1e-10;
-/// Remaining corrections, estimated from the contraction rate, relative to the first one and to the solution.
-const REMAINING_CORRECTION: f64 = 1e-10;
 /// Lower bound of the contraction rate used in that estimate.
 const CREDIBLE: f64 = 1e-5;
-/// Corrections that contract by less than this are round-off if they are small.
-const STALLED: f64 = 0.5;
 /// Lower bound of the increments' reference relative to the derivative of the state, whose round-off they have.
 const ROUNDED: f64 = 1e-3;
-/// Maximum number of corrections.
-const MAX_CORRECTIONS: usize = 40;
 
 /// Sensitivities of the state of a simulation to parameters of its model.
 pub struct Sensitivities {
@@ -212,21 +205,22 @@ fn step(
         let reference: Block =
             std::array::from_fn(|lane| first[lane].max(known[lane]).max(ROUNDED * rounding[lane]));
         if made == 2 {
-            is_exact = (0..WIDTH).all(|lane| sizes[lane] <= EXACT * reference[lane]);
+            is_exact = (0..WIDTH).all(|lane| sizes[lane] <= round_off::ITERATION * reference[lane]);
         }
         let left = |lane| if is_integrated { integrated::round_off(base, lanes, lane) } else { 0.0 };
         // The remaining correction follows from the contraction rate; corrections that no longer contract are round-off.
         let is_done = |lane: usize| {
             let contraction = sizes[lane] / before[lane].max(f64::MIN_POSITIVE);
-            if contraction > STALLED {
+            // Small corrections that do not contract by half are round-off.
+            if contraction > 0.5 {
                 return sizes[lane] <= (round_off::DERIVATIVE * reference[lane]).max(left(lane));
             }
-            contraction.max(CREDIBLE) * sizes[lane] <= REMAINING_CORRECTION * reference[lane]
+            contraction.max(CREDIBLE) * sizes[lane] <= round_off::ITERATION * reference[lane]
         };
         if (0..WIDTH).all(is_done) {
             break;
         }
-        if sizes.iter().any(|size| !size.is_finite()) || made >= MAX_CORRECTIONS {
+        if sizes.iter().any(|size| !size.is_finite()) || made >= MAX_ITERATIONS {
             return Err(StepError::NotConverged {
                 time: base.state.kinematics.time,
                 iterations: made,

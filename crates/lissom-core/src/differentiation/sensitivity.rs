@@ -27,8 +27,6 @@ const MAX_CORRECTIONS: usize = 12;
 const REMAINING_CORRECTION: f64 = 1e-11;
 /// Largest contraction rate from which the next correction is estimated.
 const CONTRACTS: f64 = 0.1;
-/// Largest relative correction at which the step is considered converged.
-const FOUND: f64 = 1e-9;
 
 impl Simulation {
     /// Factors the tangent of the last step again, at its solution, and keeps it in use. Returns false if there is no such step:
@@ -80,7 +78,7 @@ impl Simulation {
             let correction = equations.correct();
             made += 1;
             let relative = correction.size / correction.reference.max(f64::MIN_POSITIVE);
-            let is_found = relative <= FOUND || correction.size <= round_off::CORRECTION;
+            let is_found = relative <= round_off::STEP || correction.size <= round_off::CORRECTION;
             let contraction = correction.size / size_of_last;
             if made == 1 {
                 first = correction.size;
@@ -102,7 +100,7 @@ impl Simulation {
         let worst = equations.worst_unknown();
         let correction = equations.work.newton.correction;
         work.tangent.exchange_factors(&mut leading.tangent);
-        if !(last <= FOUND || size_of_last <= round_off::CORRECTION) {
+        if !(last <= round_off::STEP || size_of_last <= round_off::CORRECTION) {
             let time = self.state.kinematics.time + size;
             let hint = "the neighbouring model has no solution near this one";
             return Err(StepError::NotConverged { time, iterations: made, correction, worst, hint });

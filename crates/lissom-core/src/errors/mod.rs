@@ -10,3 +10,6 @@ pub use initial_error::InitialError;
 pub(crate) use reports::{report, warn};
 pub use step_error::StepError;
 pub use warning::Warning;
+
+/// Maximum number of parts that a message names.
+pub(crate) const MAX_LISTED: usize = 4;

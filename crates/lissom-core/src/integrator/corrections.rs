@@ -1,11 +1,11 @@
-//! Norms and updates of an iterate's corrections: vectorised loops over all unknowns.
+//! Norms and updates of an iterate's corrections: vectorised loops over all unknowns. Sums are computed as [`WIDTH`] independent
+//! partial sums, which hides the latency of the operations.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use crate::newton::Correction;
+use lissom_motion::WIDTH;
 
-/// Number of independent partial sums or maxima, which hides the latency of the operations.
-pub(crate) const SIDE_BY_SIDE: usize = 8;
+use crate::newton::Correction;
 
 /// Systems with fewer unknowns use scalar code: the dispatch would cost more than vectorisation saves.
 const FEW: usize = 24;
@@ -33,7 +33,7 @@ impl PartialEq for Processor {
 
 /// Sum of the partial sums by pairwise addition: three dependent additions only.
 #[inline(always)]
-pub(crate) fn sum(values: &[f64; SIDE_BY_SIDE]) -> f64 {
+pub(crate) fn sum(values: &[f64; WIDTH]) -> f64 {
     let [a, b, c, d, e, f, g, h] = *values;
     ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
@@ -41,11 +41,11 @@ pub(crate) fn sum(values: &[f64; SIDE_BY_SIDE]) -> f64 {
 /// Inner product Σ aᵢ bᵢ.
 #[inline(always)]
 pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
-    let (a_blocks, a_rest) = a.as_chunks::<SIDE_BY_SIDE>();
-    let (b_blocks, b_rest) = b.as_chunks::<SIDE_BY_SIDE>();
-    let mut sums = [0.0; SIDE_BY_SIDE];
+    let (a_blocks, a_rest) = a.as_chunks::<WIDTH>();
+    let (b_blocks, b_rest) = b.as_chunks::<WIDTH>();
+    let mut sums = [0.0; WIDTH];
     for (a, b) in a_blocks.iter().zip(b_blocks) {
-        for k in 0..SIDE_BY_SIDE {
+        for k in 0..WIDTH {
             sums[k] += a[k] * b[k];
         }
     }
@@ -56,13 +56,13 @@ pub(crate) fn product(a: &[f64], b: &[f64]) -> f64 {
 /// Weighted maximum norm max |wᵢ vᵢ|, and whether all values are finite.
 #[inline(always)]
 pub(crate) fn largest(weights: &[f64], values: &[f64]) -> (f64, bool) {
-    let (w_blocks, w_rest) = weights.as_chunks::<SIDE_BY_SIDE>();
-    let (v_blocks, v_rest) = values.as_chunks::<SIDE_BY_SIDE>();
-    let mut most = [0.0_f64; SIDE_BY_SIDE];
+    let (w_blocks, w_rest) = weights.as_chunks::<WIDTH>();
+    let (v_blocks, v_rest) = values.as_chunks::<WIDTH>();
+    let mut most = [0.0_f64; WIDTH];
     // 0 · v is 0 or NaN.
-    let mut nothing = [0.0; SIDE_BY_SIDE];
+    let mut nothing = [0.0; WIDTH];
     for (w, v) in w_blocks.iter().zip(v_blocks) {
-        for k in 0..SIDE_BY_SIDE {
+        for k in 0..WIDTH {
             let value = (w[k] * v[k]).abs();
             nothing[k] += 0.0 * value;
             most[k] = if value > most[k] { value } else { most[k] };

@@ -15,9 +15,6 @@ use crate::node_motion::depart;
 use crate::schemes::{Combination, DensePolynomial, Stage};
 use crate::system::State;
 
-/// Order of the cubic.
-const CUBIC: i32 = 4;
-
 /// The motion of a step between two states.
 #[derive(Clone, Copy)]
 pub(crate) struct DenseOutput<'s> {
@@ -57,10 +54,10 @@ impl DenseOutput<'_> {
         widest.map_or(0.5, |(from, to)| 0.5 * (from + to))
     }
 
-    /// Order of the defect with respect to the step size.
+    /// Order of the defect with respect to the step size; that of the cubic is four.
     #[expect(clippy::cast_possible_wrap, reason = "stages are few")]
     pub(crate) fn order(&self) -> i32 {
-        self.stages.as_ref().map_or(CUBIC, |stages| stages.table.len() as i32 + 1)
+        self.stages.as_ref().map_or(4, |stages| stages.table.len() as i32 + 1)
     }
 
     /// Writes the state at `time` [s], clamped to the step, to `out`.

@@ -11,6 +11,7 @@ use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::StepStages;
 use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
 use crate::newton::{Correction, Equations, Failure};
+use crate::round_off;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
@@ -19,12 +20,8 @@ use crate::system::{State, StepPoint, System, TangentAssembler};
 
 /// Iterates with a last correction above this are far from equilibrium [-].
 pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
-/// Largest correction of a rotation; larger corrections are scaled down [rad].
-const MAX_ROTATION: f64 = 1.0;
 /// Smallest reference of increments, relative to the drift, for the convergence of first-order states [-].
 const MIN_DEPARTURE: f64 = 1e-5;
-/// Number of round-off errors that accumulate in a force.
-const ROUNDINGS: f64 = 16.0;
 
 /// One step from `start`.
 pub(crate) struct StepEquations<'a> {
@@ -170,7 +167,7 @@ impl StepEquations<'_> {
             .fold(0.0_f64, |most, row| most.max(self.work.stiffness[row].abs()));
         let nodes = &self.start.kinematics.nodes;
         let far = nodes.iter().fold(0.0_f64, |most, node| most.max(node.frame.position.amax()));
-        ROUNDINGS * f64::EPSILON * far * stiffness
+        round_off::OPERATIONS * far * stiffness
     }
 
     /// Linearises at the last stage: stores the tangent values of all decoupled systems, before equilibration.
@@ -233,7 +230,8 @@ impl StepEquations<'_> {
         if !places.size.is_finite() {
             return places;
         }
-        let largest = MAX_ROTATION;
+        // Larger corrections of rotations are scaled down to a radian, and displacements with them.
+        let largest = 1.0;
         if places.size > largest {
             self.work.newton.anderson.interrupt();
             let cut = largest / places.size;
@@ -291,7 +289,7 @@ impl StepEquations<'_> {
     fn roundings(&self) -> f64 {
         let weights =
             |stage: &Stage| stage.curvature.increments.iter().map(|weight| weight.abs()).sum::<f64>();
-        self.scheme.stages.iter().map(weights).fold(ROUNDINGS, f64::max)
+        self.scheme.stages.iter().map(weights).fold(round_off::OPERATIONS / f64::EPSILON, f64::max)
     }
 
     /// Largest correction of a force of a velocity constraint, and the largest such force [N].

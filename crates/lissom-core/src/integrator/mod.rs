@@ -27,15 +27,12 @@ use crate::integrator::projection::Projection;
 use crate::integrator::workspace::Workspace;
 use crate::kinematics::{Kinematics, MotionChange};
 use crate::newton::{self, Equations, Failure, JacobianState, Outcome};
+use crate::round_off;
 use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, ScaleBy, Scaled};
 use crate::schemes::StageSystem;
 use crate::settings::{Problem, Settings, Stopwatch, Unwatched};
 use crate::system::{State, Threads};
-
-/// If round-off prevents schemes that integrate velocities from reaching the tolerance, a last correction below this is
-/// accepted: its effect on the energy is checked by the energy balance.
-const SUFFICIENT: f64 = 1e-9;
 
 /// The state at which a step begins, and the one before the last step; both are equal before the first step.
 #[derive(Clone, Copy)]
@@ -300,7 +297,7 @@ fn last_stage<'m>(settings: &Settings, multipliers: &'m [Vec<f64>]) -> Option<&'
 fn sufficient(result: Result<Outcome, Failure>, integrates_velocities: bool) -> Result<Outcome, Failure> {
     match result {
         Err(Failure::NotConverged { iterations, correction })
-            if integrates_velocities && correction <= SUFFICIENT =>
+            if integrates_velocities && correction <= round_off::STEP =>
         {
             Ok(Outcome { iterations, correction, stagnated: true, ..Outcome::default() })
         }

@@ -12,9 +12,10 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use lissom_motion::{Block, WIDTH};
 use serde::{Deserialize, Serialize};
 
-use super::corrections::{Processor, SIDE_BY_SIDE, sum};
+use super::corrections::{Processor, sum};
 use crate::round_off;
 use crate::tuning::{Tuning, TuningParameter};
 
@@ -23,8 +24,6 @@ const MAX_STEPS: usize = 8;
 /// A prediction is rejected if it would have left more than this fraction of the error of the scheme's extrapolation. After a jump
 /// of the motion, or where constraints lose rank, it leads to other solution branches.
 const CREDIBLE: f64 = 0.5;
-
-type Block = [f64; SIDE_BY_SIDE];
 
 /// Linear prediction of a set of unknowns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,12 +55,12 @@ pub(crate) struct Predictor {
 impl Predictor {
     /// An empty history, for `stages` stages of unknowns whose errors have these weights.
     pub(crate) fn new(stages: usize, weights: &[f64]) -> Self {
-        let blocks = weights.len().div_ceil(SIDE_BY_SIDE);
+        let blocks = weights.len().div_ceil(WIDTH);
         let squares: Vec<f64> = weights.iter().map(|weight| weight * weight).collect();
         let of_stage: Vec<Block> = (0..blocks).map(|block| numbers(&squares, block)).collect();
         Self {
             weights: of_stage.repeat(stages),
-            missed: vec![[[0.0; SIDE_BY_SIDE]; MAX_STEPS]; stages * blocks],
+            missed: vec![[[0.0; WIDTH]; MAX_STEPS]; stages * blocks],
             oldest: 0,
             products: [[0.0; MAX_STEPS]; MAX_STEPS],
             matrix: [[0.0; MAX_STEPS]; MAX_STEPS],
@@ -77,7 +76,7 @@ impl Predictor {
 
     /// Discards the history: the step size changes, or the motion is interrupted.
     pub(crate) fn forget(&mut self) {
-        self.missed.fill([[0.0; SIDE_BY_SIDE]; MAX_STEPS]);
+        self.missed.fill([[0.0; WIDTH]; MAX_STEPS]);
         (self.products, self.matrix) = ([[0.0; MAX_STEPS]; MAX_STEPS], [[0.0; MAX_STEPS]; MAX_STEPS]);
         (self.vector, self.coefficients, self.shares) =
             ([0.0; MAX_STEPS], [0.0; MAX_STEPS], [0.0; MAX_STEPS]);
@@ -100,7 +99,7 @@ impl Predictor {
         let factor = ratio.powi(order);
         for missed in &mut self.missed {
             let kept = [missed[last], missed[before]].map(|block| block.map(|value| factor * value));
-            *missed = [[0.0; SIDE_BY_SIDE]; MAX_STEPS];
+            *missed = [[0.0; WIDTH]; MAX_STEPS];
             [missed[last], missed[before]] = kept;
         }
         let products = self.products;
@@ -147,7 +146,7 @@ impl Predictor {
             for (product, more) in products.iter_mut().zip(more) {
                 *product += more;
             }
-            first += found.len().div_ceil(SIDE_BY_SIDE);
+            first += found.len().div_ceil(WIDTH);
         }
         self.processor.0.dispatch(Learn { memory: self, products, tuning });
     }
@@ -174,11 +173,11 @@ impl Predictor {
 /// Block of eight values, padded with zeros.
 #[inline(always)]
 fn numbers(of: &[f64], block: usize) -> Block {
-    let rest = &of[block * SIDE_BY_SIDE..];
+    let rest = &of[block * WIDTH..];
     if let Some(block) = rest.first_chunk() {
         return *block;
     }
-    let mut block = [0.0; SIDE_BY_SIDE];
+    let mut block = [0.0; WIDTH];
     block[..rest.len()].copy_from_slice(rest);
     block
 }
@@ -196,10 +195,10 @@ impl pulp::WithSimd for Improve<'_> {
         let shares = self.memory.shares;
         let mut blocks = self.memory.missed.iter();
         for stage in self.guess {
-            for (values, missed) in stage.chunks_mut(SIDE_BY_SIDE).zip(&mut blocks) {
-                let mut missing = [0.0; SIDE_BY_SIDE];
+            for (values, missed) in stage.chunks_mut(WIDTH).zip(&mut blocks) {
+                let mut missing = [0.0; WIDTH];
                 for place in 0..MAX_STEPS {
-                    for k in 0..SIDE_BY_SIDE {
+                    for k in 0..WIDTH {
                         missing[k] += shares[place] * missed[place][k];
                     }
                 }
@@ -227,19 +226,19 @@ impl pulp::WithSimd for Note<'_> {
     fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
         let Note { memory, first, found, guessed } = self;
         let oldest = memory.oldest;
-        let mut sums = [[0.0; SIDE_BY_SIDE]; MAX_STEPS + 1];
+        let mut sums = [[0.0; WIDTH]; MAX_STEPS + 1];
         let blocks = memory.weights[first..].iter().zip(&mut memory.missed[first..]);
-        for (block, (weights, missed)) in blocks.enumerate().take(found.len().div_ceil(SIDE_BY_SIDE)) {
+        for (block, (weights, missed)) in blocks.enumerate().take(found.len().div_ceil(WIDTH)) {
             let (found, guessed) = (numbers(found, block), numbers(guessed, block));
-            let mut latest = [0.0; SIDE_BY_SIDE];
-            let mut weighted = [0.0; SIDE_BY_SIDE];
-            for k in 0..SIDE_BY_SIDE {
+            let mut latest = [0.0; WIDTH];
+            let mut weighted = [0.0; WIDTH];
+            for k in 0..WIDTH {
                 latest[k] = found[k] - guessed[k];
                 weighted[k] = weights[k] * latest[k];
                 sums[MAX_STEPS][k] += weighted[k] * latest[k];
             }
             for place in 0..MAX_STEPS {
-                for k in 0..SIDE_BY_SIDE {
+                for k in 0..WIDTH {
                     sums[place][k] += weighted[k] * missed[place][k];
                 }
             }

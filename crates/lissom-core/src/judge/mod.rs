@@ -11,8 +11,9 @@ pub(crate) mod start;
 use std::f64::consts::PI;
 
 use crate::energy_balance::{EnergyBalance, StepWork};
-use crate::errors::{StepError, Warning};
+use crate::errors::{MAX_LISTED, StepError, Warning};
 use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Problem;
 use crate::system::{State, System};
@@ -20,19 +21,14 @@ use crate::system::{State, System};
 /// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.
 const MAX_VIOLATION: f64 = 1e-5;
-/// Violation above which a warning is given, relative to the representative length, or in radians.
+/// Violation above which a warning is given, relative to the representative length, or in radians. Rates of constraints that remain
+/// at the start above this fraction of the largest one contradict each other.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
 /// A node that rotates in one step by more than a quarter of a turn is not resolved by any of the schemes [rad].
 pub(crate) const MAX_TURN: f64 = 0.5 * PI;
 /// Relative rotation of an element's nodes, as a fraction of half a turn, above which it cannot be distinguished from the
 /// opposite one.
 const MAX_RELATIVE_TURN: f64 = 0.9;
-/// Velocities that change by more than this fraction of the largest in a step are not a smooth motion.
-const SMOOTH: f64 = 0.5;
-/// A slider may be beyond the end of its beam by this fraction of the length: round-off.
-const PAST_THE_END: f64 = 1e-9;
-/// Maximum number of constraints named in a message.
-const MAX_LISTED: usize = 4;
 
 /// Checks steps of one simulation.
 pub(crate) struct Judge<'a> {
@@ -163,7 +159,7 @@ impl Judge<'_> {
         for slider in self.system.sliders() {
             let (place, length) = (end.kinematics.coordinates[slider.coordinate].value, slider.length());
             let beyond = (place - length).max(-place);
-            if beyond > PAST_THE_END * length {
+            if beyond > round_off::EQUILIBRIUM * length {
                 let (time, joint) = (end.kinematics.time, slider.name.clone());
                 return Err(StepError::BeyondBeam { time, joint, place, length });
             }
@@ -191,7 +187,8 @@ impl Judge<'_> {
         }
         let angle = fastest.sqrt() * elapsed;
         if angle <= MAX_TURN {
-            return Ok((0..2).all(|k| change[k] <= SMOOTH * SMOOTH * largest[k]));
+            // In smooth motion velocities change by less than half of the largest.
+            return Ok((0..2).all(|k| change[k] <= 0.25 * largest[k]));
         }
         let node = self.system.layout().name_of_node(node).to_owned();
         Err(StepError::TurnsTooFar { time: end.kinematics.time, node, angle })

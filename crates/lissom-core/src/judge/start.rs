@@ -5,20 +5,14 @@ use lissom_motion::Vector3;
 use crate::errors::InitialError;
 use crate::errors::Warning;
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, NodeMotion, Quantity, Subject, split};
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::System;
 
 /// Changes of given velocities below this fraction of the largest are round-off of given numbers.
 const NOTEWORTHY: f64 = 1e-3;
-/// Rates of coordinates below this fraction of the largest speed result from velocities that are written with six
-/// digits.
-const WRITTEN: f64 = 1e-6;
 /// If less than this fraction of the given kinetic energy remains, the given velocities are considered lost.
 const NOTHING: f64 = 1e-4;
-/// Rates of constraints that remain above this fraction of the largest rate contradict each other.
-const MAX_RATE: f64 = 1e-6;
-/// Deformation rates below this fraction of the largest speed over the representative length are not reported.
-const JOLT: f64 = 1e-3;
 
 /// Deformation rates below this are round-off of a model at rest [1/s].
 const RATE_AT_REST: f64 = 1e-9;
@@ -98,7 +92,7 @@ pub(crate) fn sudden_deformation(
     let largest = nodes.map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
     let before = Kinematics { nodes: given.nodes.clone(), ..used.clone() };
     let (most, (known, _)) = system.deformation_rate(used).zip(system.deformation_rate(&before))?;
-    (most.0 - known > (JOLT * largest / length).max(RATE_AT_REST)).then_some(most)
+    (most.0 - known > (NOTEWORTHY * largest / length).max(RATE_AT_REST)).then_some(most)
 }
 
 /// The coordinate whose given rate is changed most, if that is significant compared with the `largest` speed of a
@@ -112,7 +106,7 @@ fn rates_of_coordinates(
     let change = |k: &CoordinateId| {
         let (given, used) = (specified.coordinates[*k].rate, used.coordinates[*k].rate);
         let arm = if system.layout().coordinate_quantity(*k) == Quantity::Angle { length } else { 1.0 };
-        if arm * given.abs() <= WRITTEN * largest { 0.0 } else { (used - given).abs() / given.abs() }
+        if arm * given.abs() <= round_off::GIVEN * largest { 0.0 } else { (used - given).abs() / given.abs() }
     };
     let worst = system.layout().coordinates().max_by(|a, b| change(a).total_cmp(&change(b)));
     let Some(worst) = worst.filter(|worst| change(worst) > NOTEWORTHY) else { return Ok(None) };
@@ -150,7 +144,7 @@ pub(crate) fn rates(
         Quantity::Angle => rates[k].abs() * representative.length,
     };
     let worst = (0..rates.len()).map(relative).fold(0.0, f64::max);
-    if worst <= (MAX_RATE * largest).max(negligible) {
+    if worst <= (super::NOTEWORTHY_VIOLATION * largest).max(negligible) {
         return Ok(());
     }
     let mut violated: Vec<Subject> = Vec::new();

@@ -12,7 +12,6 @@
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
-use super::ADDITIONAL_MODES;
 use super::completion::Spectrum;
 use super::krylov::{Krylov, Operator, complex, product};
 use super::lanczos::{VIOLATED, round_off};
@@ -20,11 +19,11 @@ use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::{LinearError, LinearModel};
 use super::schur::schur;
 use super::shifted::{GeneralShift, Shift, small_square};
+use super::{ADDITIONAL_MODES, EQUAL, krylov};
 use crate::interrupt;
 use crate::kinematics::Quantity;
 use crate::round_off;
 
-const BLOCK: usize = 6;
 const TOLERANCE: f64 = 1e-8;
 /// Tolerance if the basis has become large compared with the number of modes: the remaining residual is then round-off.
 const LOOSE: f64 = 1e-6;
@@ -38,8 +37,6 @@ const SOLVED: f64 = 1e-5;
 /// Largest residual of an eigenvector, relative to its image. A larger one belongs to round-off of an infinite eigenvalue, which two
 /// applications have removed.
 const EIGENVECTOR: f64 = 1e-2;
-/// Rigid modes whose shapes differ by less than this are the same.
-const SHAPE_TOLERANCE: f64 = 1e-4;
 /// If an eigenvalue is nearer to the shift than this fraction of it, all others are lost in round-off.
 const TOO_NEAR: f64 = 1e-4;
 /// Relative change of the shift in this case.
@@ -256,7 +253,7 @@ fn find_near<'a, S: Field>(
     'shifts: loop {
         let mut operator = inverse(model, solver, shift)?;
         let mut krylov = Krylov::new(operator.size());
-        let mut is_exhausted = krylov.start(&mut operator, BLOCK, 2) == 0;
+        let mut is_exhausted = krylov.start(&mut operator, krylov::BLOCK, 2) == 0;
         loop {
             let estimates = search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
             let largest = estimates.first().map_or(0.0, |estimate| estimate.value.norm());
@@ -272,7 +269,7 @@ fn find_near<'a, S: Field>(
                 is_empty = modes.is_empty() && krylov.order() > 0;
                 break 'shifts;
             }
-            wanted += 2 * BLOCK;
+            wanted += 2 * krylov::BLOCK;
         }
     }
     // Pivots do not count modes here. For small models all eigenvalues are computed; in others there are at most two for
@@ -304,8 +301,8 @@ fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut GeneralShift<'a, f64>) 
     let rate = small_square(&model.representative).sqrt();
     let mut operator = inverse(model, solver, rate)?;
     let mut krylov = Krylov::new(operator.size());
-    krylov.start(&mut operator, BLOCK, 2);
-    for _ in 0..5 * BLOCK {
+    krylov.start(&mut operator, krylov::BLOCK, 2);
+    for _ in 0..5 * krylov::BLOCK {
         if !krylov.step(&mut operator) {
             break;
         }
@@ -369,7 +366,7 @@ fn search<S: Field>(
     loop {
         interrupt::check().map_err(LinearError::from)?;
         if !*is_exhausted && !krylov.step(operator) {
-            *is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
+            *is_exhausted = krylov.start(operator, krylov::BLOCK, 2) == 0;
         }
         since += 1;
         let is_early = since < CHECK_INTERVAL.max(krylov.order() / 8) || krylov.order() < wanted;
@@ -535,7 +532,7 @@ fn keep_independent_rigid_modes(modes: &mut Vec<Mode>) {
             }
         }
         let left: f64 = rest.iter().map(Complex64::norm_sqr).sum();
-        if left <= SHAPE_TOLERANCE * SHAPE_TOLERANCE * whole {
+        if left <= EQUAL * EQUAL * whole {
             return false;
         }
         let norm = left.sqrt();

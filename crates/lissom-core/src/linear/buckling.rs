@@ -9,26 +9,20 @@
 //! operator x ↦ -K₀⁻¹ (K₁ - K₀) x on the constraints is symmetric with eigenvalues 1/Λ. The negative pivots of the matrix at a load
 //! factor above the last one count those below.
 
-use super::ADDITIONAL_MODES;
 use super::krylov::{Krylov, Operator, product};
 use super::lanczos::{is_converged, ritz, whole_clusters};
 use super::mode::Completeness;
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
+use super::{ADDITIONAL_MODES, krylov};
 use crate::diagnostics::diagnostics;
 use crate::interrupt;
 use crate::round_off;
 
-/// Number of starting vectors.
-const BLOCK: usize = 6;
-/// Steps between two computations of the eigenvalues.
-const CHECK_INTERVAL: usize = 8;
 /// Load factor below which no mode is expected if none is found, over the magnitude of the lowest negative one.
 const FAR_AWAY: f64 = 1e3;
 /// A search with this number of vectors, and eight times the number of modes, is ended: there are no more modes.
 const MAX_VECTORS: usize = 300;
-/// Maximum number of restarts with new vectors.
-const MAX_RESTARTS: usize = 4;
 
 /// A buckling mode.
 #[derive(Clone, Debug, PartialEq)]
@@ -150,7 +144,7 @@ impl LinearModel<'_> {
             product: vec![0.0; size],
         };
         let mut krylov = Krylov::new(operator.size());
-        let mut is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
+        let mut is_exhausted = krylov.start(&mut operator, krylov::BLOCK, 1) == 0;
         let mut wanted = count + ADDITIONAL_MODES;
         let mut restarts = 0;
         loop {
@@ -161,21 +155,21 @@ impl LinearModel<'_> {
             let keep = whole_clusters(&rates, count.min(rates.len()));
             if keep == wanted {
                 // The factor may have more modes than were searched for.
-                wanted += BLOCK;
+                wanted += krylov::BLOCK;
                 continue;
             }
             let next = modes.get(keep).map(|mode| mode.load_factor);
             modes.truncate(keep);
             let counted = self.counted(&change, &modes, next, largest);
             let is_short = modes.len() < count && !is_whole;
-            if counted == Completeness::Counted || is_exhausted || restarts == MAX_RESTARTS {
+            if counted == Completeness::Counted || is_exhausted || restarts == krylov::MAX_RESTARTS {
                 modes.truncate(count);
                 let is_unknown = is_short && counted == Completeness::Counted;
                 let completeness = if is_unknown { Completeness::Unknown } else { counted };
                 return Ok(Buckling { modes, completeness });
             }
             restarts += 1;
-            is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
+            is_exhausted = krylov.start(&mut operator, krylov::BLOCK, 1) == 0;
         }
     }
 
@@ -231,10 +225,10 @@ fn search(
     loop {
         interrupt::check()?;
         if !*is_exhausted && !krylov.step(operator) {
-            *is_exhausted = krylov.start(operator, BLOCK, 1) == 0;
+            *is_exhausted = krylov.start(operator, krylov::BLOCK, 1) == 0;
         }
         since += 1;
-        if !*is_exhausted && since < CHECK_INTERVAL.max(krylov.order() / 8) {
+        if !*is_exhausted && since < krylov::CHECK_INTERVAL.max(krylov.order() / 8) {
             continue;
         }
         since = 0;

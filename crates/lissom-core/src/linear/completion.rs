@@ -12,17 +12,14 @@ use super::mode::Mode;
 use super::model::LinearModel;
 use super::shifted::GeneralShift;
 
+use super::EQUAL;
 use crate::round_off;
 
 /// Maximum number of states of a model whose eigenvalues are all computed.
 const MAX_STATES: usize = 200;
-/// Eigenvalues of the search and of the full matrix that differ by less than this fraction, and by round-off of the largest, are
-/// equal.
-const EQUAL: f64 = 1e-4;
-/// Eigenvalues of the search and of an inverse iteration that differ by less than this fraction are equal.
+/// Eigenvalues of the search and of an inverse iteration that differ by less than this fraction are equal; also the
+/// allowed residual of the inverse iteration.
 const EIGENVALUE_TOLERANCE: f64 = 1e-6;
-/// Allowed residual of an inverse iteration.
-const SETTLED: f64 = 1e-6;
 /// Maximum number of solves of an inverse iteration.
 const SOLVES: usize = 4;
 /// Distance of its shift from the eigenvalue, relative to it.
@@ -141,7 +138,7 @@ impl Spectrum {
         });
         let is_settled = {
             let rest = image.iter().zip(&vector).map(|(image, own)| (image - quotient * own).norm_sqr());
-            rest.sum::<f64>().sqrt() <= SETTLED * quotient.norm()
+            rest.sum::<f64>().sqrt() <= EIGENVALUE_TOLERANCE * quotient.norm()
         };
         let is_new = is_settled && !is_known && found.im >= -EIGENVALUE_TOLERANCE * found.norm();
         is_new.then(|| mode_of(model, &mut operator, vector, quotient)).flatten()

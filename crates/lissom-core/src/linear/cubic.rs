@@ -28,8 +28,6 @@ use crate::round_off;
 
 /// ε: minimum weight of bending modes.
 const BENDING: f64 = 1e-3;
-/// Terms below this fraction of the largest one, in modes of equal energy, are omitted.
-const MIN_TERM: f64 = 1e-6;
 
 /// The static state under a load of the floating frame, with fixed interfaces.
 #[derive(Clone, Debug, PartialEq)]
@@ -232,7 +230,7 @@ fn shortening(modes: &Modes, natural: &[DMatrix<f64>]) -> Vec<Shortening> {
     let largest = terms.iter().map(size).fold(0.0, f64::max);
     terms
         .iter()
-        .filter(|term| size(term) > MIN_TERM * largest)
+        .filter(|term| size(term) > round_off::NEGLIGIBLE * largest)
         .map(|(i, matrix)| Shortening {
             direction: modes.shapes.column(*i).into_owned(),
             matrix: modes.back(matrix) / modes.squares[*i],

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use lissom_motion::{Vector3, Vector6, screw};
 use num_complex::Complex64;
 
+use super::DISPLACEMENT;
 use super::mode::Mode;
 use super::model::LinearModel;
 use super::shapes::part_of;
@@ -12,10 +13,6 @@ use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity};
 use crate::node_motion::displace;
 
 use crate::system::{Mass, Owner};
-
-/// Largest displacement over the model's length, and rotation, at which energies are evaluated: errors are of its
-/// square.
-const LARGEST_DISPLACEMENT: f64 = 1e-4;
 
 /// Effective masses: translations along x, y and z [kg], rotations about them through the centre of mass [kg m²].
 pub type EffectiveMasses = [f64; 6];
@@ -33,7 +30,7 @@ impl LinearModel<'_> {
             if largest == 0.0 {
                 continue;
             }
-            let step = LARGEST_DISPLACEMENT / largest;
+            let step = DISPLACEMENT / largest;
             for (sense, weight) in [(1.0, 1.0), (-1.0, 1.0), (0.0, -2.0)] {
                 let at = self.displaced(&rows, sense * step);
                 energies.clear();
@@ -47,7 +44,7 @@ impl LinearModel<'_> {
         let all: f64 = shares.values().map(|value| value.abs()).sum();
         // Differences for a rigid motion are round-off.
         let rate = mode.eigenvalue.norm_sqr();
-        if rate == 0.0 || total <= LARGEST_DISPLACEMENT * all {
+        if rate == 0.0 || total <= DISPLACEMENT * all {
             return BTreeMap::new();
         }
         for share in shares.values_mut() {

@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, small_square};
+use crate::errors::MAX_LISTED;
 use crate::kinematics::{LOCKED, Quantity, Subject};
 use crate::round_off;
 
@@ -25,13 +26,6 @@ const REFINEMENTS: usize = 4;
 const VIOLATED: f64 = 1e-13;
 /// A stiffness is zero if its squared rate is below this fraction of the small square, or is round-off of its terms.
 const NO_RATE: f64 = 1e-10;
-/// Levers below this fraction of the model's length are within the accuracy of an equilibrium: neither the work of forces along
-/// them nor their geometric stiffness is significant.
-const NO_LEVER: f64 = 1e-9;
-/// Coordinates that move by less than this fraction of the largest motion are ignored.
-const MIN_PARTICIPATION: f64 = 1e-6;
-/// Maximum number of parts that are named.
-const MAX_LISTED: usize = 4;
 
 /// Work of forces along a motion.
 struct ForcesAlong {
@@ -57,10 +51,10 @@ impl LinearModel<'_> {
         let (stiffness, of_terms) = self.form(&self.parts.stiffness, &motion);
         let (mass, _) = self.form(&self.parts.mass, &motion);
         let is_unresisted = stiffness.abs() <= round_off::MATRIX_ENTRY * of_terms
-            || stiffness.abs() <= NO_LEVER * forces.possible * forces.way / self.length()
+            || stiffness.abs() <= round_off::EQUILIBRIUM * forces.possible * forces.way / self.length()
             || stiffness.abs() <= NO_RATE * small_square(&self.representative) * mass;
         let is_unforced = forces.work.abs() <= round_off::FORCE * forces.of_terms
-            || forces.work.abs() <= NO_LEVER * forces.possible;
+            || forces.work.abs() <= round_off::EQUILIBRIUM * forces.possible;
         (is_unresisted && is_unforced).then(|| self.names_of(&motion))
     }
 
@@ -167,7 +161,7 @@ impl LinearModel<'_> {
         let size = |row: usize| self.way(motion, row);
         let count = self.coordinate_count();
         let largest = (0..count).map(size).fold(0.0, f64::max);
-        let moves = |row: &usize| size(*row) > MIN_PARTICIPATION * largest;
+        let moves = |row: &usize| size(*row) > round_off::NEGLIGIBLE * largest;
         let of_joints = layout.coordinates().map(|coordinate| layout.row_of_coordinate(coordinate));
         let mut rows: Vec<usize> = of_joints.filter(moves).collect();
         if rows.is_empty() {

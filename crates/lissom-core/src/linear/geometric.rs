@@ -18,6 +18,7 @@
 use lissom_motion::{Matrix3, Rotation, Vector3, Vector6, rotation_tangent, screw};
 use nalgebra::{DMatrix, DVector};
 
+use super::DISPLACEMENT;
 use super::carried_points::CarriedPoints;
 use super::cubic::{LoadState, SecondOrder};
 use super::model::{LinearModel, nothing, point};
@@ -27,8 +28,6 @@ use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, T
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId};
 use crate::system::System;
 
-/// Displacements of differences, as a fraction of the model's length.
-const DISPLACED: f64 = 1e-4;
 /// A rigid motion about the first interface.
 #[derive(Clone, Copy)]
 enum Carried {
@@ -155,7 +154,7 @@ impl Forces<'_> {
         if size <= 0.0 {
             return matrix;
         }
-        let far = DISPLACED * length / size;
+        let far = DISPLACEMENT * length / size;
         for (k, step) in steps.iter().enumerate().skip(first) {
             let mut sum = DVector::zeros(steps.len());
             for (one, other) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
@@ -284,7 +283,7 @@ impl Assembly<'_> {
         let (size, first) = (shapes.len(), 6.min(shapes.len()));
         let steps: Vec<f64> = shapes
             .iter()
-            .map(|shape| DISPLACED * length / forces.size(shape, length).max(f64::MIN_POSITIVE))
+            .map(|shape| DISPLACEMENT * length / forces.size(shape, length).max(f64::MIN_POSITIVE))
             .collect();
         let none = vec![0.0; layout.size()];
         let rest = forces.along(&none, Carried::Still);

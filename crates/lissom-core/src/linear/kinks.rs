@@ -23,8 +23,6 @@ const DIRECTIONS: usize = 3;
 const STEPS: [f64; 3] = [1e-5, 6.25e-7, 4e-8];
 /// Differences of smooth forces decrease by a far smaller factor than this from step to step.
 const FALLS: f64 = 0.5;
-/// Differences below this fraction of the terms of a row are ignored.
-const MATTERS: f64 = 1e-6;
 /// Weight of the stiffness relative to the damping for forces that depend on velocities.
 const BESIDE_DAMPING: f64 = 1e-3;
 
@@ -164,7 +162,7 @@ impl LinearModel<'_> {
                     ),
                     (false, _) => (constrained[row], 1.0 / self.unit_of(row)),
                 };
-                MATTERS * terms + round_off::FORCES * (forces + stiff[row]) / STEPS[2]
+                round_off::NEGLIGIBLE * terms + round_off::FORCES * (forces + stiff[row]) / STEPS[2]
             })
             .collect()
     }

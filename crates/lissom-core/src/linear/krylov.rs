@@ -2,11 +2,18 @@
 //! basis and appended to it. Several starting vectors find eigenvalues of that multiplicity; new ones may be added at any
 //! time. Independent of mechanics.
 
+use lissom_motion::WIDTH;
 use std::collections::VecDeque;
 
 use lissom_solver::Scalar;
 use num_complex::Complex64;
 
+/// Number of starting vectors: eigenvalues of this multiplicity are found at once.
+pub(super) const BLOCK: usize = 6;
+/// Steps between two computations of the eigenvalues of a symmetric operator.
+pub(super) const CHECK_INTERVAL: usize = 8;
+/// Maximum number of restarts with new vectors, each of which finds vectors to which the others were orthogonal.
+pub(super) const MAX_RESTARTS: usize = 6;
 /// Remainder of an image after orthogonalisation, relative to the image, below which it is a combination of the
 /// basis.
 const DEPENDENT: f64 = 1e-11;
@@ -43,13 +50,12 @@ pub(super) fn complex<S: Scalar>(value: S) -> Complex64 {
 /// Σ conj(a_i) b_i.
 pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
     // Several partial sums, so that they are independent.
-    const LANES: usize = 8;
-    let mut sums = [S::zero(); LANES];
-    let (blocks_of_a, blocks_of_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let mut sums = [S::zero(); WIDTH];
+    let (blocks_of_a, blocks_of_b) = (a.chunks_exact(WIDTH), b.chunks_exact(WIDTH));
     let rest = blocks_of_a.remainder().iter().zip(blocks_of_b.remainder());
     let rest = rest.fold(S::zero(), |sum, (&a, &b)| sum + conjugate(a) * b);
     for (a, b) in blocks_of_a.zip(blocks_of_b) {
-        for k in 0..LANES {
+        for k in 0..WIDTH {
             sums[k] += conjugate(a[k]) * b[k];
         }
     }

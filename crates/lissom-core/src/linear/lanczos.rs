@@ -8,27 +8,19 @@
 use lissom_solver::FactorError;
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::ADDITIONAL_MODES;
 use super::krylov::{Krylov, Operator, product};
 use super::mode::{Completeness, ModeOptions};
 use super::model::{LinearError, LinearModel};
 use super::shifted::{RealShift, START_RATE};
+use super::{ADDITIONAL_MODES, krylov};
 use crate::interrupt;
 use crate::round_off;
 
-/// Number of starting vectors: eigenvalues of this multiplicity are found at once.
-const BLOCK: usize = 6;
-/// Residual of an accepted mode, relative to its eigenvalue of the operator.
-const TOLERANCE: f64 = 1e-9;
-/// Steps between two computations of the eigenvalues.
-const CHECK_INTERVAL: usize = 8;
 /// Eigenvalues closer than this, relative to their distance from the shift, are considered one cluster.
 const CLUSTER: f64 = 1e-5;
 /// Squared rates below this fraction of the small one that represents zero are not distinguished from rigid modes in the choice
 /// of the shift.
 const NEAREST: f64 = 1e-4;
-/// Maximum number of restarts with new vectors.
-const MAX_RESTARTS: usize = 6;
 /// Shifts at which modes are counted if none is found, in units of the shift.
 const FAR_AWAY: [f64; 3] = [1e2, 1e5, 1e8];
 /// Round-off of a solve, relative to the eigenvalue's distance from the shift.
@@ -113,7 +105,7 @@ pub(super) fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
 }
 
 pub(super) fn is_converged((value, _, residual): &(f64, Vec<f64>, f64)) -> bool {
-    *residual <= TOLERANCE * value.abs()
+    *residual <= round_off::ITERATED_EIGENVALUE * value.abs()
 }
 
 /// Computes the lowest modes, or those nearest to a given frequency.
@@ -165,8 +157,8 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
     let mut krylov = Krylov::new(model.coordinate_count());
     let lowest = {
         let mut operator = inverse(model, solver);
-        krylov.start(&mut operator, BLOCK, 2);
-        for _ in 0..4 * BLOCK {
+        krylov.start(&mut operator, krylov::BLOCK, 2);
+        for _ in 0..4 * krylov::BLOCK {
             if !krylov.step(&mut operator) {
                 break;
             }
@@ -214,7 +206,7 @@ fn search<'a>(
 ) -> Result<Found, LinearError> {
     let mut krylov = Krylov::new(model.coordinate_count());
     let mut wanted = options.count + ADDITIONAL_MODES;
-    let mut is_exhausted = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2) == 0;
+    let mut is_exhausted = krylov.start(&mut inverse(model, &mut solver), krylov::BLOCK, 2) == 0;
     let mut restarts = 0;
     loop {
         let estimates = {
@@ -223,12 +215,12 @@ fn search<'a>(
             loop {
                 interrupt::check()?;
                 let more = krylov.step(&mut operator);
-                if !more && krylov.start(&mut operator, BLOCK, 2) == 0 {
+                if !more && krylov.start(&mut operator, krylov::BLOCK, 2) == 0 {
                     is_exhausted = true;
                 }
                 is_exhausted |= krylov.order() >= model.coordinate_count();
                 since += 1;
-                if !is_exhausted && since < CHECK_INTERVAL.max(krylov.order() / 8) {
+                if !is_exhausted && since < krylov::CHECK_INTERVAL.max(krylov.order() / 8) {
                     continue;
                 }
                 since = 0;
@@ -252,14 +244,14 @@ fn search<'a>(
             .take(wanted)
             .collect();
         if pairs.len() < options.count && !is_exhausted {
-            wanted += BLOCK;
+            wanted += krylov::BLOCK;
             continue;
         }
         let distances: Vec<f64> = pairs.iter().map(|pair| (pair.square - shift).abs().recip()).collect();
         let keep = whole_clusters(&distances, options.count.min(distances.len()));
         if keep == wanted {
             // The cluster may have more modes than were searched for.
-            wanted += BLOCK;
+            wanted += krylov::BLOCK;
             continue;
         }
         let next = distances.get(keep).copied();
@@ -272,13 +264,13 @@ fn search<'a>(
         };
         let completeness = match missing {
             Count::None => Completeness::Counted,
-            Count::Some(missing) if restarts == MAX_RESTARTS || is_exhausted => {
+            Count::Some(missing) if restarts == krylov::MAX_RESTARTS || is_exhausted => {
                 Completeness::Missing(missing)
             }
-            Count::Unknown if restarts == MAX_RESTARTS || is_exhausted => Completeness::Unknown,
+            Count::Unknown if restarts == krylov::MAX_RESTARTS || is_exhausted => Completeness::Unknown,
             Count::Some(_) | Count::Unknown => {
                 restarts += 1;
-                let added = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2);
+                let added = krylov.start(&mut inverse(model, &mut solver), krylov::BLOCK, 2);
                 is_exhausted = added == 0;
                 continue;
             }

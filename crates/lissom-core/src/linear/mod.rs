@@ -52,5 +52,11 @@ pub use state_space::{StateSpace, StateSpaceError};
 pub use steady::{Departure, SteadyError, steady};
 pub use whirl::Whirl;
 
+/// Eigenvalues of the search and of the full matrix, and shapes of rigid modes, that differ by less than this fraction are equal.
+const EQUAL: f64 = 1e-4;
+/// Displacements of differences, as a fraction of the model's length, and rotations [rad]: errors are of the square.
+const DISPLACEMENT: f64 = 1e-4;
+/// Rate s at which displacements by inertial forces are computed, relative to the rate of rotation: free motions are amplified.
+const SLOW_RATE: f64 = 1e-3;
 /// Additional modes beyond the requested ones, so that a multiple or clustered eigenvalue at the end is found completely.
 const ADDITIONAL_MODES: usize = 4;

@@ -7,9 +7,9 @@ use lissom_solver::{FactorError, Pattern, Scalar, SolverKind, Structure};
 use num_complex::Complex64;
 
 use super::generator::Generator;
-use super::rolling_axes;
 use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use super::velocity_constraints::{refuse, take_forces};
+use super::{SLOW_RATE, rolling_axes};
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
@@ -25,8 +25,6 @@ use crate::system::{Linearization, State, System};
 /// rows.
 const ASYMMETRY: f64 = 1e-9;
 
-/// Rate at which the displacement by inertial forces is computed, relative to the rate of rotation: free motions are amplified.
-const SLOW_RATE: f64 = 1e-3;
 /// Squared rates below this fraction of the small one that represents zero are zero.
 const NEUTRAL: f64 = 1e-6;
 

@@ -28,9 +28,8 @@ use super::generator::Generator;
 use super::mode::Mode;
 use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
+use crate::round_off;
 
-/// Positions that differ by less than this, over the length of the model, and axes [rad], are equal.
-const POSITION_TOLERANCE: f64 = 1e-6;
 /// Maximum number of blades.
 const MAX_BLADES: usize = 12;
 
@@ -154,13 +153,13 @@ impl Axis {
         let mut turns = Vec::with_capacity(at.nodes.len());
         for node in &at.nodes {
             let own = node.angular_velocity();
-            if own.norm() <= POSITION_TOLERANCE * rate {
+            if own.norm() <= round_off::GIVEN * rate {
                 turns.push(false);
                 continue;
             }
             let velocity = node.frame.rotation.apply(&node.twist.fixed_rows::<3>(0).into_owned());
-            if (own - spin).norm() > POSITION_TOLERANCE * rate
-                || velocity.dot(&direction).abs() > POSITION_TOLERANCE * rate * length
+            if (own - spin).norm() > round_off::GIVEN * rate
+                || velocity.dot(&direction).abs() > round_off::GIVEN * rate * length
             {
                 return Err(NoMultiblade::SeveralAxes);
             }
@@ -168,7 +167,7 @@ impl Axis {
             let center = node.frame.position + direction.cross(&velocity) / rate;
             let known: &Vector3 = place.get_or_insert(center);
             let apart = center - known;
-            if (apart - direction * apart.dot(&direction)).norm() > POSITION_TOLERANCE * length {
+            if (apart - direction * apart.dot(&direction)).norm() > round_off::GIVEN * length {
                 return Err(NoMultiblade::SeveralAxes);
             }
             turns.push(true);
@@ -185,7 +184,7 @@ impl Axis {
 
     fn is_on(&self, place: &Vector3) -> bool {
         let apart = place - self.place;
-        (apart - self.direction * apart.dot(&self.direction)).norm() <= POSITION_TOLERANCE * self.length
+        (apart - self.direction * apart.dot(&self.direction)).norm() <= round_off::GIVEN * self.length
     }
 
     /// The node at the position of each rotating node off the axis after 1/`blades` of a turn; none if there is no such node.
@@ -195,7 +194,7 @@ impl Axis {
         let mut near: BTreeMap<i64, Vec<NodeId>> = BTreeMap::new();
         let cell = |place: &Vector3| {
             let height = (place - self.place).dot(&self.direction);
-            (height / (POSITION_TOLERANCE * self.length).max(f64::MIN_POSITIVE) * 1e-2).round() as i64
+            (height / (round_off::GIVEN * self.length).max(f64::MIN_POSITIVE) * 1e-2).round() as i64
         };
         for node in self.beside(at) {
             near.entry(cell(&at.nodes[node].frame.position)).or_default().push(node);
@@ -209,9 +208,8 @@ impl Axis {
             let image = candidates.copied().find(|&other| {
                 let change = at.nodes[other].frame.relative_to(&moved).logarithm();
                 !taken[other.index()]
-                    && (0..6).all(|k| {
-                        change[k].abs() <= POSITION_TOLERANCE * if k < 3 { self.length } else { 1.0 }
-                    })
+                    && (0..6)
+                        .all(|k| change[k].abs() <= round_off::GIVEN * if k < 3 { self.length } else { 1.0 })
             })?;
             taken[image.index()] = true;
             images[node.index()] = Some(image);

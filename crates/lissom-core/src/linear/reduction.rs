@@ -31,12 +31,8 @@ use crate::kinematics::{LOCKED, NodeId, Subject};
 use crate::round_off;
 use crate::system::{Linearization, State, System};
 
-/// Forces on parts between the interfaces that displace them by less than this fraction of the model's length are round-off.
-const BALANCED: f64 = 1e-7;
 /// Forces of rigid displacements below this fraction of their terms are round-off.
 const RIGID: f64 = 1e-6;
-/// A preload that displaces by less than this fraction of the model's length is zero.
-const NO_PRELOAD: f64 = 1e-9;
 
 diagnostics! {
     /// An assembly that is not reduced.
@@ -158,7 +154,7 @@ impl Assembly<'_> {
         );
         let whole = Whole::of(self, &multipliers);
         let length = model.as_ref().map_or(1.0, LinearModel::length);
-        if let Some(model) = model.as_ref().filter(|model| model.imbalance() > BALANCED) {
+        if let Some(model) = model.as_ref().filter(|model| model.imbalance() > round_off::POSITION) {
             return Err(ReductionError::Unbalanced { displacement: model.imbalance() });
         }
         whole.check_rigid(self)?;
@@ -300,7 +296,7 @@ impl Assembly<'_> {
         let mut preload: Vec<f64> = forces.collect();
         let is_loaded = preload.iter().enumerate().any(|(row, force)| {
             let unit = if row % 6 < 3 { length } else { 1.0 };
-            force.abs() > NO_PRELOAD * unit * stiffness[(row, row)].abs()
+            force.abs() > round_off::EQUILIBRIUM * unit * stiffness[(row, row)].abs()
         });
         if is_loaded {
             self.to_energy(&preload, &mut stiffness);

@@ -11,12 +11,8 @@ use num_complex::Complex64;
 use super::model::{LinearError, LinearModel};
 use super::shifted::ComplexShift;
 use crate::diagnostics::{Diagnostic, Value, diagnostics};
-use crate::interrupt;
+use crate::{interrupt, round_off};
 
-/// Allowed residual of the equations, relative to their terms.
-const LEFT: f64 = 1e-9;
-/// Solutions are refined until the residual is below this …
-const ENOUGH: f64 = 1e-15;
 /// … or this number of times.
 const REFINEMENTS: usize = 8;
 
@@ -127,11 +123,11 @@ impl FrequencyResponse<'_, '_> {
             }
             left = now;
             best.copy_from_slice(&x);
-            if left <= ENOUGH {
+            if left <= round_off::SOLUTION {
                 break;
             }
         }
-        if left <= LEFT { Ok(best) } else { Err(ResponseError::Inexact { s, left }) }
+        if left <= round_off::FORCE { Ok(best) } else { Err(ResponseError::Inexact { s, left }) }
     }
 
     /// Residual of the equations; returns its magnitude relative to their terms, rows and terms scaled as for the

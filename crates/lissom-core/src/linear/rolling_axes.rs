@@ -16,10 +16,8 @@ use lissom_motion::{Motion, Vector3, Vector6};
 use super::generator::Generator;
 use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
+use crate::round_off;
 use crate::system::System;
-
-/// Sine of the angle between axis and normal below which a wheel is flat: its spin is then undefined.
-const FLAT: f64 = 1e-6;
 
 /// Spin of every node [rad/s], in its axes: zero except for rolling wheels.
 pub(super) fn spins(system: &System, at: &Kinematics) -> Vec<Vector3> {
@@ -34,7 +32,11 @@ pub(super) fn spins(system: &System, at: &Kinematics) -> Vec<Vector3> {
         let cosine = axis.dot(&normal);
         let square = 1.0 - cosine * cosine;
         let along = rate.dot(&axis);
-        let spin = if square > FLAT * FLAT { (along - cosine * rate.dot(&normal)) / square } else { along };
+        let spin = if square > round_off::GIVEN * round_off::GIVEN {
+            (along - cosine * rate.dot(&normal)) / square
+        } else {
+            along
+        };
         spins[joint.frames[1].node.index()] = spin * axis;
     }
     spins

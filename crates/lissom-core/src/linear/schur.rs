@@ -2,11 +2,10 @@
 //! and deflation where the diagonal vanishes: matrices of shift-and-invert operators have many zero eigenvalues, where a subdiagonal
 //! entry is never small relative to its neighbours on the diagonal.
 
+use crate::tuning::MAX_ITERATIONS;
 use nalgebra::{DMatrix, Hessenberg};
 use num_complex::Complex64;
 
-/// Maximum number of iterations per eigenvalue.
-const MAX_ITERATIONS: usize = 300;
 /// Number of iterations without deflation before an exceptional shift.
 const EXCEPTIONAL: usize = 10;
 /// A subdiagonal entry below this fraction of the matrix's norm, times the round-off, is zero regardless of its

@@ -14,11 +14,10 @@ use super::model::LinearModel;
 use super::output::OutputDerivatives;
 use crate::diagnostics::diagnostics;
 use crate::kinematics::{Quantity, Subject};
+use crate::round_off;
 
 /// Maximum number of coordinates of a model with full matrices.
 const MAX_COORDINATES: usize = 600;
-/// A pivot of the constraints below this fraction of the largest is zero.
-const RANK: f64 = 1e-9;
 /// Ratio of pivots of the reduced mass matrix below which degrees of freedom have no mass.
 const SINGULAR: f64 = 1e-13;
 
@@ -238,7 +237,7 @@ fn dependent(gradient: &DMatrix<f64>) -> (Vec<usize>, usize, DMatrix<f64>) {
     let r = factors.r();
     let largest = r[(0, 0)].abs();
     let most = r.nrows().min(r.ncols());
-    let rank = (0..most).take_while(|&k| r[(k, k)].abs() > RANK * largest).count();
+    let rank = (0..most).take_while(|&k| r[(k, k)].abs() > round_off::RANK * largest).count();
     let corner = r.view((0, 0), (rank, rank)).into_owned();
     let mut change = -r.view((0, rank), (rank, count - rank)).into_owned();
     corner.solve_upper_triangular_mut(&mut change);

@@ -16,9 +16,9 @@ use num_complex::Complex64;
 use super::krylov::{Noise, product};
 use super::mode::Mode;
 use super::model::{LinearError, LinearModel, nothing, point, stopped};
-use super::rolling_axes;
 use super::shifted::ComplexShift;
 use super::velocity_constraints::refuse;
+use super::{SLOW_RATE, rolling_axes};
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
 use crate::joints::evaluation_point::Chart;
@@ -26,11 +26,8 @@ use crate::kinematics::{CoordinateId, LOCKED, NodeId, NodeMotion, Quantity};
 use crate::round_off;
 use crate::scaling::Representative;
 use crate::system::{State, System};
+use crate::tuning::MAX_ITERATIONS;
 
-/// Maximum number of corrections; they end at round-off, or when one is no smaller than the last.
-const MAX_CORRECTIONS: usize = 60;
-/// The small s, over the rate of rotation.
-const SMALL_RATE: f64 = 1e-3;
 /// Rotation of a state for the check of constant coefficients [rad].
 const TURN: f64 = 0.7;
 /// The shift of this check, relative to the eigenvalue.
@@ -124,7 +121,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     let mut shifted = ComplexShift::new(system, &representative);
     let mut residual = vec![0.0; layout.size()];
     let (mut last, mut right) = (f64::INFINITY, vec![Complex64::default(); layout.size()]);
-    for _ in 0..MAX_CORRECTIONS {
+    for _ in 0..MAX_ITERATIONS {
         system.violations(&state.kinematics, &mut violations);
         for (violation, start) in violations.iter_mut().zip(&start) {
             *violation -= start;
@@ -136,7 +133,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         system.linearize(&at, Chart::Departures(&state.kinematics.nodes), &mut parts);
         parts.fold_multipliers();
         shifted
-            .factor(&parts, Complex64::from(SMALL_RATE * rate))
+            .factor(&parts, Complex64::from(SLOW_RATE * rate))
             .map_err(|error| stopped(system, time, &error))?;
         for (value, residual) in right.iter_mut().zip(&residual) {
             *value = Complex64::from(-residual);

@@ -13,9 +13,8 @@ use num_complex::Complex64;
 
 use super::mode::Mode;
 use super::model::LinearModel;
+use crate::round_off;
 
-/// A mode with less displacement perpendicular to the axis than this fraction of the total does not whirl.
-const LATERAL: f64 = 1e-6;
 /// If the forward and backward parts differ by less than this, the orbit is an ellipse, with two frequencies in axes
 /// at rest.
 const CIRCULAR: f64 = 0.999;
@@ -57,7 +56,7 @@ impl LinearModel<'_> {
         if let Some(generator) = self.generator() {
             let sense = self.sense_at_rest(generator, mode);
             return match sense {
-                _ if sense.abs() <= LATERAL => Whirl::None,
+                _ if sense.abs() <= round_off::NEGLIGIBLE => Whirl::None,
                 _ if sense > 0.0 => Whirl::Forward(mode.frequency),
                 _ => Whirl::Backward(mode.frequency),
             };
@@ -82,7 +81,7 @@ impl LinearModel<'_> {
                 whole += vector.iter().map(|value| value.norm_sqr() * unit * unit).sum::<f64>();
             }
         }
-        if forward + backward <= LATERAL * whole {
+        if forward + backward <= round_off::NEGLIGIBLE * whole {
             return Whirl::None;
         }
         let sense = (forward - backward) / (forward + backward);

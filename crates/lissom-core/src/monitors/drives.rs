@@ -4,14 +4,13 @@ use super::monitor::{Accepted, Beginning, Monitor};
 use crate::errors::Warning;
 use crate::errors::warn;
 use crate::kinematics::{Kinematics, Quantity};
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Problem;
 use crate::system::System;
 
 /// A drive jumps if it moves in a step by more than this multiple of its larger rate at both ends times the step.
 const MAX_RATIO: f64 = 2.0;
-/// Displacements below this fraction of the representative length, or this angle, are not reported [-, rad].
-const MIN_DISPLACEMENT: f64 = 1e-6;
 
 /// Has no state.
 struct Drives;
@@ -44,7 +43,8 @@ fn jump(
         let rate = function.first_derivative(from.time).abs().max(function.first_derivative(to.time).abs());
         let row = system.layout().row_of_coordinate(drive.prescribed.coordinate);
         let unit = if quantities[row] == Quantity::Length { representative.length } else { 1.0 };
-        (way > MIN_DISPLACEMENT * unit && way > MAX_RATIO * elapsed * rate).then(|| (drive.name.clone(), way))
+        (way > round_off::NEGLIGIBLE * unit && way > MAX_RATIO * elapsed * rate)
+            .then(|| (drive.name.clone(), way))
     });
     jumping.map(|(drive, way)| Warning::DriveJumps { time: to.time, drive, way })
 }

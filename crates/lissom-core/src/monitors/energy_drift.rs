@@ -11,6 +11,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::errors::{Warning, report};
@@ -20,8 +21,6 @@ use crate::linear::LinearModel;
 use crate::settings::Problem;
 use crate::system::State;
 
-/// Phase shifts above this are reported [rad].
-const NOTEWORTHY: f64 = 0.01;
 /// Marks in the time in which the path doubles.
 const MARKS_PER_DOUBLING: usize = 4;
 
@@ -101,7 +100,7 @@ impl Monitor for EnergyDrift {
         }
         let [_, after] = step.energy_balance;
         let Some(shift) = self.shift(after.lost, after.turned_over) else { return };
-        if shift < NOTEWORTHY || self.is_damped {
+        if shift < monitor::NOTEWORTHY || self.is_damped {
             return;
         }
         let Some(seen) = nonlinearity(step.problem, step.origin, step.end) else {
@@ -110,7 +109,7 @@ impl Monitor for EnergyDrift {
         };
         self.nonlinearity = self.nonlinearity.max(seen);
         let shift = self.nonlinearity * shift;
-        if shift < NOTEWORTHY {
+        if shift < monitor::NOTEWORTHY {
             return;
         }
         report(

@@ -16,8 +16,6 @@ use crate::system::System;
 
 /// Steps after a crossing at whose ends the rate is checked.
 const STEPS: u8 = 2;
-/// Fraction of its rate that an approach retains there if the contact is resolved.
-const KEPT: f64 = 0.5;
 /// Approaches slower than this fraction of the fastest one of the same switch have no significant energy: a
 /// hundredth.
 const SLOW_APPROACH: f64 = 0.1;
@@ -133,7 +131,8 @@ impl Approach {
         }
         let Some((entry, steps)) = &mut self.passed else { return false };
         *steps += 1;
-        let is_stopped = rate / *entry < KEPT;
+        // An approach through a contact that is resolved retains more than half of its rate at the next ends of steps.
+        let is_stopped = rate / *entry < 0.5;
         // The step with the crossing itself contains two motions.
         let is_over = *steps > STEPS || is_stopped;
         if is_over {

@@ -11,6 +11,11 @@ use crate::scaling::Representative;
 use crate::settings::Problem;
 use crate::system::State;
 
+/// Errors of forces above this fraction of the largest one are reported, and phase shifts above this [rad].
+pub(super) const NOTEWORTHY: f64 = 0.01;
+/// A force or moment below this fraction of the largest one is measured against that fraction.
+pub(super) const MIN_FORCE: f64 = 0.05;
+
 /// A simulation at its start.
 #[derive(Clone, Copy)]
 pub(crate) struct Beginning<'b> {

@@ -20,12 +20,11 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::errors::{Warning, report};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::schemes::ErrorEstimate;
+use std::f64::consts::FRAC_2_PI;
 
 /// Errors that differ by more than this factor from those of the next step, or of the last pair, are due to an instant, not to the
 /// motion.
 const SPIKE: f64 = 4.0;
-/// Mean of |cos|.
-const MEAN_COSINE: f64 = std::f64::consts::FRAC_2_PI;
 /// Maximum error of an oscillation, in amplitudes.
 const MAX_ERROR: f64 = 8.0;
 /// Estimates above this fraction of the model's displacement are reported. If motions amplify errors, those at the end are up to
@@ -53,8 +52,9 @@ impl Missed {
     /// Estimated error of the unknown after this number of steps since the last pair, of which `share` remains of a smooth motion.
     fn total(&self, pairs: f64, steps: f64, estimate: &ErrorEstimate, share: f64) -> f64 {
         let angle = self.differences / self.errors;
+        // The mean of |cos| is 2/π.
         let amplitude =
-            self.errors / (2.0 * pairs * MEAN_COSINE * estimate.of_oscillation * angle.powi(estimate.order));
+            self.errors / (2.0 * pairs * FRAC_2_PI * estimate.of_oscillation * angle.powi(estimate.order));
         // Without differences there is no oscillation.
         let sum = self.sum + steps * self.last;
         let vibration = if amplitude.is_nan() { sum } else { sum.min(MAX_ERROR * amplitude) };

@@ -1,14 +1,10 @@
 //! Whether the elements of a beam resolve the section forces that are recorded.
 
+use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
 use crate::bytes::{from_bytes, to_bytes};
 use crate::errors::{Warning, report};
-
-/// Errors above this fraction of the largest axial force, shear force, torsion or bending moment are reported.
-const NOTEWORTHY: f64 = 0.01;
-/// A smaller part of the whole force, or moment, counts as so large a part of it.
-const LEAST: f64 = 0.05;
 
 /// Largest sizes and errors so far.
 #[derive(Default)]
@@ -41,8 +37,10 @@ impl Monitor for SectionForces {
             if whole == 0.0 {
                 continue;
             }
-            let part =
-                largest.map(|[size, error]| error / size.max(LEAST * whole)).into_iter().fold(0.0, f64::max);
+            let part = largest
+                .map(|[size, error]| error / size.max(monitor::MIN_FORCE * whole))
+                .into_iter()
+                .fold(0.0, f64::max);
             if worst.is_none_or(|(most, _)| part > most) {
                 worst = Some((part, index));
             }
@@ -57,7 +55,12 @@ impl Monitor for SectionForces {
                     _ => at.time,
                 };
                 let (beam, elements) = (sections[index].beam.clone(), sections[index].element_count);
-                (error > NOTEWORTHY).then_some(Warning::SectionForces { time, beam, elements, error })
+                (error > monitor::NOTEWORTHY).then_some(Warning::SectionForces {
+                    time,
+                    beam,
+                    elements,
+                    error,
+                })
             },
         );
     }

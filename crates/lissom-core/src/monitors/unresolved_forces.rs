@@ -9,6 +9,7 @@
 //! (`error_estimate`), k its order, p order of the scheme, so that each term is the error of a step of the scheme; c factor. Of 35
 //! random mechanisms with beams 15 of the 17 with errors of recorded forces above 1 % are reported, and two of the others, with 0.9 %.
 
+use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use super::sampled_steps::SampledSteps;
 use crate::bytes::{from_bytes, to_bytes};
@@ -22,10 +23,6 @@ use crate::system::System;
 
 /// c.
 const FACTOR: f64 = 1.5;
-/// Errors above this fraction of the largest force or moment are reported.
-const NOTEWORTHY: f64 = 0.01;
-/// Forces, or moments, below this fraction of the largest in any section count as so large.
-const LEAST: f64 = 0.05;
 
 /// Largest values and sums so far.
 struct UnresolvedForces {
@@ -99,7 +96,7 @@ impl Monitor for UnresolvedForces {
         }
         let all = sections(system).zip(&self.largest).zip(&self.sums).zip(&self.least);
         let errors = all.map(|(((section, largest), sums), least)| {
-            let part = LEAST * whole[usize::from(section.is_moment())];
+            let part = monitor::MIN_FORCE * whole[usize::from(section.is_moment())];
             let of = |k: usize| FACTOR * sums[k] / largest[k].max(part).max(least[k]).powf(exponent);
             (of(0).max(of(1)), &section.beam)
         });
@@ -115,7 +112,7 @@ impl Monitor for UnresolvedForces {
                     _ => at.time,
                 };
                 let warning = Warning::UnresolvedForces { time, beam: beam.clone(), error: error.min(1.0) };
-                (error > NOTEWORTHY).then_some(warning)
+                (error > monitor::NOTEWORTHY).then_some(warning)
             },
         );
     }

@@ -6,12 +6,10 @@
 use super::equations::Condition;
 use super::{EquilibriumPath, Solution};
 use crate::errors::StepError;
+use crate::round_off;
 use crate::system::State;
+use crate::tuning::MAX_ITERATIONS;
 
-/// Maximum number of evaluations of a search.
-const MAX_TRIALS: usize = 60;
-/// Width of the bracket at which a search ends, as a step fraction.
-const INTERVAL_TOLERANCE: f64 = 1e-10;
 /// Load rate at which a search ends, relative to the rates at the ends of the step.
 const FLAT: f64 = 1e-11;
 
@@ -179,7 +177,7 @@ impl EquilibriumPath {
         let scale = first.rate.abs().max(last.rate.abs());
         let mut weights = [1.0, 1.0];
         let mut best = if low.rate.abs() < high.rate.abs() { low } else { high };
-        for _ in 0..MAX_TRIALS {
+        for _ in 0..MAX_ITERATIONS {
             let (a, b) = (weights[0] * low.rate, weights[1] * high.rate);
             let distance = low.distance - a * (high.distance - low.distance) / (b - a);
             // At the limit point itself the stiffness is singular.
@@ -188,7 +186,7 @@ impl EquilibriumPath {
                 best = next;
             }
             if next.rate.abs() <= FLAT * scale
-                || high.distance - low.distance <= INTERVAL_TOLERANCE * last.distance
+                || high.distance - low.distance <= round_off::ROOT * last.distance
             {
                 break;
             }
@@ -212,9 +210,9 @@ impl EquilibriumPath {
     ) -> ChangeOfCount {
         let (mut low, mut high) = (first, last);
         let mut failures = 0;
-        for trial in 0..MAX_TRIALS {
+        for trial in 0..MAX_ITERATIONS {
             let width = high.distance - low.distance;
-            if width <= INTERVAL_TOLERANCE * last.distance {
+            if width <= round_off::ROOT * last.distance {
                 break;
             }
             let mut part = low.signature / (low.signature - high.signature);

@@ -19,6 +19,7 @@ use crate::diagnostics::{Value, diagnostics};
 use crate::errors::StepError;
 use crate::kinematics::Subject;
 use crate::newton::{self, JacobianState, Limits};
+use crate::round_off;
 use crate::scaling::ScalingChoice;
 use crate::simulation::ArcControl;
 use crate::system::{State, System};
@@ -28,9 +29,6 @@ pub use critical::{CriticalKind, CriticalPoint};
 use equations::{Condition, PathEquations, PathWork};
 pub use systems::Family;
 use systems::{PathSystems, are_alike};
-
-/// Upper bound of Newton's tolerance: limit points are located by differences along the path.
-const TOLERANCE: f64 = 1e-10;
 
 /// A path whose load factor has not exceeded this fraction of its end value has not left the unloaded model.
 const UNRESISTED: f64 = 1e-3;
@@ -350,7 +348,7 @@ impl EquilibriumPath {
         mut state: State,
         mut settings: PathSettings,
     ) -> Result<Self, NoStart> {
-        settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
+        settings.limits.tolerance = settings.limits.tolerance.min(round_off::ITERATION);
         state.kinematics.stop();
         state.multipliers.fill(0.0);
         let mut violations = vec![0.0; state.multipliers.len()];

@@ -89,14 +89,13 @@ impl Equilibration {
 
 /// The power of two next to the inverse root of `square`; 1 if `square` is zero.
 fn power_of_two(square: f64) -> f64 {
-    const BIAS: i64 = 1023;
-    const FRACTION: u32 = 52;
+    let (bias, fraction) = (i64::from(f64::MAX_EXP) - 1, f64::MANTISSA_DIGITS - 1);
     if !(square.is_normal() && square > 0.0) {
         return 1.0;
     }
     // Of 2^e m with 1 <= m < 2 the inverse root lies between 2^(-e/2) and 2^(-(e + 1)/2).
-    let exponent = (square.to_bits() >> FRACTION).cast_signed() - BIAS;
-    f64::from_bits((BIAS - (exponent + 1).div_euclid(2)).cast_unsigned() << FRACTION)
+    let exponent = (square.to_bits() >> fraction).cast_signed() - bias;
+    f64::from_bits((bias - (exponent + 1).div_euclid(2)).cast_unsigned() << fraction)
 }
 
 #[cfg(test)]

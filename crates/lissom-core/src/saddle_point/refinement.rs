@@ -1,13 +1,8 @@
 //! Iterative refinement of solutions whose factors have the compliance of redundant constraints in them.
 
+use crate::round_off;
+use crate::tuning::MAX_ITERATIONS;
 use lissom_solver::{Pattern, Scalar};
-
-/// Corrections of a solution, at most …
-const MAX_REFINEMENTS: usize = 40;
-/// … and the part of the right-hand side, per row, below which the residual is round-off.
-const RESIDUAL: f64 = 1e-15;
-/// The least reduction of the residual by a correction that is worth another one.
-const REDUCTION: f64 = 0.5;
 
 /// Iterative refinement with the matrix as it was before the compliance entered it. The
 /// right-hand sides of the constraints are consistent, so that the solution without the compliance exists.
@@ -41,8 +36,8 @@ impl<S: Scalar> Refinement<S> {
         self.solution.resize(right.len(), S::zero());
         let size = |values: &[S]| values.iter().fold(0.0_f64, |most, value| most.max(value.magnitude()));
         let mut last = size(right);
-        let enough = RESIDUAL * last;
-        for _ in 0..MAX_REFINEMENTS {
+        let enough = round_off::SOLUTION * last;
+        for _ in 0..MAX_ITERATIONS {
             solve(&mut self.residual);
             for (value, &change) in self.solution.iter_mut().zip(&self.residual) {
                 *value += change;
@@ -55,8 +50,8 @@ impl<S: Scalar> Refinement<S> {
                 }
             }
             let rest = size(&self.residual);
-            // Also left where the residual is not a number.
-            if !(rest > enough && rest <= REDUCTION * last) {
+            // A residual that is not halved is round-off; also left where the residual is not a number.
+            if !(rest > enough && rest <= 0.5 * last) {
                 break;
             }
             last = rest;

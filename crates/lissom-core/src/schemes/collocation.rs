@@ -22,9 +22,8 @@ use super::scheme::{
 };
 
 use crate::round_off;
+use crate::tuning::{Tuning, TuningParameter};
 
-/// Part of the tolerance, to the power at which errors at the end are proportional to it, that a step may err.
-const ALLOWED: f64 = 0.5;
 /// Of the phase at which an oscillation has that error: motions consist of more than one, and errors grow with a higher power of the
 /// frequency than their estimates.
 const MARGIN: f64 = 0.6;
@@ -95,9 +94,10 @@ fn estimates(abscissae: &[f64], stages: &[Stage], dense: &DensePolynomial) -> [E
     let product: f64 = abscissae.iter().product();
     let missed = product / (1..=count + 1).map(|k| k as f64).product::<f64>();
     let constants = error_constants(count);
+    let allowed = Tuning::default().of(TuningParameter::ShareOfStep);
     let scaled = |combination: Combination, order: usize, constant: f64| {
-        let phase = MARGIN * (ALLOWED / constant).powf(0.5 / count as f64);
-        let of_oscillation = ALLOWED / phase.powi(order as i32);
+        let phase = MARGIN * (allowed / constant).powf(0.5 / count as f64);
+        let of_oscillation = allowed / phase.powi(order as i32);
         ErrorEstimate {
             combination: combination.times(of_oscillation / missed),
             order: order as i32,

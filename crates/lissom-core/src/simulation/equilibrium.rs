@@ -1,6 +1,7 @@
 //! Start from static equilibrium: positions at which the model would remain at rest under its initial loads. Given velocities are kept.
 
 use crate::kinematics::Subject;
+use crate::round_off;
 use std::sync::Arc;
 
 use lissom_solver::SolverKind;
@@ -14,9 +15,6 @@ use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::system::{State, System};
 
-/// Largest displacement by unbalanced forces, relative to the model's length, of a state whose constraints balance the loads.
-const HELD: f64 = 1e-9;
-
 /// Initialises load steps. If loads act at once and are balanced by constraints only, the state is an equilibrium: its multipliers are
 /// computed, reported, and included in the work. Otherwise returns the energy that the unbalanced forces release until equilibrium, by
 /// the linear model [J].
@@ -26,7 +24,9 @@ pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind
         node.twist.fill(0.0);
     }
     let Ok(model) = LinearModel::of_positions(system, &still, solver) else { return 0.0 };
-    if model.imbalance() > HELD || !model.multipliers().iter().all(|value| value.is_finite()) {
+    if model.imbalance() > round_off::EQUILIBRIUM
+        || !model.multipliers().iter().all(|value| value.is_finite())
+    {
         return model.released_energy();
     }
     state.multipliers.copy_from_slice(model.multipliers());

@@ -31,17 +31,8 @@ use crate::system::{State, System};
 const INSTANTS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 /// Number of intervals of a step in which the minimum of this polynomial is searched for.
 const GRID: usize = 32;
-/// The last of the instants before the end.
-const BEFORE_END: f64 = 0.75;
 /// Values smaller than this fraction of the largest so far have no sign.
 const NOISE: f64 = 1e-9;
-/// Accuracy of a root, as a step fraction.
-const ACCURACY: f64 = 1e-10;
-/// Roots closer than this to an end of the step, as a step fraction, are at that end: the accelerations of a shorter step
-/// would be round-off.
-const CLOSE: f64 = 1e-6;
-/// Distance from the end of a step at which the rate of a switching function is evaluated, as a step fraction.
-const RATE_OFFSET: f64 = 1e-3;
 /// Maximum number of repeated steps for one root: three are usual.
 const MAX_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the switching surface.
@@ -221,7 +212,7 @@ impl EventDetector {
                 continue;
             }
             let mut after = instant;
-            while after - before > 0.5 * ACCURACY {
+            while after - before > 0.5 * round_off::ROOT {
                 let middle = 0.5 * (before + after);
                 self.at(system, step, middle);
                 if self.any_has_passed(events) { after = middle } else { before = middle }
@@ -232,12 +223,13 @@ impl EventDetector {
             let are_switches = indices.iter().all(|k| *k >= events.len());
             let share = match after {
                 // The step begins at the switch: a step of zero length is not needed.
-                after if after < CLOSE && are_switches => 0.0,
-                after if after > 1.0 - ACCURACY => 1.0,
-                after => after.max(CLOSE),
+                after if after < round_off::STEP_END && are_switches => 0.0,
+                after if after > 1.0 - round_off::ROOT => 1.0,
+                after => after.max(round_off::STEP_END),
             };
             // A continuous function is still within its noise here.
-            let is_jump = self.values[indices[0]].number.abs() > CLOSE * self.known.largest[indices[0]];
+            let is_jump =
+                self.values[indices[0]].number.abs() > round_off::STEP_END * self.known.largest[indices[0]];
             return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
@@ -277,7 +269,7 @@ impl EventDetector {
         let events = system.signals().events();
         let is_doubtful = |detector: &Self, k: usize| {
             let side = detector.known.sides[k];
-            detector.values[k].number.abs() <= CLOSE * detector.known.largest[k]
+            detector.values[k].number.abs() <= round_off::STEP_END * detector.known.largest[k]
                 && side != 0.0
                 && events[k].direction.allows(side < 0.0)
         };
@@ -286,26 +278,27 @@ impl EventDetector {
         if doubtful.is_empty() {
             return None;
         }
-        self.at(system, step, 1.0 - RATE_OFFSET);
+        self.at(system, step, 1.0 - round_off::SLOPE_OFFSET);
         let beside = self.values.clone();
-        self.at(system, step, BEFORE_END);
+        self.at(system, step, INSTANTS[3]);
         let mut roots = Vec::new();
         for (k, end) in doubtful {
             let (side, noise) = (self.known.sides[k], NOISE * self.known.largest[k]);
-            let rate = (end - beside[k].number) / RATE_OFFSET;
+            let rate = (end - beside[k].number) / round_off::SLOPE_OFFSET;
             // The root requires a clearly nonzero value on the known branch, and a rate towards zero.
             if side * self.values[k].number <= noise || side * rate >= 0.0 {
                 continue;
             }
             let beyond = -end / rate;
-            if end.abs() <= round_off::OPERATIONS * self.known.largest[k] || beyond.abs() <= ACCURACY {
+            if end.abs() <= round_off::OPERATIONS * self.known.largest[k] || beyond.abs() <= round_off::ROOT {
                 roots.push((k, 1.0));
-            } else if beyond < 0.0 && beyond > BEFORE_END - 1.0 {
+            } else if beyond < 0.0 && beyond > INSTANTS[3] - 1.0 {
                 roots.push((k, 1.0 + beyond));
             }
         }
         let share = roots.iter().map(|root| root.1).reduce(f64::min)?;
-        let indices = roots.iter().filter(|root| root.1 <= share + ACCURACY).map(|root| root.0).collect();
+        let indices =
+            roots.iter().filter(|root| root.1 <= share + round_off::ROOT).map(|root| root.0).collect();
         Some(LocatedRoot { size: share * size, whole: size, indices, is_jump: false, refinements: 0 })
     }
 
@@ -333,7 +326,7 @@ impl EventDetector {
             let size = located.size * self.jump(system, step, first, located);
             let is_there = size == located.size || located.refinements > MAX_REFINEMENTS;
             if !is_there {
-                located.size = size.clamp(CLOSE * located.whole, located.whole);
+                located.size = size.clamp(round_off::STEP_END * located.whole, located.whole);
             }
             return is_there;
         }
@@ -342,11 +335,11 @@ impl EventDetector {
         self.at(system, step, 1.0);
         let value = self.values[first].number;
         let change = -value * 1e-3 * located.size / (value - earlier);
-        let is_there = change.abs() <= ACCURACY * located.whole || change.is_nan();
+        let is_there = change.abs() <= round_off::ROOT * located.whole || change.is_nan();
         if is_there || located.refinements > MAX_REFINEMENTS {
             return true;
         }
-        let size = (located.size + change).clamp(CLOSE * located.whole, located.whole);
+        let size = (located.size + change).clamp(round_off::STEP_END * located.whole, located.whole);
         let is_moved = size != located.size;
         located.size = size;
         !is_moved
@@ -356,7 +349,7 @@ impl EventDetector {
     fn jump(&mut self, system: &System, step: DenseOutput<'_>, which: usize, located: &LocatedRoot) -> f64 {
         let events = system.signals().events();
         let unit = located.whole / located.size;
-        let (accuracy, most) = (2.0 * ACCURACY * unit, unit - 1.0);
+        let (accuracy, most) = (2.0 * round_off::ROOT * unit, unit - 1.0);
         let passes = |detector: &mut Self, share: f64| {
             detector.at(system, step, share);
             detector.has_passed(events, which)

@@ -22,7 +22,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::integrator::dense;
-use crate::law::{EVERYTHING, Enclosure, Interval, ScalarLaw, hull};
+use crate::law::{EVERYTHING, Enclosure, Interval, NARROW_BOUNDS, ScalarLaw, hull};
 use crate::registry::{Function, TimeFunction};
 use crate::round_off;
 use crate::signals::MAX_ARGUMENTS;
@@ -31,16 +31,10 @@ use crate::system::{State, System};
 /// A law that deviates by more than this fraction of its largest value from the interpolation of a step's ends is not
 /// resolved: a sine with 4.4 steps a period.
 pub(crate) const DEPARTURE: f64 = 0.01;
-/// If bounds are narrower than this fraction of the largest value, no feature is missed between the samples.
-const NARROW_BOUNDS: f64 = 0.1;
 /// Maximum number of intervals within one step.
 pub(crate) const MAX_INTERVALS: usize = 256;
 /// Bisections of an interval after which the remaining feature is a jump.
 const MAX_HALVINGS: usize = 30;
-/// Inset of the values at the ends of an interval, as a fraction of it: a jump at an end belongs to the neighbour.
-const INSIDE: f64 = 1e-6;
-/// Distance of the values that determine the slope at an end, as a fraction of the interval.
-const SLOPE_OFFSET: f64 = 1e-3;
 /// Law values beyond those at the ends of a planned step by more than this fraction of its magnitude are reported: a sine with five
 /// steps a period.
 const EXCESS: f64 = 0.2;
@@ -162,13 +156,13 @@ impl<'l> Course<'l> {
 
     /// Width of the bounds within an interval, if they are available.
     fn width(&self, [from, to]: Interval) -> Option<f64> {
-        let inside = INSIDE * (to - from);
+        let inside = round_off::STEP_END * (to - from);
         self.bounds([from + inside, to - inside]).map(|[low, high]| high - low)
     }
 
     /// Largest distance within an interval from the straight line between its ends, if a bound is known.
     fn bend(&self, [from, to]: Interval) -> Option<f64> {
-        let inside = INSIDE * (to - from);
+        let inside = round_off::STEP_END * (to - from);
         let [from, to] = [from + inside, to - inside];
         let mut arguments = [Enclosure::of_constant([0.0; 2]); MAX_ARGUMENTS];
         for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
@@ -188,7 +182,7 @@ impl<'l> Course<'l> {
     /// Whether values within an interval are beyond those at its ends by more than [`EXCESS`] of the `magnitude`, as far as bounds
     /// and samples show.
     fn exceeds_its_ends(&self, whole: Interval, magnitude: f64) -> bool {
-        let inside = INSIDE * (whole[1] - whole[0]);
+        let inside = round_off::STEP_END * (whole[1] - whole[0]);
         let [low, high] = hull(&[whole[0] + inside, whole[1] - inside].map(|share| self.value(share)));
         let is_beyond = |value: f64| value < low - EXCESS * magnitude || value > high + EXCESS * magnitude;
         let is_found = |[from, to]: Interval| {
@@ -248,13 +242,13 @@ impl<'l> Course<'l> {
 
     /// The interval, and the cubic over it through values and slopes at its ends.
     fn interpolated(&self, [from, to]: Interval) -> (Interval, Cubic) {
-        let inside = INSIDE * (to - from);
+        let inside = round_off::STEP_END * (to - from);
         let [from, to] = [from + inside, to - inside];
         // The slope of the parabola through three values, times the length.
         let end = |at: f64, towards: f64| {
-            let [value, near, next] = [0.0, SLOPE_OFFSET, 2.0 * SLOPE_OFFSET]
+            let [value, near, next] = [0.0, round_off::SLOPE_OFFSET, 2.0 * round_off::SLOPE_OFFSET]
                 .map(|share| self.value(at + towards * share * (to - from)));
-            (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * SLOPE_OFFSET))
+            (value, towards * (4.0 * near - 3.0 * value - next) / (2.0 * round_off::SLOPE_OFFSET))
         };
         let ((start, first), (end, last)) = (end(from, 1.0), end(to, -1.0));
         let change = end - start;
@@ -404,7 +398,7 @@ impl Laws {
         part: f64,
         has_switched: bool,
     ) -> f64 {
-        let begin = if has_switched { SLOPE_OFFSET } else { 0.0 };
+        let begin = if has_switched { round_off::SLOPE_OFFSET } else { 0.0 };
         let find = |course: &Course<'_>, magnitude| {
             let longest = match course.found([begin, 1.0], magnitude, part) {
                 Found::Hidden => begin + course.longest([begin, 0.5], magnitude, part),

@@ -20,6 +20,7 @@ use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::solver_features::SolverFeature;
 use crate::system::{State, System};
+use crate::tuning::MAX_ITERATIONS;
 
 /// Maximum number of steps.
 const MAX_STEPS: usize = 300;
@@ -37,11 +38,6 @@ const MAX_TRAVEL: f64 = 1e3;
 const FIRST: f64 = 10.0;
 /// Maximum number of iterations of a step before it is shortened.
 const ITERATIONS: usize = 15;
-/// Maximum number of steps without solution.
-const MAX_FAILURES: usize = 60;
-/// Ratio of the next step to the last, and after a step without solution.
-const LONGER: f64 = 2.0;
-const SHORTER: f64 = 0.125;
 
 /// Whether relaxation may find the equilibrium after a load step with this failure.
 pub(crate) fn may_help(error: &StepError) -> bool {
@@ -81,9 +77,10 @@ pub(crate) fn relax(
         let outcome = simulation.step();
         *iterations += simulation.totals().newton_iterations;
         let Ok(_) = outcome else {
-            step_size *= SHORTER;
+            // Far shorter than the next longer step, so that several follow without a failure.
+            step_size *= 0.125;
             failures += 1;
-            if failures > MAX_FAILURES {
+            if failures > MAX_ITERATIONS {
                 return None;
             }
             continue;
@@ -95,7 +92,7 @@ pub(crate) fn relax(
         reached.clone_from(simulation.state());
         let is_due = step >= next_try || step_size >= long_enough || step + 1 == MAX_STEPS;
         let taken = step_size;
-        step_size *= LONGER;
+        step_size *= 2.0;
         if moved > SHORT_STEP * length || !is_due {
             continue;
         }

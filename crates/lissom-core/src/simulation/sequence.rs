@@ -12,10 +12,7 @@ use crate::simulation::event_detector::LocatedRoot;
 use crate::simulation::events::Verdict;
 use crate::simulation::{EventState, Simulation, cause};
 use crate::system::State;
-use crate::tuning::TuningParameter;
-
-/// Maximum number of rejected attempts at a step.
-const MAX_REJECTED: usize = 60;
+use crate::tuning::{MAX_ITERATIONS, TuningParameter};
 
 /// A step in progress.
 struct Progress<'p> {
@@ -209,7 +206,7 @@ impl Simulation {
             }
             let has_solution = error.is_none();
             let may_help = error.as_ref().is_none_or(StepError::may_need_a_smaller_step)
-                && progress.report.rejected < MAX_REJECTED;
+                && progress.report.rejected < MAX_ITERATIONS;
             progress.failure = match error {
                 Some(later) if self.control.prefers_first_failure() => {
                     Some(cause::more_specific(progress.failure.take(), later))

@@ -19,14 +19,13 @@ use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::integrator::pivoting_unless_augmented;
 use crate::kinematics::{CoordinateId, Subject};
+use crate::round_off;
 use crate::scaling::Representative;
 use crate::settings::Settings;
 use crate::system::{State, System};
 
 /// Smallest pivot of H⁻¹, relative to its diagonal, of independent coordinates.
 const DEPENDENT: f64 = 1e-10;
-/// Relative difference of the kinetic energy above which accelerations are round-off: the coordinate cannot move.
-const SAME_ENERGY: f64 = 1e-6;
 
 diagnostics! {
     /// Joint coordinates that do not describe the motion.
@@ -194,8 +193,9 @@ impl JointSpace {
         let rows: Vec<usize> = self.coordinates.iter().map(|&own| layout.row_of_coordinate(own)).collect();
         let own = DVector::from_fn(size, |index, _| responses[(rows[index], index)]);
         // These comparisons are false for NaN.
-        let is_motion =
-            |index: &usize| (energies[(*index, *index)] - own[*index]).abs() <= SAME_ENERGY * own[*index];
+        let is_motion = |index: &usize| {
+            (energies[(*index, *index)] - own[*index]).abs() <= round_off::NEGLIGIBLE * own[*index]
+        };
         if let Some(index) = (0..size).find(|index| !(is_motion(index) && own[*index] > 0.0)) {
             return Err(dependent(index));
         }

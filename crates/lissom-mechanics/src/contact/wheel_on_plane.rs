@@ -14,9 +14,7 @@
 use lissom_motion::{Matrix3, Matrix6, Real, Vector3, Vector6, screw, skew};
 
 use crate::kinematics::split;
-
-/// Added to S², so that S never vanishes.
-const NEVER_ZERO: f64 = 1e-14;
+use crate::round_off;
 
 /// Directions in which the contact may slide.
 pub const DIRECTIONS: usize = 2;
@@ -25,7 +23,7 @@ pub const DIRECTIONS: usize = 2;
 #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 #[inline(always)]
 pub(crate) fn upright<R: Real>(cosine: R) -> R {
-    cosine.like(1.0 + NEVER_ZERO).minus_product(cosine, cosine).square_root()
+    cosine.like(1.0 + round_off::SQUARE).minus_product(cosine, cosine).square_root()
 }
 
 /// A wheel on a plane.

@@ -22,16 +22,12 @@ use super::profile::{RailProfile, WheelProfile};
 use crate::dual::{Dual, Number, Three, arc_tangent_of_ratio, cross, dot, sum, times};
 use crate::round_off;
 
-/// Added to C², so that it never vanishes.
-const NEVER_ZERO: f64 = 1e-14;
 /// Samples of a given profile.
 const SAMPLES: usize = 64;
 /// Maximum number of iterations for the position of contact.
 const MAX_ITERATIONS: usize = 40;
 /// Cosine of the largest angle from the top of the head at which a position of contact is on its tread.
 const STEEPEST: f64 = 0.5;
-/// Clearances below this fraction of the wheel's radius are contacts.
-const NEARLY_TOUCHING: f64 = 1e-6;
 
 /// A wheel and a rail.
 #[derive(Clone, Debug)]
@@ -157,7 +153,7 @@ impl RailContact {
     pub(crate) fn wheel_point<T: Number>(&self, pose: &Pose<T>, along: T) -> WheelPoint<T> {
         let axis = pose.apply([self.axis.x, self.axis.y, self.axis.z].map(T::constant));
         let [first, second, third] = axis;
-        let size = (T::constant(1.0 + NEVER_ZERO) - third * third).square_root();
+        let size = (T::constant(1.0 + round_off::SQUARE) - third * third).square_root();
         let zero = T::constant(0.0);
         let down = [second / size, -first / size, zero].map(|value| value.scaled(self.side));
         let forward =
@@ -378,7 +374,7 @@ impl RailContact {
         };
         (0..=SAMPLES)
             .filter(is_least)
-            .filter(|&k| samples[k] < NEARLY_TOUCHING * self.radius)
+            .filter(|&k| samples[k] < round_off::GIVEN * self.radius)
             .map(|k| low + apart * k as f64)
             .find(|along| (along - first).abs() > 2.0 * apart)
     }
@@ -527,15 +523,15 @@ mod tests {
 
     /// K and E by Simpson's rule.
     fn integrals(ratio: f64) -> [f64; 2] {
-        const PARTS: usize = 2000;
+        let parts = 2000;
         let square = |angle: f64| (1.0 - (1.0 - ratio * ratio) * angle.sin().powi(2)).sqrt();
-        let width = 0.25 * TAU / PARTS as f64;
+        let width = 0.25 * TAU / parts as f64;
         let simpson = |of: &dyn Fn(f64) -> f64| {
             let part = |k: usize| {
                 let [a, b] = [k, k + 1].map(|k| width * k as f64);
                 width / 6.0 * (of(a) + 4.0 * of(0.5 * (a + b)) + of(b))
             };
-            (0..PARTS).map(part).sum::<f64>()
+            (0..parts).map(part).sum::<f64>()
         };
         [simpson(&|angle| square(angle).recip()), simpson(&square)]
     }

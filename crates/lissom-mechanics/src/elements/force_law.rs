@@ -13,8 +13,9 @@
 
 use super::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
-use crate::law::{Enclosure, Interval, ScalarLaw, hull, scaled, sum};
+use crate::law::{Enclosure, Interval, NARROW_BOUNDS, ScalarLaw, hull, scaled, sum};
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
+use crate::round_off;
 use crate::signals::measurement::Gradient;
 
 /// The force at the start, for lengths.
@@ -32,9 +33,6 @@ pub(crate) const PRELOAD_MOMENT: Parameter = Parameter::optional(
     "N m",
     "Moment at the start, positive if it resists a positive rotation, instead of the rotation without moment.",
 );
-
-/// A preload is reached if the law is equal to it to this fraction.
-const REACHED: f64 = 1e-9;
 
 /// On which side of the free length it acts, for lengths.
 pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
@@ -152,7 +150,7 @@ impl ForceLaw {
         let elongation = preload / self.stiffness;
         // Without stiffness it is not a number.
         let force = self.evaluate(elongation, 0.0, &[]).force;
-        if (force - preload).abs() <= REACHED * preload.abs() {
+        if (force - preload).abs() <= round_off::FORCE * preload.abs() {
             return Ok(at_start - elongation);
         }
         let problem = if self.stiffness == 0.0 {
@@ -377,10 +375,6 @@ fn is_passed(limit: f64) -> bool {
 const DEPTH: usize = 20;
 /// Error of an integral, relative to its size.
 const ACCURACY: f64 = 1e-11;
-
-/// If the bounds of a law exceed the values at points of an interval by more than this fraction of its largest value, the interval
-/// is bisected.
-const NARROW_BOUNDS: f64 = 0.1;
 
 /// A law that is integrated, with bounds of what is not linear in it; none if none are known.
 struct Integrand<'f> {

@@ -16,9 +16,6 @@ use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
-/// An input above this locks the coordinate.
-const HOLDS: f64 = 0.5;
-
 const PARAMETERS: &[Parameter] = &[
     COORDINATE,
     Parameter::required(
@@ -71,7 +68,7 @@ fn build(
 
 /// Whether an input of this value engages a latch.
 pub fn holds(input: f64) -> bool {
-    input > HOLDS
+    input > 0.5
 }
 
 impl Latch {

@@ -47,9 +47,6 @@ use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Usual maximum number of local unknowns of an element: four nodes and two coordinates. Superelements may have more.
-pub const USUAL_UNKNOWNS: usize = 26;
-
 /// Energies of an element or a system [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {

@@ -20,10 +20,10 @@ use super::point_spring::Point;
 use super::switch_states::SwitchStates;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
-use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId, Switch};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, MAX_NODES, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
-use crate::signals::measurement::{Gradient, MAX_TOUCHED};
+use crate::signals::measurement::Gradient;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -78,12 +78,6 @@ pub const KIND: ElementKind = ElementKind {
     build,
 };
 
-/// Maximum number of nodes of a rope, besides the ground.
-const MAX_NODES: usize = 4;
-/// Maximum number of drums: one at each end.
-const MAX_DRUMS: usize = 2;
-/// Its unknowns fit into a gradient.
-const _: () = assert!(6 * MAX_NODES + MAX_DRUMS <= MAX_TOUCHED);
 /// Maximum number of positions of a rope.
 const MAX_PLACES: usize = 16;
 
@@ -113,7 +107,7 @@ fn drums(
     if radii.len() != drums.len() {
         return fault(format!("must be as many as `drums`: {} for {}", radii.len(), drums.len()));
     }
-    if drums.len() > MAX_DRUMS {
+    if drums.len() > 2 {
         return fault("belong to more than two drums: a rope has two ends".to_owned());
     }
     if radii.contains(&0.0) {

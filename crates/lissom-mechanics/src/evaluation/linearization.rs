@@ -1,7 +1,8 @@
 //! Derivatives of the equations of motion of the whole system.
 
-use crate::elements::{Tangents, USUAL_UNKNOWNS};
+use crate::elements::Tangents;
 use crate::joints::derivatives::Derivatives;
+use crate::kinematics::USUAL_UNKNOWNS;
 
 /// Derivatives of the equations of motion in SI, each on the values of the tangent's pattern.
 #[derive(Clone, Debug, Default)]

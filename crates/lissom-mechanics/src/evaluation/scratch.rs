@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use crate::elements::USUAL_UNKNOWNS;
+use crate::kinematics::USUAL_UNKNOWNS;
 use crate::kinematics::step_stages::STAGES;
 
 thread_local! {

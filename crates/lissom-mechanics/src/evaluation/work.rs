@@ -6,13 +6,13 @@ use lissom_motion::Vector3;
 
 use super::scratch::with_scratch;
 use crate::elements::{Element, Tangents};
-use crate::kinematics::Kinematics;
 use crate::kinematics::work::along;
-use crate::signals::measurement::{Gradient, MAX_TOUCHED};
+use crate::kinematics::{Kinematics, USUAL_UNKNOWNS};
+use crate::signals::measurement::Gradient;
 
 thread_local! {
     /// Derivatives of forces, for gradients of powers.
-    static TANGENTS: RefCell<Tangents> = RefCell::new(Tangents::new(MAX_TOUCHED));
+    static TANGENTS: RefCell<Tangents> = RefCell::new(Tangents::new(USUAL_UNKNOWNS));
 }
 
 /// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
@@ -89,7 +89,7 @@ pub fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
 /// ```
 pub fn power_gradient<E: Element + ?Sized>(element: &E, at: &Kinematics) -> Option<Gradient> {
     let size = 6 * element.nodes().len() + element.coordinates().len();
-    if size > MAX_TOUCHED || !element.multipliers().is_empty() {
+    if size > USUAL_UNKNOWNS || !element.multipliers().is_empty() {
         return None;
     }
     let mut gradient = Gradient::zero();

@@ -18,7 +18,7 @@ use crate::kinematics::Quantity;
 pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     /// See [`Joint::equations`].
     fn equations(&self) -> &'static [&'static str];
-    /// The quantity of an equation: see [`Joint::LENGTHS`].
+    /// The quantity of an equation: see [`Joint::EQUATIONS`].
     fn equation_quantity(&self, equation: usize) -> Quantity;
     /// See [`Joint::COORDINATES`].
     fn coordinates(&self) -> &'static [Coordinate];
@@ -69,7 +69,7 @@ impl<J: Joint> AnyJoint for J {
     }
 
     fn equation_quantity(&self, equation: usize) -> Quantity {
-        if equation < J::LENGTHS { Quantity::Length } else { Quantity::Angle }
+        if equation < J::EQUATIONS.lengths { Quantity::Length } else { Quantity::Angle }
     }
 
     fn coordinates(&self) -> &'static [Coordinate] {

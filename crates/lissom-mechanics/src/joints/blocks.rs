@@ -398,18 +398,18 @@ impl Pack {
             let own = first as usize..(first + count) as usize;
             let (multipliers, violations) = (&point.multipliers[own.clone()], &point.violations[own]);
             // The maximum number of the kind, in a loop of constant length if all exist.
-            if multipliers.len() == J::MAX_ROWS && violations.len() == J::MAX_ROWS {
-                for k in 0..J::MAX_ROWS {
+            if multipliers.len() == J::EQUATIONS.sum() && violations.len() == J::EQUATIONS.sum() {
+                for k in 0..J::EQUATIONS.sum() {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
             } else {
-                for k in 0..multipliers.len().min(J::MAX_ROWS) {
+                for k in 0..multipliers.len().min(J::EQUATIONS.sum()) {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
                 // Values of other joints that remain in storage may not be finite.
-                for k in multipliers.len()..J::MAX_ROWS {
+                for k in multipliers.len()..J::EQUATIONS.sum() {
                     gathered.multipliers[k][lane] = 0.0;
                     gathered.violations[k][lane] = 0.0;
                 }
@@ -443,10 +443,10 @@ impl Pack {
         }
         let change = J::violation_change(&increment, &own, &constants);
         let mut mu = change;
-        for k in 0..J::MAX_ROWS {
+        for k in 0..J::EQUATIONS.sum() {
             let violation = part.number(&gathered.violations[k]) + change[k];
             violation.store(&mut out[LOCAL + k], part.index);
-            let weight = if k < J::LENGTHS { weights[0] } else { weights[1] };
+            let weight = if k < J::EQUATIONS.lengths { weights[0] } else { weights[1] };
             mu[k] = part.number(&gathered.multipliers[k]) + violation.scaled(weight);
         }
         if wanted == Wanted::Violations {
@@ -571,7 +571,7 @@ impl<J: Joint> WithSimd for Rates<'_, J> {
             for index in 0..parts {
                 let part = Part { simd, index };
                 let jets = pack.violation_jets::<J, S>(part, start, &motion);
-                for k in 0..J::MAX_ROWS {
+                for k in 0..J::EQUATIONS.sum() {
                     jets[k].first.store(&mut rates[0][k], index);
                     jets[k].second.store(&mut rates[1][k], index);
                 }

@@ -13,8 +13,8 @@ use super::primitives::{
 };
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    Branch, ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
-    MAX_EQUATIONS, Relative,
+    Branch, ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -53,7 +53,7 @@ pub struct ConstantVelocity {
 }
 
 impl Joint for ConstantVelocity {
-    const MAX_ROWS: usize = 4;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 1 };
 
     fn equations(&self) -> &'static [&'static str] {
         &["position 1", "position 2", "position 3", "rotation 3"]

@@ -6,8 +6,8 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 use super::kind::{Build, Frames, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
-    MAX_EQUATIONS, Relative,
+    ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::ParameterError;
 
@@ -39,7 +39,7 @@ pub struct Distance {
 }
 
 impl Joint for Distance {
-    const MAX_ROWS: usize = 1;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 1, angles: 0 };
 
     fn equations(&self) -> &'static [&'static str] {
         &["distance"]

@@ -17,7 +17,7 @@ use super::base_axes::{
 use super::kind::{Build, Frames, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    AnyJoint, ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    AnyJoint, ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
@@ -132,8 +132,7 @@ const fn names() -> [[&'static str; 6]; 64] {
 static EQUATIONS: [[&str; 6]; 64] = names();
 
 impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
-    const LENGTHS: usize = LENGTHS;
-    const MAX_ROWS: usize = LENGTHS + 3;
+    const EQUATIONS: EquationCount = EquationCount { lengths: LENGTHS, angles: 3 };
 
     fn equations(&self) -> &'static [&'static str] {
         let mask: usize = self.locked.iter().enumerate().map(|(k, &locked)| usize::from(locked) << k).sum();

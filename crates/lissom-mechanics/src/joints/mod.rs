@@ -162,14 +162,26 @@ impl Gradient {
 /// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
 pub type ConstraintHessian = SMatrix<f64, 8, 8>;
 
+/// Number of equations. Lengths are first, followed by angles.
+#[derive(Clone, Copy, Debug)]
+pub struct EquationCount {
+    pub(crate) lengths: usize,
+    pub(crate) angles: usize,
+}
+
+impl EquationCount {
+    /// Number of both.
+    pub(crate) const fn sum(self) -> usize {
+        self.lengths + self.angles
+    }
+}
+
 /// The equations of a joint. Frequently evaluated formulas are written for one number or several side by side.
 pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Its algebraic coordinates.
     const COORDINATES: &'static [Coordinate] = &[];
     /// Maximum number of equations of the kind; results for further ones are ignored.
-    const MAX_ROWS: usize = MAX_EQUATIONS;
-    /// Number of equations that are lengths; they are first, followed by angles.
-    const LENGTHS: usize = 3;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 3 };
 
     /// Name of each equation.
     fn equations(&self) -> &'static [&'static str];

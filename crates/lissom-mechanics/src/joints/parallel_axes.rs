@@ -9,8 +9,8 @@ use super::kind::{Build, Frames, JointKind};
 use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
+    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
+    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::ANGLE_AT_START;
 
@@ -34,8 +34,7 @@ pub struct ParallelAxes {
 
 impl Joint for ParallelAxes {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
-    const LENGTHS: usize = 0;
-    const MAX_ROWS: usize = 3;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 0, angles: 3 };
 
     fn equations(&self) -> &'static [&'static str] {
         &EQUATIONS[3..]

@@ -9,8 +9,8 @@ use super::kind::{Build, Frames, JointKind};
 use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
+    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
+    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::ANGLE_AT_START;
 
@@ -34,8 +34,7 @@ pub struct Planar {
 
 impl Joint for Planar {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
-    const LENGTHS: usize = 1;
-    const MAX_ROWS: usize = 4;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 1, angles: 3 };
 
     fn equations(&self) -> &'static [&'static str] {
         &["position 3", "rotation 1", "rotation 2", "rotation 3"]

@@ -9,8 +9,8 @@ use super::kind::{Build, Frames, JointKind};
 use super::primitives::POINT_EQUATIONS;
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
+    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
+    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::DISPLACEMENT_AT_START;
 
@@ -34,7 +34,7 @@ pub struct PointOnLine {
 
 impl Joint for PointOnLine {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::displacement("displacement")];
-    const MAX_ROWS: usize = 3;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 0 };
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS

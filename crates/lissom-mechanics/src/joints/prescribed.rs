@@ -33,7 +33,6 @@ impl Prescribed {
 ///
 /// up to an error of h⁷. Where the second derivative jumps at an end, as it may at a breakpoint, three Gauss points replace it.
 fn function_change(function: &Function, time: f64, elapsed: f64) -> f64 {
-    const OFFSET: f64 = 0.774_596_669_241_483_4;
     let half = 0.5 * elapsed;
     let middle = time - half;
     let [start, centre, end] = [time - elapsed, middle, time].map(|time| function.jet(time));
@@ -45,7 +44,8 @@ fn function_change(function: &Function, time: f64, elapsed: f64) -> f64 {
         return by_ends;
     }
     let slope = |x: f64| function.first_derivative(middle + x * half);
-    let integral = half * (5.0 * (slope(-OFFSET) + slope(OFFSET)) + 8.0 * centre[1]) / 9.0;
+    let offset = 0.6_f64.sqrt();
+    let integral = half * (5.0 * (slope(-offset) + slope(offset)) + 8.0 * centre[1]) / 9.0;
     if (integral - difference).abs() <= rounding { integral } else { difference }
 }
 

@@ -18,11 +18,12 @@ use super::base_axes::row;
 use super::kind::{Build, Frames, Geometry, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
-    MAX_EQUATIONS, Relative,
+    ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::contact::wheel_on_plane::{Contact, upright};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::round_off;
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -68,9 +69,6 @@ pub const KIND: JointKind = JointKind {
     }),
 };
 
-/// Gaps below this fraction of the wheel's size are round-off of the given positions.
-const CLOSED: f64 = 1e-6;
-
 fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, ParameterError> {
     let axis = parameters.vector("wheel_axis")?;
     let axis = geometry
@@ -105,7 +103,7 @@ fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, Para
         let problem = format!("is {rim} m, but the wheel's centre is {height} m from the plane at the start");
         return Err(ParameterError::new("rim", problem));
     }
-    if (reach - height).abs() > CLOSED * height.max(reach) {
+    if (reach - height).abs() > round_off::GIVEN * height.max(reach) {
         let problem = format!(
             "implies that the wheel's centre is {reach:.9} m from the plane, but at the start it is {height:.9} m from it: \
              move the wheel or the plane's point `at`, or leave `radius` out"
@@ -124,7 +122,7 @@ pub struct Rolling {
 }
 
 impl Joint for Rolling {
-    const MAX_ROWS: usize = 1;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 1, angles: 0 };
 
     fn equations(&self) -> &'static [&'static str] {
         &["distance from the plane"]

@@ -14,6 +14,7 @@
 
 use lissom_motion::{Matrix3, Vector3, Vector6, screw, skew};
 
+use super::MAX_EQUATIONS;
 use super::alignment::{Aligned, Alignment};
 use super::centerline::{Centerline, SUPPORT, Support};
 use super::constraint::{Constraint, Port};
@@ -39,8 +40,6 @@ pub const KIND: JointKind = JointKind {
 
 /// Number of equations that keep the point on the line.
 pub(crate) const ON_LINE: usize = 3;
-/// Maximum number of equations of a slider, those of directions included.
-pub const MAX_EQUATIONS: usize = 6;
 /// Index of the tip among the local nodes.
 pub const TIP: usize = SUPPORT;
 /// Index of the coordinate among the local unknowns.

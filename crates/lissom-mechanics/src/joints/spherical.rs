@@ -10,8 +10,8 @@ use super::primitives::{
 };
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
-    MAX_EQUATIONS, Relative,
+    ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
+    MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 
 /// Registry entry.
@@ -28,7 +28,7 @@ pub const KIND: JointKind = JointKind {
 pub struct Spherical;
 
 impl Joint for Spherical {
-    const MAX_ROWS: usize = 3;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 0 };
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS

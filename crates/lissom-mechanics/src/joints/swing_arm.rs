@@ -8,8 +8,8 @@ use super::kind::{Build, Frames, JointKind};
 use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
-    ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
-    MAX_COORDINATES, MAX_EQUATIONS, Relative,
+    ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
+    MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -60,7 +60,7 @@ impl SwingArm {
 
 impl Joint for SwingArm {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
-    const MAX_ROWS: usize = 3;
+    const EQUATIONS: EquationCount = EquationCount { lengths: 3, angles: 0 };
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS[..self.equations]

@@ -22,9 +22,7 @@ use crate::contact::wheel_on_plane::Contact;
 use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::kinematics::Quantity;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
-
-/// Gaps below this fraction of the wheel's radius are round-off of the given positions.
-const CLOSED: f64 = 1e-6;
+use crate::round_off;
 
 /// Default half width of a tread, in radii of the wheel.
 const TREAD: f64 = 0.5;
@@ -226,7 +224,9 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
         return Err(ParameterError::new("head_radius", "or `rail_profile` must say what the rail's head is"));
     };
     let [height_at, ..] = rail.point(0.0);
-    if height_at.abs() > CLOSED * nominal || rail.point(0.0_f64)[1].abs() > CLOSED * nominal {
+    if height_at.abs() > round_off::GIVEN * nominal
+        || rail.point(0.0_f64)[1].abs() > round_off::GIVEN * nominal
+    {
         return Err(ParameterError::new("rail_profile", "must be 0 at y = 0, the point `at` of the rail"));
     }
     let mut contact = RailContact {
@@ -246,7 +246,7 @@ fn contact_of(parameters: &Parameters, geometry: &Geometry) -> Result<(RailConta
         }
     }
     let gap = contact.gap(&pose);
-    if !(contact.radius > 0.0 && gap.abs() <= CLOSED * contact.radius) {
+    if !(contact.radius > 0.0 && gap.abs() <= round_off::GIVEN * contact.radius) {
         let problem = format!(
             "says that the wheel is {gap:.9} m from the rail at the start (negative: within it): move the tip or the rail's point \
              `at`, or leave `radius` out"

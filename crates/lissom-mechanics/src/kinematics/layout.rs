@@ -9,6 +9,13 @@ use crate::kinematics::Quantity;
 
 indexed_by!(NodeId: [u32; 6];);
 
+/// Maximum number of nodes of a beam element or a rope.
+pub const MAX_NODES: usize = 4;
+
+/// Usual maximum number of local unknowns of an element, and of those that a measurement depends on: its nodes and two coordinates.
+/// Superelements may have more.
+pub const USUAL_UNKNOWNS: usize = 6 * MAX_NODES + 2;
+
 /// Marks a locked degree of freedom: it has no row.
 pub const LOCKED: u32 = u32::MAX;
 

@@ -17,6 +17,9 @@ use lissom_motion::Vector6;
 
 use crate::kinematics::{Kinematics, MotionChange};
 
+/// Relative motions of an element's nodes that change by less than this [rad, element lengths] lose digits in a difference; for
+/// these the formulas for small changes are accurate to round-off.
+pub const SMALL_CHANGE: f64 = 1e-3;
 /// Stages of a step.
 pub const STAGES: usize = 2;
 

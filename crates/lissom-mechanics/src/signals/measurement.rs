@@ -2,29 +2,27 @@
 
 use std::sync::Arc;
 
-use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, USUAL_UNKNOWNS};
 
 /// Most components of a measurement.
 pub const MAX_COMPONENTS: usize = 6;
-/// Most unknowns that a measurement depends on: four nodes and two coordinates.
-pub const MAX_TOUCHED: usize = 26;
 
 /// Derivatives of a component: six per node of the measurement, by body variations, twists and their rates, then one per
 /// coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gradient {
     /// With respect to positions.
-    pub by_place: [f64; MAX_TOUCHED],
+    pub by_place: [f64; USUAL_UNKNOWNS],
     /// With respect to velocities.
-    pub by_rate: [f64; MAX_TOUCHED],
+    pub by_rate: [f64; USUAL_UNKNOWNS],
     /// By accelerations; zero for all measurements that signals depend on between samples.
-    pub by_acceleration: [f64; MAX_TOUCHED],
+    pub by_acceleration: [f64; USUAL_UNKNOWNS],
 }
 
 impl Gradient {
     /// All zero.
     pub fn zero() -> Self {
-        let zero = [0.0; MAX_TOUCHED];
+        let zero = [0.0; USUAL_UNKNOWNS];
         Self { by_place: zero, by_rate: zero, by_acceleration: zero }
     }
 

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use lissom_core::elements::superelement::Deformation;
-use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity};
+use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity, USUAL_UNKNOWNS};
 use lissom_core::linear::OutputDerivatives;
-use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, MAX_TOUCHED, Measurement};
+use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::Deformed;
@@ -44,7 +44,7 @@ fn quantity(output: &Output, subjects: &Subjects<'_>) -> Found {
         let coordinates = unknowns.coordinates().collect();
         Arc::new(Row { unknowns: Arc::clone(unknowns), coordinates, matrix: Arc::clone(&matrix), index })
     };
-    let count = if unknowns.size() <= MAX_TOUCHED { matrix.nrows() } else { 0 };
+    let count = if unknowns.size() <= USUAL_UNKNOWNS { matrix.nrows() } else { 0 };
     let rows = (0..count).map(row).collect();
     Ok(Arc::new(Recovered { unknowns: Arc::clone(unknowns), matrix, rows }))
 }

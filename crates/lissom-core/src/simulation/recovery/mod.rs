@@ -24,16 +24,12 @@ mod matrix;
 use crate::consistent::initial_conditions::{gather_accelerations, gather_rates, scatter_accelerations};
 use crate::integrator::pivoting_unless_augmented;
 use crate::kinematics::{Kinematics, LOCKED, Layout, Switch};
+use crate::round_off;
 use crate::simulation::Simulation;
 use crate::system::{State, System};
+use crate::tuning::MAX_ITERATIONS;
 use lissom_motion::Motion;
 use matrix::RecoveryMatrix;
-
-/// Maximum number of iterations of the forces.
-const MAX_REPETITIONS: usize = 30;
-
-/// Relative changes of multipliers below this are round-off.
-const REPEATED: f64 = 1e-10;
 
 /// Predicted change of the next iteration below which it is omitted.
 const NEGLIGIBLE: f64 = 1e-14;
@@ -252,7 +248,7 @@ impl Recovery {
         // Solve for y: resolved vibrations are not filtered.
         work.change.fill(0.0);
         let mut last = f64::INFINITY;
-        for repetition in 0..MAX_REPETITIONS {
+        for repetition in 0..MAX_ITERATIONS {
             if repetition > 0 {
                 matrix.residual(system, &forces.kinematics, &forces.multipliers, &mut work.unbalanced);
                 let [rates, found] = &mut work.violation_rates;
@@ -294,7 +290,7 @@ impl Recovery {
             keep_rates(layout, &forces.kinematics, right);
             scatter_accelerations(layout, right, &mut forces.kinematics);
             let relative = further / largest.max(f64::MIN_POSITIVE);
-            if relative <= REPEATED {
+            if relative <= round_off::ITERATION {
                 return Some(());
             }
             if !system.sees_multipliers() {

@@ -12,7 +12,7 @@ use super::forces::{Constants, forces};
 use super::stiffness::{stiffness, times_from_right, transpose_times_rows};
 use crate::elements::blocks::{Blocks, block_of, nodes_of};
 use crate::kinematics::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
-use crate::kinematics::{Kinematics, NodeId};
+use crate::kinematics::{Kinematics, MAX_NODES, NodeId};
 
 /// Beams in blocks of eight.
 pub(super) struct BeamBlocks<const N: usize> {
@@ -40,9 +40,6 @@ struct StationBlock<const N: usize> {
     /// Weight times stiffness, row after row.
     law: [Screws; 6],
 }
-
-/// Maximum number of nodes of a beam.
-const MAX_NODES: usize = 4;
 
 /// Node motions and forces of one block.
 struct Scratch {

@@ -8,12 +8,8 @@ use lissom_motion::{
 
 use super::{Beam, Relative, Station, combine};
 use crate::kinematics::Kinematics;
-use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh};
+use crate::kinematics::step_stages::{SMALL_CHANGE, STAGES, StepStages, above_round_off, weigh};
 use crate::round_off;
-
-/// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
-/// formulas for small changes are accurate to round-off.
-const SMALL_CHANGE: f64 = 1e-3;
 
 /// Two Gauss points on 0 … 1.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];

@@ -11,9 +11,6 @@ use crate::elements::initial_model::InitialModel;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use crate::registry::ParameterError;
 
-/// Maximum number of unknowns of a superelement.
-const MAX_UNKNOWNS: usize = 255;
-
 /// An interface of a superelement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InterfacePlace {
@@ -49,9 +46,11 @@ pub fn superelement(
 ) -> Result<(Contribution, Deformation), ParameterError> {
     let SuperelementDescription { name, frame, interfaces, floating, matrices } = description;
     let (size, first) = (matrices.mass.nrows(), 6 * interfaces.len());
-    if size > MAX_UNKNOWNS {
+    // Segments of local unknowns store indices in a byte.
+    let max_unknowns = usize::from(u8::MAX);
+    if size > max_unknowns {
         let words =
-            format!("has {size} rows: a superelement has at most {MAX_UNKNOWNS}; remove interfaces or modes");
+            format!("has {size} rows: a superelement has at most {max_unknowns}; remove interfaces or modes");
         return Err(ParameterError::new("mass", words));
     }
     let mut contribution = Contribution::to(model);

@@ -254,17 +254,17 @@ mod tests {
 
     /// ∫ w'² dy of the cubic that starts with zero displacement and slope and ends with these, by Simpson's rule.
     fn shortening(displacement: f64, slope: f64) -> f64 {
-        const PARTS: usize = 400;
+        let parts = 400_usize;
         let square = |part: f64| {
-            let x = part / PARTS as f64;
+            let x = part / parts as f64;
             let own = displacement / LENGTH * 6.0 * (x - x * x) + slope * (3.0 * x * x - 2.0 * x);
             own * own
         };
-        let whole = (0..PARTS).map(|k| {
+        let whole = (0..parts).map(|k| {
             let k = k as f64;
             square(k) + 4.0 * square(k + 0.5) + square(k + 1.0)
         });
-        whole.sum::<f64>() * LENGTH / PARTS as f64 / 6.0
+        whole.sum::<f64>() * LENGTH / parts as f64 / 6.0
     }
 
     /// Work of an axial force on the shortening over the energy of bending, and that of centrifugal forces in

@@ -14,8 +14,6 @@ const ASYMMETRY: f64 = 1e-5;
 /// Allowed forces of a rigid displacement, as a fraction of their terms, and allowed deviation of a mass from that of a rigid
 /// body.
 const RIGID: f64 = 1e-4;
-/// Negative eigenvalues of a stiffness below this relative size result from numbers written with few digits.
-const FEW_DIGITS: f64 = 1e-6;
 
 /// Damping of a superelement.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -226,14 +224,14 @@ impl ReducedMatrices {
         }
         let stiffness = symmetric(&self.stiffness, "stiffness")?;
         check_rigid(&stiffness, places, "stiffness")?;
-        if scaled_eigenvalues(&stiffness).into_iter().fold(0.0, f64::min) < -FEW_DIGITS {
+        if scaled_eigenvalues(&stiffness).into_iter().fold(0.0, f64::min) < -round_off::GIVEN {
             return problem("stiffness", "has a negative eigenvalue: the part would be unstable by itself");
         }
         let damping = match &self.damping {
             Damping::Matrix(matrix) => {
                 let matrix = symmetric(matrix, "damping")?;
                 check_rigid(&matrix, places, "damping")?;
-                if scaled_eigenvalues(&matrix).into_iter().fold(0.0, f64::min) < -FEW_DIGITS {
+                if scaled_eigenvalues(&matrix).into_iter().fold(0.0, f64::min) < -round_off::GIVEN {
                     return problem("damping", "has a negative eigenvalue: it would put energy in");
                 }
                 Damping::Matrix(matrix)

@@ -8,11 +8,8 @@ use super::centre::Centre;
 use super::element_scratch::ElementScratch;
 use super::part::Part;
 use super::vectors::{product, three};
-use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::step_stages::{SMALL_CHANGE, STAGES, StepStages, above_round_off};
 use crate::round_off;
-
-/// Rotations below this lose digits in a difference of two logarithms [rad].
-const SMALL_ROTATION: f64 = 1e-3;
 
 impl Part {
     /// Adds the forces at the stages of `step`, with those of inertia if `has_inertia`.
@@ -76,7 +73,7 @@ impl Part {
             let seen = step.changes[node].relative_to(&step.changes[frame].carried_at(&relative));
             let arm = start.turns[i] * seen.shift;
             let angles = three(&start.displacement, 6 * i + 3);
-            let turn = if seen.turn.amax() < SMALL_ROTATION {
+            let turn = if seen.turn.amax() < SMALL_CHANGE {
                 // By integrating θ' = T(θ)⁻¹ η with one step of the classical Runge-Kutta method.
                 let eta = rotation_part(&seen.small_logarithm());
                 let slope = |way: Vector3| rotation_inverse_tangent(&(angles + way)) * eta;
