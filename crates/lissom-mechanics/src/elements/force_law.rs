@@ -11,7 +11,7 @@
 //! difference between f and P' dissipates energy as long as it has the sign of v, because clamping is monotone. A law
 //! that violates this has no potential energy, and its work is treated as that of a load.
 
-use super::switch_states::is_on_upper_branch;
+use crate::evaluation::switch_states::is_on_upper_branch;
 use crate::kinematics::Switch;
 use crate::law::{Enclosure, Interval, NARROW_BOUNDS, ScalarLaw, hull, scaled, sum};
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};

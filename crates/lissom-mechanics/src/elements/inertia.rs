@@ -9,9 +9,9 @@
 
 use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, skew};
 
-use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
 use super::{Element, Energy, Tangents, add_block, is_same};
+use crate::evaluation::blocks::Blocks;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{Kinematics, NodeId, split};
 use crate::registry::Function;

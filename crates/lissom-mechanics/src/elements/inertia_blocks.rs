@@ -7,8 +7,8 @@ use std::ops::Range;
 use lissom_motion::{Block, Screw, Triple, WIDTH};
 use pulp::{Simd, WithSimd};
 
-use super::blocks::{Blocks, block_of, nodes_of};
 use super::inertia::Inertia;
+use crate::evaluation::blocks::{Blocks, block_of, nodes_of};
 use crate::kinematics::lanes::{
     Frames, Part, Screws, gather_accelerations, gather_frames, gather_twists, parts,
 };

@@ -6,14 +6,14 @@ use std::ops::Range;
 use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
+use super::blocks::Blocks;
+use super::element::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
 use super::scatter_map::{ScatterMap, free_rows};
 use super::scratch::with_scratch;
+use super::switch_states::SwitchStates;
 use super::tangent_assembler::{Slot, TangentAssembler};
 use super::threads::Threads;
 use super::work::{power, power_gradient, work};
-use crate::elements::blocks::Blocks;
-use crate::elements::switch_states::SwitchStates;
-use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;

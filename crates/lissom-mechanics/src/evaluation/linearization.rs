@@ -1,6 +1,6 @@
 //! Derivatives of the equations of motion of the whole system.
 
-use crate::elements::Tangents;
+use super::element::Tangents;
 use crate::joints::derivatives::Derivatives;
 use crate::kinematics::USUAL_UNKNOWNS;
 

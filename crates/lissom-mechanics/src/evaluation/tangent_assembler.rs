@@ -4,9 +4,9 @@
 use lissom_solver::Scalar;
 use num_complex::Complex64;
 
+use super::element::Tangents;
 use super::linearization::Linearization;
 use super::scatter_map::Segment;
-use crate::elements::Tangents;
 use crate::joints::derivatives::{Derivatives, OWN, TIP};
 
 /// Factors of the derivatives in a tangent.

@@ -4,8 +4,8 @@ use std::cell::RefCell;
 
 use lissom_motion::Vector3;
 
+use super::element::{Element, Tangents};
 use super::scratch::with_scratch;
-use crate::elements::{Element, Tangents};
 use crate::kinematics::work::along;
 use crate::kinematics::{Kinematics, USUAL_UNKNOWNS};
 use crate::signals::measurement::Gradient;

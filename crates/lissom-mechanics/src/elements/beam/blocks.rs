@@ -10,7 +10,7 @@ use pulp::{Simd, WithSimd};
 use super::Beam;
 use super::forces::{Constants, forces};
 use super::stiffness::{stiffness, times_from_right, transpose_times_rows};
-use crate::elements::blocks::{Blocks, block_of, nodes_of};
+use crate::evaluation::blocks::{Blocks, block_of, nodes_of};
 use crate::kinematics::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
 use crate::kinematics::{Kinematics, MAX_NODES, NodeId};
 

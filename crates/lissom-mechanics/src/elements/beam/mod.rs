@@ -36,10 +36,10 @@ use lissom_motion::{
 use blocks::BeamBlocks;
 use forces::{Constants, forces};
 
-use super::blocks::Blocks;
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
 use super::{Element, Energy, Tangents, add_block};
+use crate::evaluation::blocks::Blocks;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{Kinematics, NodeId, split};
 
