@@ -90,7 +90,7 @@ impl System {
 
     /// Rows of a joint's local unknowns and equations.
     pub fn rows_of_joint(&self, joint: usize) -> &[u32] {
-        &self.joint_rows[self.joint_starts[joint]..self.joint_starts[joint + 1]]
+        &self.joint_slots.rows[self.joint_slots.starts[joint]..self.joint_slots.starts[joint + 1]]
     }
 
     /// Only the violations at `point`, by multiplier.
@@ -197,8 +197,10 @@ impl System {
                 chart,
                 scratch,
                 &mut |index, derivatives| {
-                    let place =
-                        Slot { rows: self.rows_of_joint(index), segments: self.joint_places.of(index) };
+                    let place = Slot {
+                        rows: self.rows_of_joint(index),
+                        segments: self.joint_slots.positions.of(index),
+                    };
                     out.add_joint(place, derivatives);
                 },
             );

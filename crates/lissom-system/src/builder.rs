@@ -20,7 +20,7 @@ use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
-use super::{ElementId, System};
+use super::{ElementId, JointSlots, System};
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass, Impulse};
 use lissom_mechanics::elements::creep_force::CreepForce;
@@ -393,17 +393,17 @@ impl Builder {
             batch.locate(&pattern);
         }
         feedback.locate(&pattern);
-        let mut joint_places = ScatterMap::new();
+        let mut positions = ScatterMap::new();
         for rows in &joint_rows {
-            joint_places.push(&pattern, rows, LOCAL);
+            positions.push(&pattern, rows, LOCAL);
         }
-        joint_places.shrink();
+        positions.shrink();
         for (constraint, placed) in self.constraints.others().zip(&mut placed) {
             placed.locate(constraint, &layout, &pattern);
         }
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
-        let joint_starts = starts(joint_rows.iter().map(Vec::len));
+        let starts = starts(joint_rows.iter().map(Vec::len));
         let mut held = feedback.graph.held_at_start();
         for batch in &mut self.batches {
             let count = batch.freeze_switches(held.len());
@@ -428,9 +428,7 @@ impl Builder {
             free_coordinates: self.free_coordinates,
             latches: self.latches,
             structure,
-            joint_places,
-            joint_starts,
-            joint_rows: joint_rows.concat(),
+            joint_slots: JointSlots { rows: joint_rows.concat(), starts, positions },
             inertias,
             gravity: self.model.gravity,
             feedback,

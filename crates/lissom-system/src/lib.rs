@@ -72,12 +72,8 @@ pub struct System {
     pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.
     pub structure: Structure,
-    /// Positions of every joint's local matrix in the pattern.
-    pub joint_places: ScatterMap,
-    /// Rows of every joint's local unknowns and equations, concatenated.
-    pub joint_rows: Vec<u32>,
-    /// Offset of each joint's rows.
-    pub joint_starts: Vec<usize>,
+    /// Rows and positions of the joints.
+    pub joint_slots: JointSlots,
     /// Inertia of bodies and lumped masses of beams.
     pub inertias: Vec<Inertia>,
     /// Gravity.
@@ -88,6 +84,16 @@ pub struct System {
     pub readings: Vec<Reading>,
     /// Beams whose strains and section forces are examined.
     pub beams: ExaminedBeams,
+}
+
+/// Rows of every joint's local unknowns and equations, and the positions of its local matrix in the tangent.
+pub struct JointSlots {
+    /// Rows, concatenated.
+    rows: Vec<u32>,
+    /// Offset of each joint's rows.
+    starts: Vec<usize>,
+    /// Positions in the pattern.
+    positions: ScatterMap,
 }
 
 impl System {

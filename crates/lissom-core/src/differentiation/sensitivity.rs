@@ -35,7 +35,7 @@ impl Simulation {
     /// # Errors
     /// If the tangent is singular.
     pub fn renew_at_solution(&mut self) -> Result<bool, StepError> {
-        if !self.is_last_step_known {
+        if !self.integrator.has_last_step {
             return Ok(false);
         }
         let Self { system, settings, integrator, previous, .. } = self;

@@ -56,6 +56,8 @@ pub(crate) struct Integrator {
     pub(crate) history: Option<IntegratorHistory>,
     /// For schemes whose velocities deviate slightly from the constraints.
     projection: Option<Projection>,
+    /// Whether its workspace still contains the step that ended at the state of the simulation.
+    pub(crate) has_last_step: bool,
 }
 
 impl Integrator {
@@ -96,6 +98,7 @@ impl Integrator {
             jacobian_state: JacobianState::default(),
             history,
             projection,
+            has_last_step: false,
         }
     }
 

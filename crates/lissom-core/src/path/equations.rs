@@ -55,32 +55,47 @@ pub(super) struct PathWork {
     is_symmetric: bool,
     other_values: Vec<f64>,
     scratch: Scratch,
+    iterate: Iterate,
+    forces: Forces,
+    last: Change,
+    before: Change,
+    correction: f64,
+    norms: Norms,
+    /// Pseudo-random right-hand side.
+    probe: Vec<f64>,
+}
+
+/// The point at which the equations are evaluated.
+struct Iterate {
     at: Kinematics,
     changes: Vec<MotionChange>,
     coordinate_changes: Vec<f64>,
     multipliers: Vec<f64>,
     load_factor: f64,
+    /// Violations at the start of the step, of the system in use.
+    violations: Vec<f64>,
     /// Sum of all increments since the start of the step.
     total: Vec<f64>,
-    /// Displacements per unit of the load factor, at the last tangent.
-    response: Vec<f64>,
-    load: Vec<f64>,
+}
+
+/// Residuals, and their derivatives by the load factor.
+struct Forces {
     residual: Vec<f64>,
     /// Residual of the other system.
     other: Vec<f64>,
-    /// Violations at the start of the step, of the system in use.
-    violations: Vec<f64>,
-    last: Change,
-    before: Change,
-    correction: f64,
+    load: Vec<f64>,
+    /// Displacements per unit of the load factor, at the last tangent.
+    response: Vec<f64>,
+}
+
+/// Measures of vectors.
+struct Norms {
     /// Square root of the weight of each row in the distance along the path.
     weights: Vec<f64>,
     /// Scale factor of each row.
     sizes: Vec<f64>,
     /// Scale factor of each violation.
     violation_sizes: Vec<f64>,
-    /// Pseudo-random right-hand side.
-    probe: Vec<f64>,
 }
 
 impl PathWork {
@@ -106,22 +121,29 @@ impl PathWork {
             is_symmetric: true,
             other_values: vec![0.0; entries],
             scratch: Scratch::default(),
-            at: state.kinematics.clone(),
-            changes: vec![MotionChange::none(); state.kinematics.nodes.len()],
-            coordinate_changes: vec![0.0; state.kinematics.coordinates.len()],
-            multipliers: state.multipliers.clone(),
-            load_factor: 0.0,
-            total: vec![0.0; size],
-            response: zeros.clone(),
-            load: zeros.clone(),
-            residual: zeros.clone(),
-            other: zeros,
-            violations: state.violations.clone(),
+            iterate: Iterate {
+                at: state.kinematics.clone(),
+                changes: vec![MotionChange::none(); state.kinematics.nodes.len()],
+                coordinate_changes: vec![0.0; state.kinematics.coordinates.len()],
+                multipliers: state.multipliers.clone(),
+                load_factor: 0.0,
+                violations: state.violations.clone(),
+                total: zeros.clone(),
+            },
+            forces: Forces {
+                residual: zeros.clone(),
+                other: zeros.clone(),
+                load: zeros.clone(),
+                response: zeros,
+            },
             last: nothing.clone(),
             before: nothing,
             correction: 0.0,
-            violation_sizes: layout.quantities()[count..].iter().map(violation_size).collect(),
-            weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
+            norms: Norms {
+                weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
+                sizes,
+                violation_sizes: layout.quantities()[count..].iter().map(violation_size).collect(),
+            },
             probe: (0..count)
                 .map(|_| {
                     // Pseudo-random numbers [logistic map].
@@ -129,39 +151,38 @@ impl PathWork {
                     noise - 1.0
                 })
                 .collect(),
-            sizes,
         }
     }
 
     /// Inner product of two displacements in the metric of the path.
     pub(super) fn inner(&self, a: &[f64], b: &[f64]) -> f64 {
-        self.weights.iter().zip(a).zip(b).map(|((weight, a), b)| (weight * a) * (weight * b)).sum()
+        self.norms.weights.iter().zip(a).zip(b).map(|((weight, a), b)| (weight * a) * (weight * b)).sum()
     }
 
     /// Distance between start and end of the last solution.
     pub(super) fn length_of_last(&self) -> f64 {
-        self.inner(&self.total, &self.total).sqrt()
+        self.inner(&self.iterate.total, &self.iterate.total).sqrt()
     }
 
     /// Total increment since the start of the last solution, by row.
     pub(super) fn total(&self) -> &[f64] {
-        &self.total
+        &self.iterate.total
     }
 
     /// Sign of the displacement or rotation with the largest scaled magnitude.
     pub(super) fn sense_of_largest(&self, values: &[f64]) -> f64 {
-        let scaled = self.sizes.iter().zip(values).map(|(size, value)| size * value);
+        let scaled = self.norms.sizes.iter().zip(values).map(|(size, value)| size * value);
         let largest = scaled.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most });
         largest.signum()
     }
 
     /// Whether the response to the load is zero.
     pub(super) fn load_is_zero(&self) -> bool {
-        self.response.iter().all(|&value| value == 0.0)
+        self.forces.response.iter().all(|&value| value == 0.0)
     }
 
     fn largest(&self, values: &[f64]) -> f64 {
-        self.sizes.iter().zip(values).fold(0.0_f64, |most, (size, value)| {
+        self.norms.sizes.iter().zip(values).fold(0.0_f64, |most, (size, value)| {
             let scaled = (size * value).abs();
             if scaled <= most { most } else { scaled }
         })
@@ -197,14 +218,14 @@ impl PathEquations<'_> {
     /// Sets the predictor along the tangent.
     pub(super) fn begin(&mut self) {
         let work = &mut *self.work;
-        work.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
-        work.at.coordinates.copy_from_slice(&self.start.kinematics.coordinates);
-        (work.at.time, work.at.elapsed) = (self.start.kinematics.time, 0.0);
-        work.changes.fill(MotionChange::none());
-        work.coordinate_changes.fill(0.0);
-        work.multipliers.copy_from_slice(&self.start.multipliers);
-        work.load_factor = self.start_factor;
-        work.total.fill(0.0);
+        work.iterate.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
+        work.iterate.at.coordinates.copy_from_slice(&self.start.kinematics.coordinates);
+        (work.iterate.at.time, work.iterate.at.elapsed) = (self.start.kinematics.time, 0.0);
+        work.iterate.changes.fill(MotionChange::none());
+        work.iterate.coordinate_changes.fill(0.0);
+        work.iterate.multipliers.copy_from_slice(&self.start.multipliers);
+        work.iterate.load_factor = self.start_factor;
+        work.iterate.total.fill(0.0);
         work.correction = 0.0;
         let Some(tangent) = self.tangent else { return };
         let length = match self.condition {
@@ -231,69 +252,69 @@ impl PathEquations<'_> {
                 continue;
             }
             let motion = Motion::exponential(&psi);
-            work.changes[node] = work.changes[node].then(&MotionChange::of(&motion));
-            work.at.nodes[node].frame = work.at.nodes[node].frame * motion;
+            work.iterate.changes[node] = work.iterate.changes[node].then(&MotionChange::of(&motion));
+            work.iterate.at.nodes[node].frame = work.iterate.at.nodes[node].frame * motion;
         }
         for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
             let value = share * change.rows[row as usize];
-            work.coordinate_changes[coordinate] += value;
-            work.at.coordinates[coordinate].value += value;
+            work.iterate.coordinate_changes[coordinate] += value;
+            work.iterate.at.coordinates[coordinate].value += value;
         }
         let factor = share * work.scaled.multiplier_factor();
         let count = layout.coordinate_count();
-        for (multiplier, value) in work.multipliers.iter_mut().zip(&change.rows[count..]) {
+        for (multiplier, value) in work.iterate.multipliers.iter_mut().zip(&change.rows[count..]) {
             *multiplier += factor * value;
         }
-        for (sum, value) in work.total.iter_mut().zip(&change.rows) {
+        for (sum, value) in work.iterate.total.iter_mut().zip(&change.rows) {
             *sum += share * value;
         }
-        work.load_factor += share * change.load;
+        work.iterate.load_factor += share * change.load;
     }
 
     fn point(&self, stressed_at_start: bool) -> Point<'_> {
         let work = &*self.work;
         Point {
-            at: &work.at,
-            stressed: if stressed_at_start { &self.start.kinematics } else { &work.at },
+            at: &work.iterate.at,
+            stressed: if stressed_at_start { &self.start.kinematics } else { &work.iterate.at },
             increments: Increments {
                 start: &self.start.kinematics,
-                nodes: &work.changes,
-                coordinates: &work.coordinate_changes,
+                nodes: &work.iterate.changes,
+                coordinates: &work.iterate.coordinate_changes,
                 joints: None,
             },
-            multipliers: &work.multipliers,
-            violations: &work.violations,
+            multipliers: &work.iterate.multipliers,
+            violations: &work.iterate.violations,
             augmentation: work.scaled.augmentation(),
         }
     }
 
     /// Evaluates the residual, with loads also its derivative by the load factor. False if there is no system for the present value.
     fn evaluate(&mut self) -> bool {
-        let value = self.work.load_factor;
+        let value = self.work.iterate.load_factor;
         let system = match &mut *self.systems {
             PathSystems::Loads([_, loaded]) => {
-                self.work.violations.copy_from_slice(&self.start.violations);
+                self.work.iterate.violations.copy_from_slice(&self.start.violations);
                 Arc::clone(loaded)
             }
             PathSystems::Number(number) => {
                 let Some(system) = number.at(value) else { return false };
-                system.violations(&self.start.kinematics, &mut self.work.violations);
+                system.violations(&self.start.kinematics, &mut self.work.iterate.violations);
                 system
             }
         };
-        let mut residual = std::mem::take(&mut self.work.residual);
+        let mut residual = std::mem::take(&mut self.work.forces.residual);
         system.residual(&self.point(false), &mut residual);
         if let PathSystems::Loads([unloaded, _]) = &*self.systems {
-            let mut other = std::mem::take(&mut self.work.other);
+            let mut other = std::mem::take(&mut self.work.forces.other);
             unloaded.residual(&self.point(false), &mut other);
             let work = &mut *self.work;
-            for ((load, residual), unloaded) in work.load.iter_mut().zip(&mut residual).zip(&other) {
+            for ((load, residual), unloaded) in work.forces.load.iter_mut().zip(&mut residual).zip(&other) {
                 *load = *residual - unloaded;
                 *residual = unloaded + value * *load;
             }
-            work.other = other;
+            work.forces.other = other;
         }
-        self.work.residual = residual;
+        self.work.forces.residual = residual;
         true
     }
 
@@ -301,18 +322,18 @@ impl PathEquations<'_> {
     /// values.
     fn differentiate(&mut self) -> bool {
         let PathSystems::Number(number) = &mut *self.systems else { return true };
-        let Some([below, above]) = number.around(self.work.load_factor) else { return false };
-        let own = self.work.violations.clone();
-        let mut other = std::mem::take(&mut self.work.other);
-        let mut load = std::mem::take(&mut self.work.load);
+        let Some([below, above]) = number.around(self.work.iterate.load_factor) else { return false };
+        let own = self.work.iterate.violations.clone();
+        let mut other = std::mem::take(&mut self.work.forces.other);
+        let mut load = std::mem::take(&mut self.work.forces.load);
         for ((_, system), out) in [&below, &above].into_iter().zip([&mut other, &mut load]) {
-            system.violations(&self.start.kinematics, &mut self.work.violations);
+            system.violations(&self.start.kinematics, &mut self.work.iterate.violations);
             system.residual(&self.point(false), out);
         }
         for (load, other) in load.iter_mut().zip(&other) {
             *load = (*load - other) / (above.0 - below.0);
         }
-        (self.work.other, self.work.load, self.work.violations) = (other, load, own);
+        (self.work.forces.other, self.work.forces.load, self.work.iterate.violations) = (other, load, own);
         true
     }
 
@@ -327,7 +348,7 @@ impl PathEquations<'_> {
         let blend = self.work.scaled.blend(Weights { rate: 0.0, curvature: 0.0 });
         let system = match &mut *self.systems {
             PathSystems::Loads([_, loaded]) => Some(Arc::clone(loaded)),
-            PathSystems::Number(number) => number.at(self.work.load_factor),
+            PathSystems::Number(number) => number.at(self.work.iterate.load_factor),
         };
         let Some(system) = system else { return Err(FactorError::NotFinite { unknown: 0 }) };
         let point = self.point(stressed_at_start);
@@ -346,19 +367,19 @@ impl PathEquations<'_> {
         let work = &mut *self.work;
         if has_loads {
             for (value, unloaded) in values.iter_mut().zip(&other) {
-                *value = unloaded + work.load_factor * (*value - unloaded);
+                *value = unloaded + work.iterate.load_factor * (*value - unloaded);
             }
         }
         (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
         let structure = system.structure();
         work.saddle.factor(structure, work.scaled.scale())?;
         work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
-        let mut response = std::mem::take(&mut work.response);
-        for (value, load) in response.iter_mut().zip(&work.load) {
+        let mut response = std::mem::take(&mut work.forces.response);
+        for (value, load) in response.iter_mut().zip(&work.forces.load) {
             *value = -load;
         }
         self.solve(&mut response);
-        self.work.response = response;
+        self.work.forces.response = response;
         Ok(())
     }
 
@@ -373,20 +394,20 @@ impl PathEquations<'_> {
     pub(super) fn finish(&mut self, iterations: usize) -> Result<Solution, StepError> {
         self.factor(false).map_err(|error| self.describe(&Failure::Factor(error)))?;
         let count = self.systems.any().layout().coordinate_count();
-        let multiplier_count = self.work.multipliers.len();
+        let multiplier_count = self.work.iterate.multipliers.len();
         let mut probe = vec![0.0; count + multiplier_count];
         probe[..count].copy_from_slice(&self.work.probe);
         // Forces in units of the scaled equations: the length of the model corresponds to one radian.
-        for (value, size) in probe.iter_mut().zip(&self.work.sizes) {
+        for (value, size) in probe.iter_mut().zip(&self.work.norms.sizes) {
             *value *= size;
         }
         let right = probe.clone();
         self.solve(&mut probe);
         let flexibility: f64 = probe[..count].iter().zip(&right).map(|(a, b)| a * b).sum();
         let work = &*self.work;
-        let norm = work.inner(&work.response, &work.response).sqrt();
+        let norm = work.inner(&work.forces.response, &work.forces.response).sqrt();
         let mut tangent = Tangent {
-            direction: work.response.iter().map(|value| value / norm).collect(),
+            direction: work.forces.response.iter().map(|value| value / norm).collect(),
             load_rate: norm.recip(),
             turn: 0.0,
             unstable: 0,
@@ -405,24 +426,24 @@ impl PathEquations<'_> {
             tangent.reverse();
         }
         let mut state = self.start.clone();
-        state.kinematics.clone_from(&work.at);
+        state.kinematics.clone_from(&work.iterate.at);
         state.kinematics.elapsed = 0.0;
         for node in &mut state.kinematics.nodes {
             node.frame.rotation = node.frame.rotation.normalized();
         }
-        state.multipliers.copy_from_slice(&work.multipliers);
+        state.multipliers.copy_from_slice(&work.iterate.multipliers);
         let mut violations = vec![0.0; multiplier_count];
         // The system in use belongs to this value: it was linearised here.
         self.systems.any().stage_violations(&self.point(false), &mut violations);
         state.violations = violations;
-        Ok(Solution { state, load_factor: self.work.load_factor, tangent, iterations })
+        Ok(Solution { state, load_factor: self.work.iterate.load_factor, tangent, iterations })
     }
 
     /// Softest direction of the last factored stiffness, of length 1, by inverse iteration.
     pub(super) fn softest_direction(&mut self) -> Vec<f64> {
         let count = self.systems.any().layout().coordinate_count();
-        let mut direction = vec![0.0; count + self.work.multipliers.len()];
-        for ((value, probe), size) in direction.iter_mut().zip(&self.work.probe).zip(&self.work.sizes) {
+        let mut direction = vec![0.0; count + self.work.iterate.multipliers.len()];
+        for ((value, probe), size) in direction.iter_mut().zip(&self.work.probe).zip(&self.work.norms.sizes) {
             *value = probe * size;
         }
         for _ in 0..INVERSE_ITERATIONS {
@@ -449,9 +470,9 @@ impl PathEquations<'_> {
         let layout = self.systems.any().layout();
         let time = self.start.kinematics.time;
         let work = &*self.work;
-        let scaled = |row: usize| (work.sizes[row] * work.last.rows[row]).abs();
+        let scaled = |row: usize| (work.norms.sizes[row] * work.last.rows[row]).abs();
         let worst = || {
-            let largest = (0..work.sizes.len()).max_by(|&a, &b| scaled(a).total_cmp(&scaled(b)));
+            let largest = (0..work.norms.sizes.len()).max_by(|&a, &b| scaled(a).total_cmp(&scaled(b)));
             layout.subject_of(largest.unwrap_or(0))
         };
         let hint = NO_STEP_HELPS;
@@ -484,16 +505,16 @@ impl Equations for PathEquations<'_> {
             return Correction { size: f64::NAN, reference: 0.0 };
         }
         let mut rows = std::mem::take(&mut self.work.before.rows);
-        rows.copy_from_slice(&self.work.residual);
+        rows.copy_from_slice(&self.work.forces.residual);
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
         if let Some(compliance) = work.saddle.compliance() {
             // The compliance is included in the factors only, so violations are corrected completely. The part that redundant
             // constraints cannot correct is round-off, and would accumulate in the multipliers.
             let factor = work.scaled.multiplier_factor() * work.scaled.scale();
-            let allowances = compliance.allowances(factor, &work.multipliers);
+            let allowances = compliance.allowances(factor, &work.iterate.multipliers);
             for ((value, unit), allowance) in
-                rows[count..].iter_mut().zip(&work.violation_sizes).zip(allowances)
+                rows[count..].iter_mut().zip(&work.norms.violation_sizes).zip(allowances)
             {
                 if (*value * unit).abs() <= round_off::VIOLATION && value.abs() <= allowance {
                     *value = 0.0;
@@ -506,18 +527,19 @@ impl Equations for PathEquations<'_> {
         }
         let work = &mut *self.work;
         let load = match self.condition {
-            Condition::Load(load) => load - work.load_factor,
+            Condition::Load(load) => load - work.iterate.load_factor,
             Condition::Arc(length) => {
-                let excess = 0.5 * (work.inner(&work.total, &work.total) - length * length);
-                -(excess + work.inner(&work.total, &rows)) / work.inner(&work.total, &work.response)
+                let excess = 0.5 * (work.inner(&work.iterate.total, &work.iterate.total) - length * length);
+                -(excess + work.inner(&work.iterate.total, &rows))
+                    / work.inner(&work.iterate.total, &work.forces.response)
             }
             Condition::Along(length) => {
                 let direction = self.tangent.map_or(&[][..], |tangent| &tangent.direction);
-                let way = work.inner(direction, &work.total) + work.inner(direction, &rows);
-                (length - way) / work.inner(direction, &work.response)
+                let way = work.inner(direction, &work.iterate.total) + work.inner(direction, &rows);
+                (length - way) / work.inner(direction, &work.forces.response)
             }
         };
-        for (value, response) in rows.iter_mut().zip(&work.response) {
+        for (value, response) in rows.iter_mut().zip(&work.forces.response) {
             *value += load * response;
         }
         let size = work.largest(&rows[..count]);
@@ -538,9 +560,10 @@ impl Equations for PathEquations<'_> {
         let work = &mut *self.work;
         work.correction = size;
         work.before = std::mem::replace(&mut work.last, change);
-        let reference = work.largest(&work.total[..count]);
+        let reference = work.largest(&work.iterate.total[..count]);
         // The load factor is weighted like a displacement, relative to its magnitude.
-        let of_load = work.load_factor.abs().max((work.load_factor - self.start_factor).abs());
+        let of_load =
+            work.iterate.load_factor.abs().max((work.iterate.load_factor - self.start_factor).abs());
         let load = if of_load > 0.0 { work.last.load.abs() / of_load * reference } else { 0.0 };
         Correction { size: size.max(load), reference }
     }

@@ -167,7 +167,7 @@ impl Simulation {
         }
         let problem = Problem { system: &self.system, settings: &self.settings };
         let ends = (&self.previous, &self.state);
-        let step = self.integrator.dense(problem, ends).known(self.is_last_step_known);
+        let step = self.integrator.dense(problem, ends).known(self.integrator.has_last_step);
         self.accumulation.integrate(problem, &step, out);
         out.accumulated.copy_from_slice(&self.accumulation.after);
     }

@@ -104,7 +104,6 @@ impl Simulation {
             warnings,
             events,
             accumulation: Accumulation::default(),
-            is_last_step_known: false,
         })
     }
 
@@ -112,7 +111,7 @@ impl Simulation {
     pub(crate) fn last_tangent(&mut self, scaled: Scaled, of: &StageSystem) -> Option<TangentValues> {
         let Self { system, settings, integrator, previous, .. } = self;
         let problem = Problem { system, settings };
-        self.is_last_step_known.then(|| integrator.tangent_at_solution(problem, previous, scaled, of))
+        integrator.has_last_step.then(|| integrator.tangent_at_solution(problem, previous, scaled, of))
     }
 
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.

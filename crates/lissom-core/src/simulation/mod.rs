@@ -75,8 +75,6 @@ pub struct Simulation {
     /// Warnings about the motion up to the state.
     pub(crate) warnings: Vec<Warning>,
     pub(crate) totals: Totals,
-    /// Whether the integrator still contains the step that ended at the state.
-    pub(crate) is_last_step_known: bool,
 }
 
 /// Start of a simulation.

@@ -60,7 +60,7 @@ impl Simulation {
     /// As [`step`](Self::step).
     pub fn step_watched(&mut self, limit: f64, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
         watch.begin(Phase::Rest);
-        self.is_last_step_known = false;
+        self.integrator.has_last_step = false;
         let before = self.integrator.work.newton.effort;
         let mut report = StepReport::default();
         let mut progress = Progress { watch, report: &mut report, first: None, failure: None, start: None };
@@ -86,7 +86,7 @@ impl Simulation {
     /// The state at `time` [s] within the last step, to the order of the scheme; `out` must be a state of this system.
     pub fn interpolate(&self, time: f64, out: &mut State) {
         let step = self.integrator.dense(self.problem(), (&self.previous, &self.state));
-        step.known(self.is_last_step_known).interpolate(time, out);
+        step.known(self.integrator.has_last_step).interpolate(time, out);
     }
 
     /// The sequence of a step: a planned one is solved to its end, through all stops within it; an adaptive one ends with the first
@@ -119,7 +119,7 @@ impl Simulation {
             }
         }
         // The integrator contains the last part only.
-        self.is_last_step_known &= progress.report.parts == 1;
+        self.integrator.has_last_step &= progress.report.parts == 1;
         // Sums of step sizes would drift away from the planned instants.
         if planned.is_some() && self.is_at(limit, longest) {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
@@ -177,7 +177,7 @@ impl Simulation {
             report.correction = outcome.correction;
             report.stagnated |= outcome.stagnated;
             report.error = self.control.error();
-            self.is_last_step_known = true;
+            self.integrator.has_last_step = true;
             self.report_unresolved_laws();
             let is_event = located.is_some();
             self.after_events(located.as_ref(), self.control.longest())?;
@@ -264,7 +264,7 @@ impl Simulation {
         progress.report.parts = 1;
         self.accept_attempt();
         // The integrator has no data of a step to this state.
-        self.is_last_step_known = false;
+        self.integrator.has_last_step = false;
         Ok(())
     }
 
@@ -315,7 +315,7 @@ impl Simulation {
             self.jump_between(jump - aside, jump + aside)
                 .map_err(|error| StepError::Velocities { time: stop_time.clock, error })?;
             // The end of the step no longer determines the start of the next one.
-            self.is_last_step_known &= self.integrator.history.is_none();
+            self.integrator.has_last_step &= self.integrator.history.is_none();
         }
         (self.state.kinematics.time, self.state.time_remainder) = (stop_time.clock, 0.0);
         self.integrator.work.forget_predictions();

@@ -34,9 +34,7 @@ pub struct Snapshot {
     states: [StateNumbers; 2],
     origin: StateNumbers,
     step_size: f64,
-    scaled: Scaled,
-    jacobian_state: JacobianState,
-    integrator_history: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
+    integrator: IntegratorSnapshot,
     control: Vec<u8>,
     totals: Totals,
     velocity_correction: f64,
@@ -48,6 +46,14 @@ pub struct Snapshot {
     /// Data of the monitors, by name.
     monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
+}
+
+/// Of the integrator: the tangent in use and the memory of the scheme.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct IntegratorSnapshot {
+    scaled: Scaled,
+    jacobian_state: JacobianState,
+    history: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
 }
 
 diagnostics! {
@@ -185,9 +191,11 @@ impl Simulation {
             states: [(&self.previous).into(), (&self.state).into()],
             origin: (&origin).into(),
             step_size: self.settings.step_size,
-            scaled: self.integrator.scaled,
-            jacobian_state: self.integrator.jacobian_state,
-            integrator_history: self.integrator.history.as_ref().map(IntegratorHistory::to_numbers),
+            integrator: IntegratorSnapshot {
+                scaled: self.integrator.scaled,
+                jacobian_state: self.integrator.jacobian_state,
+                history: self.integrator.history.as_ref().map(IntegratorHistory::to_numbers),
+            },
             control: self.control.save(),
             totals: self.totals,
             velocity_correction: self.origin.velocity_correction,
@@ -228,9 +236,9 @@ impl Simulation {
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);
         self.settings.step_size = from.step_size;
         let integrator = &mut self.integrator;
-        integrator.scaled = from.scaled;
-        integrator.jacobian_state = from.jacobian_state;
-        if let (Some(history), Some(numbers)) = (&mut integrator.history, &from.integrator_history) {
+        integrator.scaled = from.integrator.scaled;
+        integrator.jacobian_state = from.integrator.jacobian_state;
+        if let (Some(history), Some(numbers)) = (&mut integrator.history, &from.integrator.history) {
             history.set_numbers(numbers);
         }
         integrator.work.note_scales(self.system.layout(), &integrator.scaled);
@@ -238,7 +246,7 @@ impl Simulation {
         self.energy_balance = from.energy_balance;
         self.warnings.clone_from(&from.warnings);
         self.events.known.clone_from(&from.event_state);
-        self.is_last_step_known = false;
+        self.integrator.has_last_step = false;
         Ok(())
     }
 

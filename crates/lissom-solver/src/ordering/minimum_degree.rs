@@ -55,6 +55,20 @@ enum State {
 }
 
 struct Elimination {
+    graph: QuotientGraph,
+    marked: Marks,
+    has_hosts: Vec<bool>,
+    hosts: HostCount,
+    freed: Vec<u32>,
+    /// Degree, time at which it was computed, variable.
+    heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
+    withheld: Vec<u32>,
+    order: Vec<usize>,
+    remaining_weight: u64,
+}
+
+/// Variables that remain, and elements that have replaced eliminated ones.
+struct QuotientGraph {
     states: Vec<State>,
     /// Unknowns of a variable and its followers.
     weights: Vec<u64>,
@@ -67,15 +81,11 @@ struct Elimination {
     /// Degree of a variable, weight of the members of an element; both external.
     degrees: Vec<u64>,
     followers: Vec<Vec<u32>>,
-    has_hosts: Vec<bool>,
-    hosts: HostCount,
-    freed: Vec<u32>,
-    /// Degree, time at which it was computed, variable.
-    heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
-    withheld: Vec<u32>,
-    order: Vec<usize>,
-    remaining_weight: u64,
-    /// Weight of an element outside the present boundary; valid where its stamp is the present one.
+}
+
+/// Marks that are valid where their stamp is the present one.
+struct Marks {
+    /// Weight of an element outside the present boundary.
     outside: Vec<u64>,
     outside_stamps: Vec<u64>,
     marks: Vec<u64>,
@@ -111,32 +121,38 @@ impl Elimination {
             .filter(|&group| states[group] == State::Variable && !has_hosts[group])
             .map(|group| Reverse((degrees[group], 0, group as u32)))
             .collect();
-        Elimination {
+        let remaining_weight = weights.iter().sum();
+        let graph = QuotientGraph {
             states,
+            weights,
             variables,
             elements: vec![Vec::new(); count],
             members: vec![Vec::new(); count],
             degrees,
             followers: vec![Vec::new(); count],
+        };
+        Elimination {
+            graph,
+            marked: Marks {
+                outside: vec![0; count],
+                outside_stamps: vec![0; count],
+                marks: vec![0; count],
+                stamp: 0,
+            },
             has_hosts,
             hosts: HostCount::new(&structure.groups),
             freed: Vec::new(),
             heap,
             withheld,
             order: Vec::with_capacity(count),
-            remaining_weight: weights.iter().sum(),
-            weights,
-            outside: vec![0; count],
-            outside_stamps: vec![0; count],
-            marks: vec![0; count],
-            stamp: 0,
+            remaining_weight,
         }
     }
 
     fn run(&mut self) {
         while let Some(Reverse((degree, _, variable))) = self.heap.pop() {
             let index = variable as usize;
-            if self.states[index] == State::Variable && self.degrees[index] == degree {
+            if self.graph.states[index] == State::Variable && self.graph.degrees[index] == degree {
                 self.eliminate(index);
                 self.eliminate_freed();
             }
@@ -155,7 +171,7 @@ impl Elimination {
             let mut freed = std::mem::take(&mut self.freed);
             freed.sort_unstable();
             for variable in freed {
-                match self.states[variable as usize] {
+                match self.graph.states[variable as usize] {
                     State::Variable => self.eliminate(variable as usize),
                     State::Withheld => self.place(variable as usize),
                     State::Merged | State::Element | State::Absorbed => {}
@@ -168,17 +184,17 @@ impl Elimination {
     fn place(&mut self, variable: usize) {
         self.order.push(variable);
         self.hosts.place(variable, &mut self.freed);
-        for follower in std::mem::take(&mut self.followers[variable]) {
+        for follower in std::mem::take(&mut self.graph.followers[variable]) {
             self.place(follower as usize);
         }
     }
 
     fn eliminate(&mut self, pivot: usize) {
         let mut boundary = self.take_boundary(pivot);
-        self.states[pivot] = State::Element;
-        self.remaining_weight -= self.weights[pivot];
+        self.graph.states[pivot] = State::Element;
+        self.remaining_weight -= self.graph.weights[pivot];
         self.place(pivot);
-        let mut weight: u64 = boundary.iter().map(|&member| self.weights[member as usize]).sum();
+        let mut weight: u64 = boundary.iter().map(|&member| self.graph.weights[member as usize]).sum();
 
         self.weigh_elements_outside(&boundary);
         for &member in &boundary {
@@ -187,75 +203,83 @@ impl Elimination {
         // Members that are coupled only with the new element are eliminated with it, without fill.
         for &member in &boundary {
             let index = member as usize;
-            if self.variables[index].is_empty()
-                && self.elements[index].len() == 1
+            if self.graph.variables[index].is_empty()
+                && self.graph.elements[index].len() == 1
                 && self.hosts.is_free(index)
             {
-                self.states[index] = State::Absorbed;
-                self.remaining_weight -= self.weights[index];
-                weight -= self.weights[index];
-                self.elements[index].clear();
+                self.graph.states[index] = State::Absorbed;
+                self.remaining_weight -= self.graph.weights[index];
+                weight -= self.graph.weights[index];
+                self.graph.elements[index].clear();
                 self.place(index);
             }
         }
-        boundary.retain(|&member| self.states[member as usize] == State::Variable);
+        boundary.retain(|&member| self.graph.states[member as usize] == State::Variable);
         self.merge_indistinguishable(&mut boundary);
         for &member in &boundary {
             self.update_degree(member as usize, weight);
         }
-        self.degrees[pivot] = weight;
-        self.members[pivot] = boundary;
+        self.graph.degrees[pivot] = weight;
+        self.graph.members[pivot] = boundary;
     }
 
     /// All couplings of the pivot; the elements of which it was a member are absorbed.
     fn take_boundary(&mut self, pivot: usize) -> Vec<u32> {
-        self.stamp += 1;
-        self.marks[pivot] = self.stamp;
+        self.marked.stamp += 1;
+        self.marked.marks[pivot] = self.marked.stamp;
         let mut boundary = Vec::new();
         let mut collect = |list: &[u32], states: &[State], marks: &mut [u64]| {
             for &member in list {
                 let index = member as usize;
-                if states[index] == State::Variable && marks[index] != self.stamp {
-                    marks[index] = self.stamp;
+                if states[index] == State::Variable && marks[index] != self.marked.stamp {
+                    marks[index] = self.marked.stamp;
                     boundary.push(member);
                 }
             }
         };
-        for element in std::mem::take(&mut self.elements[pivot]) {
+        for element in std::mem::take(&mut self.graph.elements[pivot]) {
             let index = element as usize;
-            if self.states[index] == State::Element {
-                self.states[index] = State::Absorbed;
-                collect(&std::mem::take(&mut self.members[index]), &self.states, &mut self.marks);
+            if self.graph.states[index] == State::Element {
+                self.graph.states[index] = State::Absorbed;
+                collect(
+                    &std::mem::take(&mut self.graph.members[index]),
+                    &self.graph.states,
+                    &mut self.marked.marks,
+                );
             }
         }
-        collect(&std::mem::take(&mut self.variables[pivot]), &self.states, &mut self.marks);
+        collect(
+            &std::mem::take(&mut self.graph.variables[pivot]),
+            &self.graph.states,
+            &mut self.marked.marks,
+        );
         boundary
     }
 
     /// `|L_e \ L_p|` for every element that touches the boundary (Amestoy, Davis, Duff 1996, algorithm 2).
     fn weigh_elements_outside(&mut self, boundary: &[u32]) {
         for &member in boundary {
-            let weight = self.weights[member as usize];
-            for &element in &self.elements[member as usize] {
+            let weight = self.graph.weights[member as usize];
+            for &element in &self.graph.elements[member as usize] {
                 let index = element as usize;
-                if self.states[index] != State::Element {
+                if self.graph.states[index] != State::Element {
                     continue;
                 }
-                if self.outside_stamps[index] != self.stamp {
-                    self.outside_stamps[index] = self.stamp;
-                    self.outside[index] = self.degrees[index];
+                if self.marked.outside_stamps[index] != self.marked.stamp {
+                    self.marked.outside_stamps[index] = self.marked.stamp;
+                    self.marked.outside[index] = self.graph.degrees[index];
                 }
-                self.outside[index] -= weight;
+                self.marked.outside[index] -= weight;
             }
         }
     }
 
     /// Removes the couplings that the new element covers from the lists of a member, and adds the element.
     fn update_lists(&mut self, member: usize, pivot: u32) {
-        let (states, marks, stamp) = (&mut self.states, &self.marks, self.stamp);
-        let outside = &self.outside;
-        let absorbed = &mut self.members;
-        self.elements[member].retain(|&element| {
+        let (states, marks, stamp) = (&mut self.graph.states, &self.marked.marks, self.marked.stamp);
+        let outside = &self.marked.outside;
+        let absorbed = &mut self.graph.members;
+        self.graph.elements[member].retain(|&element| {
             let index = element as usize;
             if states[index] == State::Element && outside[index] == 0 {
                 // Aggressive absorption: all its members are in the new element.
@@ -264,23 +288,26 @@ impl Elimination {
             }
             states[index] == State::Element
         });
-        self.variables[member]
+        self.graph.variables[member]
             .retain(|&other| states[other as usize] == State::Variable && marks[other as usize] != stamp);
-        self.elements[member].push(pivot);
+        self.graph.elements[member].push(pivot);
     }
 
     fn update_degree(&mut self, member: usize, boundary_weight: u64) {
-        let own = self.weights[member];
-        let (newest, older) = self.elements[member].split_last().expect("the new element has been added");
-        debug_assert!(self.states[*newest as usize] == State::Element);
-        let outside: u64 = older.iter().map(|&element| self.outside[element as usize]).sum();
-        let direct: u64 = self.variables[member].iter().map(|&other| self.weights[other as usize]).sum();
+        let own = self.graph.weights[member];
+        let (newest, older) =
+            self.graph.elements[member].split_last().expect("the new element has been added");
+        debug_assert!(self.graph.states[*newest as usize] == State::Element);
+        let outside: u64 = older.iter().map(|&element| self.marked.outside[element as usize]).sum();
+        let direct: u64 =
+            self.graph.variables[member].iter().map(|&other| self.graph.weights[other as usize]).sum();
         let inside = boundary_weight - own;
-        let degree =
-            (outside + direct + inside).min(self.degrees[member] + inside).min(self.remaining_weight - own);
-        self.degrees[member] = degree;
+        let degree = (outside + direct + inside)
+            .min(self.graph.degrees[member] + inside)
+            .min(self.remaining_weight - own);
+        self.graph.degrees[member] = degree;
         if !self.has_hosts[member] {
-            self.heap.push(Reverse((degree, self.stamp, member as u32)));
+            self.heap.push(Reverse((degree, self.marked.stamp, member as u32)));
         }
     }
 
@@ -297,12 +324,12 @@ impl Elimination {
             let end = begin + hashed[begin..].partition_point(|&(hash, _)| hash == hashed[begin].0);
             for first in begin..end {
                 let leader = hashed[first].1 as usize;
-                if self.states[leader] != State::Variable || first + 1 == end {
+                if self.graph.states[leader] != State::Variable || first + 1 == end {
                     continue;
                 }
                 self.mark_lists(leader);
                 for &(_, candidate) in &hashed[first + 1..end] {
-                    if self.states[candidate as usize] == State::Variable
+                    if self.graph.states[candidate as usize] == State::Variable
                         && self.has_marked_lists(candidate as usize, leader)
                     {
                         self.merge(leader, candidate);
@@ -311,39 +338,39 @@ impl Elimination {
             }
             begin = end;
         }
-        boundary.retain(|&member| self.states[member as usize] == State::Variable);
+        boundary.retain(|&member| self.graph.states[member as usize] == State::Variable);
     }
 
     fn hash(&self, member: usize) -> u64 {
-        let lists = self.variables[member].iter().chain(&self.elements[member]);
+        let lists = self.graph.variables[member].iter().chain(&self.graph.elements[member]);
         lists.fold(0_u64, |sum, &item| {
             sum.wrapping_add((u64::from(item) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15))
         })
     }
 
     fn mark_lists(&mut self, leader: usize) {
-        self.stamp += 1;
-        for &item in self.variables[leader].iter().chain(&self.elements[leader]) {
-            self.marks[item as usize] = self.stamp;
+        self.marked.stamp += 1;
+        for &item in self.graph.variables[leader].iter().chain(&self.graph.elements[leader]) {
+            self.marked.marks[item as usize] = self.marked.stamp;
         }
     }
 
     fn has_marked_lists(&self, candidate: usize, leader: usize) -> bool {
-        self.variables[candidate].len() == self.variables[leader].len()
-            && self.elements[candidate].len() == self.elements[leader].len()
-            && self.variables[candidate]
+        self.graph.variables[candidate].len() == self.graph.variables[leader].len()
+            && self.graph.elements[candidate].len() == self.graph.elements[leader].len()
+            && self.graph.variables[candidate]
                 .iter()
-                .chain(&self.elements[candidate])
-                .all(|&item| self.marks[item as usize] == self.stamp)
+                .chain(&self.graph.elements[candidate])
+                .all(|&item| self.marked.marks[item as usize] == self.marked.stamp)
     }
 
     fn merge(&mut self, leader: usize, follower: u32) {
         let index = follower as usize;
-        self.states[index] = State::Merged;
-        self.weights[leader] += self.weights[index];
-        self.degrees[leader] = self.degrees[leader].saturating_sub(self.weights[index]);
-        self.followers[leader].push(follower);
-        self.variables[index] = Vec::new();
-        self.elements[index] = Vec::new();
+        self.graph.states[index] = State::Merged;
+        self.graph.weights[leader] += self.graph.weights[index];
+        self.graph.degrees[leader] = self.graph.degrees[leader].saturating_sub(self.graph.weights[index]);
+        self.graph.followers[leader].push(follower);
+        self.graph.variables[index] = Vec::new();
+        self.graph.elements[index] = Vec::new();
     }
 }

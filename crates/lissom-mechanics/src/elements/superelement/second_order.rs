@@ -100,10 +100,8 @@ impl SecondOrder {
 #[derive(Default)]
 pub(super) struct Deformed {
     relatives: Vec<Option<Relative>>,
-    /// y, ẏ, ÿ.
-    place: DVector<f64>,
-    rate: DVector<f64>,
-    second: DVector<f64>,
+    shape: Shape,
+    frame: FloatingFrame,
     /// G + S y, S ẏ.
     moment: [DVector<f64>; 3],
     moment_rate: [DVector<f64>; 3],
@@ -117,36 +115,60 @@ pub(super) struct Deformed {
     /// Force dual to y.
     force: DVector<f64>,
     room: DVector<f64>,
+    maps: Maps,
+    product: DMatrix<f64>,
+    rows: DMatrix<f64>,
+}
+
+/// y, ẏ, ÿ.
+#[derive(Default)]
+struct Shape {
+    place: DVector<f64>,
+    rate: DVector<f64>,
+    second: DVector<f64>,
+}
+
+/// Motion of the floating frame, in its axes.
+#[derive(Default)]
+struct FloatingFrame {
     velocity: Vector3,
     spin: Vector3,
     spin_rate: Vector3,
     gravity: Vector3,
     /// a.
     against: Vector3,
-    /// Maps of the unknowns to y, of positions to ẏ, and of positions and twists to ÿ.
+}
+
+/// Maps of the unknowns to y, of positions to ẏ, and of positions and twists to ÿ.
+#[derive(Default)]
+struct Maps {
     gradient: Map,
     rate_by_place: Map,
     second_by_place: Map,
     second_by_twist: Map,
-    product: DMatrix<f64>,
-    rows: DMatrix<f64>,
 }
 
 impl Deformed {
     /// Evaluates the motion `at`.
     fn enter(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics) {
         let (size, nodes) = (of.size(), of.nodes.len());
-        for vector in [&mut self.place, &mut self.rate, &mut self.second, &mut self.force, &mut self.room] {
+        for vector in [
+            &mut self.shape.place,
+            &mut self.shape.rate,
+            &mut self.shape.second,
+            &mut self.force,
+            &mut self.room,
+        ] {
             resize(vector, size);
             vector.fill(0.0);
         }
         let base = &at.nodes[of.nodes[of.frame]];
-        self.velocity = translation_part(&base.twist);
-        self.spin = rotation_part(&base.twist);
-        self.spin_rate = rotation_part(&base.acceleration);
-        self.gravity = base.frame.rotation.apply_inverse(&of.gravity.at(at.time));
+        self.frame.velocity = translation_part(&base.twist);
+        self.frame.spin = rotation_part(&base.twist);
+        self.frame.spin_rate = rotation_part(&base.acceleration);
+        self.frame.gravity = base.frame.rotation.apply_inverse(&of.gravity.at(at.time));
         let own = translation_part(&base.acceleration);
-        self.against = own + self.spin.cross(&self.velocity) - self.gravity;
+        self.frame.against = own + self.frame.spin.cross(&self.frame.velocity) - self.frame.gravity;
         self.relatives.clear();
         for i in 0..nodes {
             let relative = Relative::of(of, i, at);
@@ -154,37 +176,37 @@ impl Deformed {
                 let (rate, second) = (seen.rate(), seen.second());
                 let shift = seen.arm - of.places[i];
                 for k in 0..3 {
-                    self.place[6 * i + k] = shift[k];
-                    self.place[6 * i + 3 + k] = seen.axis[k];
+                    self.shape.place[6 * i + k] = shift[k];
+                    self.shape.place[6 * i + 3 + k] = seen.axis[k];
                 }
                 for k in 0..6 {
-                    self.rate[6 * i + k] = rate[k];
-                    self.second[6 * i + k] = second[k];
+                    self.shape.rate[6 * i + k] = rate[k];
+                    self.shape.second[6 * i + k] = second[k];
                 }
             }
             self.relatives.push(relative);
         }
         for (k, &coordinate) in of.coordinates.iter().enumerate() {
             let (row, motion) = (6 * nodes + k, &at.coordinates[coordinate]);
-            self.place[row] = motion.value;
-            self.rate[row] = motion.rate;
-            self.second[row] = motion.acceleration;
+            self.shape.place[row] = motion.value;
+            self.shape.rate[row] = motion.rate;
+            self.shape.second[row] = motion.acceleration;
         }
         self.fill(of, law);
     }
 
     fn fill(&mut self, of: &Part, law: &SecondOrder) {
         for k in 0..3 {
-            times(&law.moment[k], &self.place, &mut self.moment[k]);
+            times(&law.moment[k], &self.shape.place, &mut self.moment[k]);
             self.moment[k] += &law.moment_slope[k];
-            times(&law.moment[k], &self.rate, &mut self.moment_rate[k]);
+            times(&law.moment[k], &self.shape.rate, &mut self.moment_rate[k]);
         }
         let at = PartMotion {
-            displacement: &self.place,
-            rate: &self.rate,
-            second: &self.second,
-            spin: self.spin,
-            spin_rate: self.spin_rate,
+            displacement: &self.shape.place,
+            rate: &self.shape.rate,
+            second: &self.shape.second,
+            spin: self.frame.spin,
+            spin_rate: self.frame.spin_rate,
         };
         for (own, law) in self.turning.iter_mut().zip(&law.turning) {
             own.enter(law, &at);
@@ -192,10 +214,10 @@ impl Deformed {
         self.shortening.resize_with(law.shortening.len(), DVector::default);
         self.shorter.clear();
         self.pull.clear();
-        times(&of.stiffness, &self.place, &mut self.room);
+        times(&of.stiffness, &self.shape.place, &mut self.room);
         for (own, product) in law.shortening.iter().zip(&mut self.shortening) {
-            times(&own.matrix, &self.place, product);
-            let shorter = 0.5 * product.dot(&self.place);
+            times(&own.matrix, &self.shape.place, product);
+            let shorter = 0.5 * product.dot(&self.shape.place);
             self.shorter.push(shorter);
             self.room.axpy(shorter, &own.pulled, 1.0);
         }
@@ -206,19 +228,21 @@ impl Deformed {
 
     /// s, ṡ.
     fn first_moment(&self, law: &SecondOrder) -> [Vector3; 2] {
-        let half = |k: usize| 0.5 * (self.moment[k].dot(&self.place) + law.moment_slope[k].dot(&self.place));
+        let half = |k: usize| {
+            0.5 * (self.moment[k].dot(&self.shape.place) + law.moment_slope[k].dot(&self.shape.place))
+        };
         [
             law.first_moment + Vector3::from_fn(|k, _| half(k)),
-            Vector3::from_fn(|k, _| self.moment[k].dot(&self.rate)),
+            Vector3::from_fn(|k, _| self.moment[k].dot(&self.shape.rate)),
         ]
     }
 
     /// Stores the force dual to y in `force`.
     fn fill_force(&mut self, law: &SecondOrder) {
         let force = &mut self.force;
-        force.gemv(1.0, &law.mass, &self.second, 0.0);
+        force.gemv(1.0, &law.mass, &self.shape.second, 0.0);
         for k in 0..3 {
-            force.axpy(self.against[k], &self.moment[k], 1.0);
+            force.axpy(self.frame.against[k], &self.moment[k], 1.0);
         }
         for (own, law) in self.turning.iter().zip(&law.turning) {
             own.add_dual(law, force);
@@ -234,12 +258,16 @@ impl Deformed {
         self.enter(of, law, at);
         self.fill_force(law);
         let [s, rate] = self.first_moment(law);
-        let second =
-            Vector3::from_fn(|k, _| self.moment_rate[k].dot(&self.rate) + self.moment[k].dot(&self.second));
-        let (w, dw) = (self.spin, self.spin_rate);
-        let force =
-            of.total * self.against + second + dw.cross(&s) + 2.0 * w.cross(&rate) + w.cross(&w.cross(&s));
-        let moment = s.cross(&self.against) + self.turning[0].moment() + self.turning[1].moment();
+        let second = Vector3::from_fn(|k, _| {
+            self.moment_rate[k].dot(&self.shape.rate) + self.moment[k].dot(&self.shape.second)
+        });
+        let (w, dw) = (self.frame.spin, self.frame.spin_rate);
+        let force = of.total * self.frame.against
+            + second
+            + dw.cross(&s)
+            + 2.0 * w.cross(&rate)
+            + w.cross(&w.cross(&s));
+        let moment = s.cross(&self.frame.against) + self.turning[0].moment() + self.turning[1].moment();
         add(out, 6 * of.frame, &force);
         add(out, 6 * of.frame + 3, &moment);
         self.add_dual(of, out);
@@ -266,12 +294,12 @@ impl Deformed {
     pub(super) fn energy(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics) -> Energy {
         self.enter(of, law, at);
         let [s, rate] = self.first_moment(law);
-        self.room.gemv(1.0, &law.mass, &self.rate, 0.0);
-        let kinetic = 0.5 * of.total * self.velocity.norm_squared()
-            + self.velocity.dot(&(self.spin.cross(&s) + rate))
+        self.room.gemv(1.0, &law.mass, &self.shape.rate, 0.0);
+        let kinetic = 0.5 * of.total * self.frame.velocity.norm_squared()
+            + self.frame.velocity.dot(&(self.frame.spin.cross(&s) + rate))
             + self.turning[0].kinetic()
             + self.turning[1].kinetic()
-            + 0.5 * self.room.dot(&self.rate);
+            + 0.5 * self.room.dot(&self.shape.rate);
         // h·(K y + ½ K h), of h·(K y + K h).
         let mut strain = 0.0;
         for k in 0..law.shortening.len() {
@@ -286,18 +314,20 @@ impl Deformed {
     }
 
     fn fill_maps(&mut self, nodes: usize) {
-        self.gradient.begin(true);
-        for map in [&mut self.rate_by_place, &mut self.second_by_place, &mut self.second_by_twist] {
+        self.maps.gradient.begin(true);
+        for map in
+            [&mut self.maps.rate_by_place, &mut self.maps.second_by_place, &mut self.maps.second_by_twist]
+        {
             map.begin(false);
         }
         for i in 0..nodes {
             let Some(seen) = &self.relatives[i] else {
                 let none = Matrix6::zeros();
                 for map in [
-                    &mut self.gradient,
-                    &mut self.rate_by_place,
-                    &mut self.second_by_place,
-                    &mut self.second_by_twist,
+                    &mut self.maps.gradient,
+                    &mut self.maps.rate_by_place,
+                    &mut self.maps.second_by_place,
+                    &mut self.maps.second_by_twist,
                 ] {
                     map.push(&none, &none);
                 }
@@ -305,10 +335,12 @@ impl Deformed {
             };
             let own = seen.gradient();
             let slopes = seen.slopes();
-            self.gradient.push(&own, &(-own * seen.to_own));
-            self.rate_by_place.push(&slopes.rate_by_place, &(-slopes.rate_by_place * seen.to_own));
-            self.second_by_place.push(&slopes.second_by_place, &(-slopes.second_by_place * seen.to_own));
-            self.second_by_twist.push(&slopes.second_by_twist, &(slopes.second_by_carried * seen.to_own));
+            self.maps.gradient.push(&own, &(-own * seen.to_own));
+            self.maps.rate_by_place.push(&slopes.rate_by_place, &(-slopes.rate_by_place * seen.to_own));
+            self.maps.second_by_place.push(&slopes.second_by_place, &(-slopes.second_by_place * seen.to_own));
+            self.maps
+                .second_by_twist
+                .push(&slopes.second_by_twist, &(slopes.second_by_carried * seen.to_own));
         }
     }
 
@@ -338,9 +370,9 @@ impl Deformed {
                 among += part;
             }
         }
-        self.gradient.after(&among, of.frame, &mut self.product);
-        self.gradient.add_before(&self.product, of.frame, out);
-        self.gradient.after(&rows, of.frame, &mut self.product);
+        self.maps.gradient.after(&among, of.frame, &mut self.product);
+        self.maps.gradient.add_before(&self.product, of.frame, out);
+        self.maps.gradient.after(&rows, of.frame, &mut self.product);
         for row in 0..6 {
             for column in 0..size {
                 out[(frame + row) * size + column] += self.product[(row, column)];
@@ -364,11 +396,11 @@ impl Deformed {
         self.fill_force(law);
         self.add_mass_entered(of, law, &mut out.mass);
         let at = PartMotion {
-            displacement: &self.place,
-            rate: &self.rate,
-            second: &self.second,
-            spin: self.spin,
-            spin_rate: self.spin_rate,
+            displacement: &self.shape.place,
+            rate: &self.shape.rate,
+            second: &self.shape.second,
+            spin: self.frame.spin,
+            spin_rate: self.frame.spin_rate,
         };
         let mut turning = self.turning[0].slopes(&law.turning[0], &at);
         turning += self.turning[1].slopes(&law.turning[1], &at);
@@ -388,31 +420,31 @@ impl Deformed {
         by_place += &turning.dual[0];
         // With respect to a, which depends on the floating frame's pose and twist, and to ω.
         let moment = MatrixXx3::from_columns(&self.moment);
-        let turned = -(&moment * skew(&self.gravity));
-        let by_velocity = &moment * skew(&self.spin);
-        let by_spin = &turning.dual_by_spin - &moment * skew(&self.velocity);
-        self.gradient.after(&by_place, frame, &mut self.product);
-        self.rate_by_place.after(by_rate, frame, &mut self.rows);
+        let turned = -(&moment * skew(&self.frame.gravity));
+        let by_velocity = &moment * skew(&self.frame.spin);
+        let by_spin = &turning.dual_by_spin - &moment * skew(&self.frame.velocity);
+        self.maps.gradient.after(&by_place, frame, &mut self.product);
+        self.maps.rate_by_place.after(by_rate, frame, &mut self.rows);
         self.product += &self.rows;
         let mut by_second = law.mass.clone();
         if let Some(among) = &turning.among {
             by_second += among;
         }
-        self.second_by_place.after(&by_second, frame, &mut self.rows);
+        self.maps.second_by_place.after(&by_second, frame, &mut self.rows);
         self.product += &self.rows;
         {
             let mut view = self.product.columns_mut(6 * frame + 3, 3);
             view += &turned;
         }
-        self.gradient.add_before(&self.product, frame, &mut out.stiffness);
-        self.gradient.after(by_rate, frame, &mut by_place);
-        self.second_by_twist.after(&by_second, frame, &mut self.rows);
+        self.maps.gradient.add_before(&self.product, frame, &mut out.stiffness);
+        self.maps.gradient.after(by_rate, frame, &mut by_place);
+        self.maps.second_by_twist.after(&by_second, frame, &mut self.rows);
         by_place += &self.rows;
         for (first, columns) in [(0, &by_velocity), (3, &by_spin)] {
             let mut view = by_place.columns_mut(6 * frame + first, 3);
             view += columns;
         }
-        self.gradient.add_before(&by_place, frame, &mut out.damping);
+        self.maps.gradient.add_before(&by_place, frame, &mut out.damping);
     }
 
     /// Derivative of the force dual to y with respect to y, without that of rotation.
@@ -425,7 +457,7 @@ impl Deformed {
             }
         };
         for k in 0..3 {
-            add(self.against[k], &law.moment[k]);
+            add(self.frame.against[k], &law.moment[k]);
         }
         for (k, own) in law.shortening.iter().enumerate() {
             add(self.pull[k], &own.matrix);
@@ -446,18 +478,18 @@ impl Deformed {
     /// Adds the derivatives of force and moment on the floating frame with respect to positions and twists.
     fn add_on_frame(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
-        let (w, dw) = (self.spin, self.spin_rate);
+        let (w, dw) = (self.frame.spin, self.frame.spin_rate);
         let (turn, turn_rate) = (skew(&w), skew(&dw));
         let [s, rate] = self.first_moment(law);
         let lever = skew(&s);
         let moment = rows(&self.moment);
         let moment_rate = rows(&self.moment_rate);
-        let moment_second = rows(&law.moment.each_ref().map(|own| own * &self.second));
+        let moment_second = rows(&law.moment.each_ref().map(|own| own * &self.shape.second));
         let centrifugal = turn_rate + turn * turn;
         let force_by_place = moment_second + centrifugal * &moment + 2.0 * turn * &moment_rate;
         let force_by_rate = 2.0 * moment_rate + 2.0 * turn * &moment;
         let [moment_by_place, moment_by_rate, moment_by_second] = &turning.moment;
-        let moment_by_place = moment_by_place - skew(&self.against) * &moment;
+        let moment_by_place = moment_by_place - skew(&self.frame.against) * &moment;
         let stacked =
             |above: &Matrix3xX<f64>, below: &Matrix3xX<f64>| {
                 DMatrix::from_fn(6, size, |row, column| {
@@ -469,24 +501,24 @@ impl Deformed {
         let by_second = stacked(&moment, moment_by_second);
         let mut sum = DMatrix::zeros(6, size);
         for (map, matrix) in [
-            (&self.gradient, &by_place),
-            (&self.rate_by_place, &by_rate),
-            (&self.second_by_place, &by_second),
+            (&self.maps.gradient, &by_place),
+            (&self.maps.rate_by_place, &by_rate),
+            (&self.maps.second_by_place, &by_second),
         ] {
             map.after(matrix, of.frame, &mut self.rows);
             sum += &self.rows;
         }
-        add_three(&mut sum, (0, frame + 3), &-(of.total * skew(&self.gravity)));
-        add_three(&mut sum, (3, frame + 3), &-(lever * skew(&self.gravity)));
+        add_three(&mut sum, (0, frame + 3), &-(of.total * skew(&self.frame.gravity)));
+        add_three(&mut sum, (3, frame + 3), &-(lever * skew(&self.frame.gravity)));
         add_to(&mut out.stiffness, (frame, size), &sum);
         sum.fill(0.0);
-        for (map, matrix) in [(&self.gradient, &by_rate), (&self.second_by_twist, &by_second)] {
+        for (map, matrix) in [(&self.maps.gradient, &by_rate), (&self.maps.second_by_twist, &by_second)] {
             map.after(matrix, of.frame, &mut self.rows);
             sum += &self.rows;
         }
         let force_by_spin =
-            -of.total * skew(&self.velocity) - 2.0 * skew(&rate) - skew(&w.cross(&s)) - turn * lever;
-        let moment_by_spin = turning.moment_by_spin - lever * skew(&self.velocity);
+            -of.total * skew(&self.frame.velocity) - 2.0 * skew(&rate) - skew(&w.cross(&s)) - turn * lever;
+        let moment_by_spin = turning.moment_by_spin - lever * skew(&self.frame.velocity);
         add_three(&mut sum, (0, frame), &(of.total * turn));
         add_three(&mut sum, (0, frame + 3), &force_by_spin);
         add_three(&mut sum, (3, frame), &(lever * turn));
