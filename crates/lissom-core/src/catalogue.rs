@@ -4,7 +4,7 @@ use crate::assembly::AssemblyError;
 use crate::diagnostics::Entry;
 use crate::errors::Warning;
 use crate::errors::{InitialError, StepError, signal_failure};
-use crate::linear::{
+use crate::linearized::{
     BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
 };
 use crate::path::PathError;

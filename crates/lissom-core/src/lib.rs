@@ -21,7 +21,7 @@ pub mod errors;
 pub(crate) mod integrator;
 pub mod interrupt;
 pub(crate) mod judge;
-pub mod linear;
+pub mod linearized;
 pub(crate) mod monitors;
 pub mod newton;
 mod node_motion;

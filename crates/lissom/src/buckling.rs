@@ -5,7 +5,7 @@ use lissom_core::catalogued;
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::fmt::Write;
 
-use lissom_core::linear::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
+use lissom_core::linearized::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
 use lissom_core::number::Written;
 use lissom_core::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
 use lissom_model::Report;

@@ -1,7 +1,7 @@
 //! Equations of motion of a session in independent joint coordinates, for control: mass matrix, bias, inverse dynamics, Jacobians.
 
 use lissom_core::kinematics::{CoordinateId, Kinematics};
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::simulation::{Need, Recovery};
 use lissom_core::studies::joint_space::{JointMotion, JointSpace};
 use lissom_core::system::{State, System};

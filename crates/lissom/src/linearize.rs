@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::kinematics::Quantity;
-use lissom_core::linear::{LinearModel, OutputDerivatives, StateSpace, StateSpaceError};
+use lissom_core::linearized::{LinearModel, OutputDerivatives, StateSpace, StateSpaceError};
 use lissom_model::Document;
 use lissom_model::output::{full_matrix, quoted, sparse_matrix};
 use serde::Deserialize;

@@ -1,7 +1,7 @@
 //! States about which a model is linearised: the positions of the file, static equilibrium, an instant of a run.
 
 use lissom_core::errors::Warning;
-use lissom_core::linear::{LinearModel, steady};
+use lissom_core::linearized::{LinearModel, steady};
 use lissom_core::settings::Settings;
 use lissom_core::simulation::equilibrium::at_rest;
 use lissom_core::system::{State, System};

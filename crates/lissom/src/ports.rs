@@ -1,7 +1,7 @@
 //! Inputs and outputs of a linear model, by the names of the model file.
 
 use lissom_core::diagnostics::Diagnose;
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::{Argument, HeldId};
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower};

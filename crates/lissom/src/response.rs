@@ -5,7 +5,7 @@ use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use lissom_core::linear::{FrequencyResponse, LinearModel, Mode, ModeKind, ModeOptions, ResponseError};
+use lissom_core::linearized::{FrequencyResponse, LinearModel, Mode, ModeKind, ModeOptions, ResponseError};
 use lissom_core::number::Written;
 use lissom_model::output::{BodePlot, Column, FigureError, Graphic, quoted};
 use lissom_model::{Document, Report};

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use lissom::Model;
 use lissom::buckling::{BucklingReport, BucklingRunError, buckling};
-use lissom_core::linear::Completeness;
+use lissom_core::linearized::Completeness;
 
 /// A clamped column of unit length under a load along its axis.
 fn column(load: &str) -> String {

@@ -9,7 +9,7 @@ use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session};
 use lissom_core::errors::Warning;
-use lissom_core::linear::Completeness;
+use lissom_core::linearized::Completeness;
 use lissom_model::output::Summary;
 
 const SPAN: f64 = 100.0;

@@ -371,7 +371,7 @@ fn a_three_bladed_rotor_decays_with_the_frequencies_of_its_diagram() {
     // together, which turns the hub as well.
     for (component, index) in [("z", 2), ("y", 1)] {
         let signal = &record.column("tip", component).unwrap()[from..];
-        let own = |mode: &&lissom_core::linear::Mode| {
+        let own = |mode: &&lissom_core::linearized::Mode| {
             let at = found.modes.iter().position(|known| known.eigenvalue == mode.eigenvalue).unwrap();
             let tip = found.shapes[at].iter().find(|shape| shape.node == "blade0.end").unwrap();
             let sizes = tip.displacement.map(num_complex::Complex64::norm);

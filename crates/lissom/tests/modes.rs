@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use lissom::Model;
 use lissom::modes::{ModeReport, ModeRequest, ModesError, OperatingPoint, modes};
-use lissom_core::linear::{Completeness, ModeKind};
+use lissom_core::linearized::{Completeness, ModeKind};
 
 fn find(text: &str, about: OperatingPoint, count: usize) -> ModeReport {
     try_find(text, about, count).unwrap_or_else(|error| panic!("{error}"))

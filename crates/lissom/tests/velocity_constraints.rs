@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use lissom::Model;
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::response::{ResponseRequest, response};
-use lissom_core::linear::{Completeness, ModeKind};
+use lissom_core::linearized::{Completeness, ModeKind};
 
 const GRAVITY: f64 = 9.81;
 
@@ -152,7 +152,7 @@ fn a_rolling_disc_falls_below_its_critical_speed() {
     for spin in [8.0, 4.5, 3.0] {
         let square: f64 = 2.4 * spin * spin - 0.8 * GRAVITY / 0.2;
         let report = find(&disc(spin), 6);
-        let sought = |mode: &&lissom_core::linear::Mode| {
+        let sought = |mode: &&lissom_core::linearized::Mode| {
             (mode.eigenvalue.powi(2).re + square).abs() < 1e-5 * square.abs()
         };
         let found = report.modes.iter().find(sought);

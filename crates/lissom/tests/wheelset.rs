@@ -3,7 +3,7 @@
 
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, SessionError};
-use lissom_core::linear::ModeKind;
+use lissom_core::linearized::ModeKind;
 
 const MODEL: &str = include_str!("../../../verification/wheelset/model.toml");
 
@@ -251,7 +251,7 @@ fn steady(set: &[(&str, &str)]) -> ModeReport {
 /// Wavelength of the hunting mode [m], that of lateral position and yaw together, and its damping ratio: the other oscillation is that
 /// along the track, which is hardly damped.
 fn hunting(speed: f64, report: &ModeReport) -> (f64, f64) {
-    let is_hunting = |mode: &&lissom_core::linear::Mode| {
+    let is_hunting = |mode: &&lissom_core::linearized::Mode| {
         matches!(mode.kind, ModeKind::Oscillation | ModeKind::Flutter) && mode.damping.abs() < 0.5
     };
     let mode =

@@ -246,7 +246,7 @@ pub(crate) mod tests {
     use crate::assembly::{AssemblyError, Gap};
     use crate::errors::Warning;
     use crate::errors::{InitialError, StepError};
-    use crate::linear::{
+    use crate::linearized::{
         BucklingError, LinearError, ModeError, ReductionError, ResponseError, StateSpaceError, SteadyError,
     };
     use crate::path::PathError;

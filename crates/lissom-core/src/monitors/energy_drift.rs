@@ -17,7 +17,7 @@ use crate::bytes::{from_bytes, to_bytes};
 use crate::errors::{Warning, report};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::kinematics::Kinematics;
-use crate::linear::LinearModel;
+use crate::linearized::LinearModel;
 use crate::settings::Problem;
 use crate::system::State;
 

@@ -5,7 +5,7 @@ use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::errors::Warning;
 use crate::errors::warn;
-use crate::linear::LinearModel;
+use crate::linearized::LinearModel;
 use crate::settings::Problem;
 use crate::system::State;
 

@@ -9,7 +9,7 @@ use lissom_solver::SolverKind;
 use super::relaxation::{may_help, relax};
 use crate::errors::InitialError;
 use crate::errors::Warning;
-use crate::linear::LinearModel;
+use crate::linearized::LinearModel;
 use crate::schemes::statics;
 use crate::settings::Settings;
 use crate::simulation::Simulation;

@@ -2,7 +2,7 @@
 
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{Quantity, Subject};
-use lissom_core::linear::{LinearModel, steady};
+use lissom_core::linearized::{LinearModel, steady};
 use lissom_core::settings::Settings;
 use lissom_core::system::{Drive, State, System};
 

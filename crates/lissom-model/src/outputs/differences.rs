@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::ops::Bound;
 
 use lissom_core::kinematics::{CoordinateId, GROUND, LOCKED, NodeId};
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 

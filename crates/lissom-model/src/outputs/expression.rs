@@ -1,6 +1,6 @@
 //! Expressions of components of other outputs.
 
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::SignalFunction;
 
 use super::derivatives::add_scaled;

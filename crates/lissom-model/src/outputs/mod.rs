@@ -30,7 +30,7 @@ use std::sync::Arc;
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::{Component, Measurement};
 use lissom_core::simulation::accumulated::Accumulated;

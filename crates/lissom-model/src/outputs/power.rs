@@ -3,7 +3,7 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::Measurement;
 use lissom_core::system::element_quantity::Of;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::kinematics::{CoordinateId, Kinematics, LOCKED, NodeId, Quantity, USUAL_UNKNOWNS};
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 use nalgebra::{DMatrix, DVector, RowDVector};
 

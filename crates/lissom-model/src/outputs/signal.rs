@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::kinematics::Kinematics;
-use lissom_core::linear::OutputDerivatives;
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::system::System;
 

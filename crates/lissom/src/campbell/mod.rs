@@ -8,7 +8,7 @@ use std::str::FromStr;
 
 use lissom_core::catalogued;
 use lissom_core::diagnostics::Diagnose;
-use lissom_core::linear::{Mode, ModeKind, ModeOptions, Whirl};
+use lissom_core::linearized::{Mode, ModeKind, ModeOptions, Whirl};
 use lissom_model::Report;
 use serde::Deserialize;
 

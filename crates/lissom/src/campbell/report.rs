@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
-use lissom_core::linear::Mode;
+use lissom_core::linearized::Mode;
 use lissom_core::number::Written;
 use lissom_model::lower::registry::registry;
 use lissom_model::output::{FigureError, Graphic};

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Kinematics;
-use lissom_core::linear::{
+use lissom_core::linearized::{
     Completeness, Departure, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind,
     ModeOptions, Modes, NodeShape, SteadyError,
 };

@@ -6,7 +6,7 @@ use std::io;
 
 use lissom_core::diagnostics::{Diagnose, Diagnostic};
 use lissom_core::kinematics::Kinematics;
-use lissom_core::linear::{Completeness, Mode, ModeKind, NodeShape};
+use lissom_core::linearized::{Completeness, Mode, ModeKind, NodeShape};
 use lissom_core::number::{DIGITS, written};
 use lissom_model::Document;
 use lissom_model::files::FileError;

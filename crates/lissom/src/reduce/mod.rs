@@ -10,7 +10,7 @@ use std::path::Path;
 
 use lissom_core::elements::superelement::ReducedMatrices;
 use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
-use lissom_core::linear::{Assembly, ReductionError};
+use lissom_core::linearized::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_model::Document;
 use lissom_model::document::{Attachment, Component, NodeReference};

@@ -84,7 +84,7 @@ fn every_mode_is_found_beside_one_that_grows() {
     ];
     assert_eq!(report.modes.len(), expected.len());
     for (re, im) in expected {
-        let is_there = |mode: &lissom_core::linear::Mode| {
+        let is_there = |mode: &lissom_core::linearized::Mode| {
             (mode.eigenvalue.re - re).hypot(mode.eigenvalue.im - im) < 2e-3 * f64::hypot(re, im)
         };
         assert!(report.modes.iter().any(is_there), "{re} + {im}i of {:?}", report.csv());
@@ -107,8 +107,9 @@ fn all_modes_of_chains_are_found_whatever_their_stiffness_and_damping() {
         assert_eq!(report.modes.len(), exact.len(), "{stiffness:?}, {damping:?}: {} {exact:?}", report.csv());
         let largest = exact.iter().map(|value| value.0.hypot(value.1)).fold(0.0, f64::max);
         for (re, im) in exact {
-            let apart =
-                |mode: &lissom_core::linear::Mode| (mode.eigenvalue.re - re).hypot(mode.eigenvalue.im - im);
+            let apart = |mode: &lissom_core::linearized::Mode| {
+                (mode.eigenvalue.re - re).hypot(mode.eigenvalue.im - im)
+            };
             let least = report.modes.iter().map(apart).fold(f64::INFINITY, f64::min);
             assert!(least < 1e-6 * f64::hypot(re, im) + 1e-12 * largest, "{re} + {im}i: {}", report.csv());
         }

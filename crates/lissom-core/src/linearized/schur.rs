@@ -120,7 +120,7 @@ fn rotation(x: Complex64, y: Complex64) -> (f64, Complex64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::krylov::Noise;
+    use crate::linearized::krylov::Noise;
 
     fn check(matrix: &DMatrix<Complex64>) {
         let (q, t) = schur(matrix.clone()).expect("converges");
