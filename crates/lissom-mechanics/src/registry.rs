@@ -8,7 +8,7 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Vector3};
 use nalgebra::DMatrix;
 
-use crate::kinematics::{HeldId, Switch};
+use crate::kinematics::{DiscreteValueId, Switch};
 use crate::law::{Enclosure, Interval};
 use crate::relation::Relation;
 
@@ -329,7 +329,7 @@ pub enum Value {
     /// A square matrix of any size.
     SquareMatrix(DMatrix<f64>),
     /// An input, by its index among the held values.
-    Input(HeldId),
+    Input(DiscreteValueId),
 }
 
 /// The parameters given for one component, by name.
@@ -543,7 +543,7 @@ impl Parameters {
     ///
     /// # Errors
     /// If it is missing or not an input.
-    pub fn input(&self, name: &str) -> Result<HeldId, ParameterError> {
+    pub fn input(&self, name: &str) -> Result<DiscreteValueId, ParameterError> {
         match self.values.get(name) {
             Some(Value::Input(held)) => Ok(*held),
             other => Err(wrong(name, "the name of an input", other)),

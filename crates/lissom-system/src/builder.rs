@@ -38,7 +38,7 @@ use lissom_mechanics::kinematics::{
     NodeMotion, Quantity, Subject,
 };
 use lissom_mechanics::registry::{Function, ParameterError, Parameters};
-use lissom_mechanics::signals::{Graph, HeldId, SignalId};
+use lissom_mechanics::signals::{DiscreteValueId, Graph, SignalId};
 
 /// Why a system could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -82,7 +82,7 @@ pub struct Builder {
     coordinate_masses: Vec<CoordinateMass>,
     free_coordinates: Vec<CoordinateId>,
     /// Inputs that engage latches.
-    latches: Vec<HeldId>,
+    latches: Vec<DiscreteValueId>,
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,

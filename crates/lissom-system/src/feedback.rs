@@ -26,7 +26,7 @@ use lissom_mechanics::kinematics::{
 };
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::signals::measurement::{Component, Gradient};
-use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
+use lissom_mechanics::signals::{Argument, DiscreteValueId, Graph, SignalId};
 
 /// Target of a signal.
 pub enum Target {
@@ -236,7 +236,7 @@ impl Feedback {
     }
 
     /// Adds the derivative of the residual with respect to a held value.
-    fn add_input(&self, held: HeldId, at: &Kinematics, out: &mut [f64]) {
+    fn add_input(&self, held: DiscreteValueId, at: &Kinematics, out: &mut [f64]) {
         self.graph.evaluate(at, |values| {
             for driven in &self.driven {
                 let mut factor = 0.0;
@@ -281,7 +281,7 @@ impl Feedback {
 impl System {
     /// Derivative of the equations of motion and of states with respect to a held value, by row: the change of the
     /// left-hand sides for a unit of an input.
-    pub fn input_derivative(&self, held: HeldId, at: &Kinematics) -> Vec<f64> {
+    pub fn input_derivative(&self, held: DiscreteValueId, at: &Kinematics) -> Vec<f64> {
         let mut out = vec![0.0; self.layout.size()];
         self.feedback.add_input(held, at, &mut out);
         out

@@ -44,7 +44,7 @@ use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{
-    self, CoordinateId, HeldId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch,
+    self, CoordinateId, DiscreteValueId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch,
 };
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
@@ -67,7 +67,7 @@ pub struct System {
     /// Coordinates of no joint between nodes.
     pub free_coordinates: Vec<CoordinateId>,
     /// Inputs that engage latches.
-    pub latches: Vec<HeldId>,
+    pub latches: Vec<DiscreteValueId>,
     /// Functions of time of loads, springs and drives, with their description.
     pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::{State, System};
-use lissom_mechanics::kinematics::HeldId;
+use lissom_mechanics::kinematics::DiscreteValueId;
 
 /// A number that depends on the whole state.
 pub trait Quantity: Send + Sync {
@@ -16,7 +16,7 @@ pub trait Quantity: Send + Sync {
 #[derive(Clone)]
 pub struct Reading {
     /// The held value.
-    pub held: HeldId,
+    pub held: DiscreteValueId,
     /// The quantity.
     pub quantity: Arc<dyn Quantity>,
 }
@@ -33,7 +33,10 @@ impl System {
     }
 
     /// Held values and what they are at `state`.
-    pub fn take_readings<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (HeldId, f64)> + 'a {
+    pub fn take_readings<'a>(
+        &'a self,
+        state: &'a State,
+    ) -> impl Iterator<Item = (DiscreteValueId, f64)> + 'a {
         self.readings.iter().map(|reading| (reading.held, reading.quantity.value(self, state)))
     }
 }

@@ -2,7 +2,7 @@
 
 use lissom_core::diagnostics::Diagnose;
 use lissom_core::linearized::OutputDerivatives;
-use lissom_core::signals::{Argument, HeldId};
+use lissom_core::signals::{Argument, DiscreteValueId};
 use lissom_model::Document;
 use lissom_model::lower::{Lowered, lower};
 
@@ -55,7 +55,7 @@ pub(crate) struct Input {
     pub(crate) name: String,
     pub(crate) right: Vec<f64>,
     /// The held value of the input, for outputs that depend on it directly.
-    held: Option<HeldId>,
+    held: Option<DiscreteValueId>,
 }
 
 /// An output column, and its derivatives with respect to the unknowns.

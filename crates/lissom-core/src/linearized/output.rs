@@ -14,7 +14,7 @@ use num_complex::Complex64;
 
 use super::model::LinearModel;
 use crate::kinematics::{LOCKED, NodeId};
-use crate::signals::HeldId;
+use crate::signals::DiscreteValueId;
 
 /// Derivatives of a quantity by row; missing rows are zero.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,7 +28,7 @@ pub struct OutputDerivatives {
     /// With respect to multipliers; rows as in the layout, after those of the coordinates.
     pub by_multiplier: BTreeMap<usize, f64>,
     /// With respect to held values.
-    pub by_held: BTreeMap<HeldId, f64>,
+    pub by_held: BTreeMap<DiscreteValueId, f64>,
 }
 
 impl OutputDerivatives {

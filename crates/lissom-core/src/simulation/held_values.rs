@@ -7,7 +7,7 @@ use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertia
 use crate::diagnostics::diagnostics;
 use crate::elements::latch::holds;
 use crate::errors::InitialError;
-use crate::kinematics::{HeldId, Kinematics, LOCKED, Quantity, Subject};
+use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
 use crate::simulation::Simulation;
@@ -95,7 +95,7 @@ impl Simulation {
         inputs: impl IntoIterator<Item = (&'n str, f64)>,
     ) -> Result<(), InputError> {
         let graph = self.system.signals();
-        let mut changed: Vec<(HeldId, f64)> = Vec::new();
+        let mut changed: Vec<(DiscreteValueId, f64)> = Vec::new();
         for (name, value) in inputs {
             let Some(held) = graph.input(name) else {
                 let names: Vec<&str> = graph.input_names().collect();
@@ -136,7 +136,7 @@ impl Simulation {
 
     /// Whether a latch that was free engages with the held values of `at`.
     fn engages(&self, at: &Kinematics) -> bool {
-        let is_new = |input: &HeldId| {
+        let is_new = |input: &DiscreteValueId| {
             holds(at.held[input.index()]) && !holds(self.state.kinematics.held[input.index()])
         };
         self.system.latches.iter().any(is_new)
@@ -144,7 +144,7 @@ impl Simulation {
 
     /// Whether a latch engages or disengages with the held values of `at`.
     fn switches_latch(&self, at: &Kinematics) -> bool {
-        let is_other = |input: &HeldId| {
+        let is_other = |input: &DiscreteValueId| {
             holds(at.held[input.index()]) != holds(self.state.kinematics.held[input.index()])
         };
         self.system.latches.iter().any(is_other)

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use lissom_core::joints::evaluation_point::{Augmentation, Increments, Point};
-use lissom_core::kinematics::{CoordinateId, HeldId, Kinematics, LOCKED, Layout, MotionChange, NodeId};
+use lissom_core::kinematics::{
+    CoordinateId, DiscreteValueId, Kinematics, LOCKED, Layout, MotionChange, NodeId,
+};
 use lissom_core::registry::{
     Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
 };
@@ -143,7 +145,7 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
             ParameterType::FunctionOf(_) => Value::Function(Arc::new(Wave)),
-            ParameterType::Input => Value::Input(HeldId::new(0)),
+            ParameterType::Input => Value::Input(DiscreteValueId::new(0)),
             ParameterType::Equation => Value::Relation(Arc::new(Bent)),
             ParameterType::Choices(words) => {
                 let chosen = words.iter().filter(|_| random.number() > 0.0);

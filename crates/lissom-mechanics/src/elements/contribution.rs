@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use super::Element;
 use super::initial_model::{Coordinate, InitialModel, Node};
 use crate::evaluation::batch::AnyElement;
-use crate::kinematics::{CoordinateId, Freedoms, HeldId, NodeId, NodeMotion, Quantity};
+use crate::kinematics::{CoordinateId, DiscreteValueId, Freedoms, NodeId, NodeMotion, Quantity};
 
 /// A coordinate whose rate is the force of a velocity constraint.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub struct Contribution {
     /// New velocity constraints.
     pub impulses: Vec<Impulse>,
     /// Inputs that engage latches.
-    pub latches: Vec<HeldId>,
+    pub latches: Vec<DiscreteValueId>,
     /// Mass matrices of coordinates within its elements.
     pub coordinate_masses: Vec<CoordinateMass>,
     /// New elements.

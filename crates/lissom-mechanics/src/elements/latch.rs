@@ -12,7 +12,7 @@ use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -49,7 +49,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
 pub struct Latch {
     /// The joint's coordinate, and the impulse.
     coordinates: [CoordinateId; 2],
-    engaged: HeldId,
+    engaged: DiscreteValueId,
 }
 
 fn build(

@@ -39,7 +39,7 @@ ids! {
     /// Index of an algebraic coordinate, such as a revolute joint's relative rotation.
     CoordinateId
     /// Index of a held value: an input, or the last sample of a signal.
-    HeldId
+    DiscreteValueId
     /// Index of a signal.
     SignalId
     /// Index of a measurement.

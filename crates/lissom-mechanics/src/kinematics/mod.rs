@@ -15,7 +15,7 @@ pub mod work;
 
 pub use carried_frame::CarriedFrame;
 pub(crate) use ids::indexed_by;
-pub use ids::{CoordinateId, HeldId, MeasurementId, NodeId, SignalId};
+pub use ids::{CoordinateId, DiscreteValueId, MeasurementId, NodeId, SignalId};
 pub use layout::{Freedoms, LOCKED, Layout, MAX_NODES, USUAL_UNKNOWNS};
 pub use motion::split;
 pub use motion::{CoordinateMotion, GROUND, Kinematics, MotionChange, NodeMotion};

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Graph, HeldId, SignalId};
+use super::{DiscreteValueId, Graph, SignalId};
 use crate::kinematics::{Kinematics, Subject, Switch};
 
 /// Direction in which a signal crosses zero.
@@ -41,7 +41,7 @@ pub struct Event {
     /// Whether the run ends there.
     pub stops: bool,
     /// Held values that change there, and the signals that are assigned to them.
-    pub sets: Vec<(HeldId, SignalId)>,
+    pub sets: Vec<(DiscreteValueId, SignalId)>,
 }
 
 /// An event that happened.

@@ -27,7 +27,7 @@ use measurement::Component;
 
 pub use moving_frame::MovingFrame;
 
-pub use crate::kinematics::{HeldId, MeasurementId, SignalId};
+pub use crate::kinematics::{DiscreteValueId, MeasurementId, SignalId};
 
 /// Maximum number of arguments of a signal.
 pub const MAX_ARGUMENTS: usize = 64;
@@ -88,7 +88,7 @@ impl ScalarLaw for &(dyn SignalFunction + '_) {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
     /// A held value.
-    Held(HeldId),
+    Held(DiscreteValueId),
     /// An earlier signal.
     Signal(SignalId),
     /// A measurement.
@@ -99,7 +99,7 @@ pub enum Argument {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
     /// The held value that stores it.
-    pub held: HeldId,
+    pub held: DiscreteValueId,
     /// Sample period, from the start of the simulation [s].
     pub period: f64,
 }
@@ -120,7 +120,7 @@ pub struct Signal {
 }
 
 indexed_by! {
-    HeldId: (String, f64);
+    DiscreteValueId: (String, f64);
     SignalId: Signal;
     MeasurementId: Component;
 }
@@ -153,7 +153,7 @@ pub struct Graph {
     /// Names of the held values, and what they are at the start.
     pub held: Vec<(String, f64)>,
     /// Held values that are quantities of the state at samples.
-    pub readings: Vec<HeldId>,
+    pub readings: Vec<DiscreteValueId>,
     /// Events.
     pub events: Vec<event::Event>,
     /// Offsets of the sides of each signal's switches among the held values, after inputs and samples, and the end of
@@ -169,17 +169,17 @@ impl Graph {
 
     /// Names of the inputs: held values that are neither samples nor readings.
     pub fn input_names(&self) -> impl Iterator<Item = &str> {
-        let is_input = |&held: &HeldId| {
+        let is_input = |&held: &DiscreteValueId| {
             !self.readings.contains(&held)
                 && !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
         };
-        HeldId::first(self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
+        DiscreteValueId::first(self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
     }
 
     /// The input called `name`.
-    pub fn input(&self, name: &str) -> Option<HeldId> {
+    pub fn input(&self, name: &str) -> Option<DiscreteValueId> {
         let name = self.input_names().find(|known| *known == name)?;
-        self.held.iter().position(|(known, _)| known == name).map(HeldId::new)
+        self.held.iter().position(|(known, _)| known == name).map(DiscreteValueId::new)
     }
 
     /// The signal called `name`.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::HeldId;
+use lissom_core::kinematics::DiscreteValueId;
 use lissom_core::system::{Quantity, Reading, State, System};
 
 use crate::channel_components::component_position;
@@ -13,7 +13,7 @@ use crate::suggest;
 /// A reading that a signal names, before the channels exist.
 #[derive(Clone)]
 pub(super) struct NamedReading {
-    pub(super) held: HeldId,
+    pub(super) held: DiscreteValueId,
     pub(super) output: String,
     pub(super) component: String,
     /// Position and subject of the reference.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lissom_core::kinematics::{CoordinateId, Quantity, Subject};
 use lissom_core::signals::coordinate::{Coordinate, Of};
 use lissom_core::signals::event::Event;
-use lissom_core::signals::{Argument, HeldId, Sampling, Signal, SignalId};
+use lissom_core::signals::{Argument, DiscreteValueId, Sampling, Signal, SignalId};
 use lissom_core::system::Builder;
 
 use super::Names;
@@ -186,7 +186,7 @@ pub(super) struct Reader<'a> {
     /// Whether it is evaluated at samples alone.
     pub(super) is_sampled: bool,
     /// Name and last sample of a sampled signal.
-    pub(super) last_sample: Option<(&'a str, HeldId)>,
+    pub(super) last_sample: Option<(&'a str, DiscreteValueId)>,
 }
 
 /// An expression as a signal, and the straight line of time that it is.

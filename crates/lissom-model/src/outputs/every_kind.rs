@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use lissom_core::kinematics::{HeldId, LOCKED, NodeMotion};
+use lissom_core::kinematics::{DiscreteValueId, LOCKED, NodeMotion};
 use lissom_core::linearized::OutputDerivatives;
 use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
@@ -212,7 +212,7 @@ fn directions<'d>(system: &'d System, state: &'d State) -> Vec<Direction<'d>> {
         all.push((
             format!("held value {own}"),
             Box::new(move |state, change| state.kinematics.held[own] += change),
-            Box::new(move |of| of.by_held.get(&HeldId::new(own)).copied().unwrap_or(0.0)),
+            Box::new(move |of| of.by_held.get(&DiscreteValueId::new(own)).copied().unwrap_or(0.0)),
         ));
     }
     all

@@ -15,17 +15,17 @@ use lissom_mechanics::registry::ParameterError;
 use lissom_mechanics::signals::event::Event;
 use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of::Position};
 use lissom_mechanics::signals::measurement::{Component, Measurement};
-use lissom_mechanics::signals::{Argument, HeldId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
+use lissom_mechanics::signals::{Argument, DiscreteValueId, MAX_ARGUMENTS, MeasurementId, Signal, SignalId};
 
 impl Builder {
     /// Adds a held value, an input or the last sample of a signal, with its initial value.
-    pub fn add_held(&mut self, name: &str, start: f64) -> HeldId {
+    pub fn add_held(&mut self, name: &str, start: f64) -> DiscreteValueId {
         self.graph.held.push((name.to_owned(), start));
-        HeldId::new(self.graph.held.len() - 1)
+        DiscreteValueId::new(self.graph.held.len() - 1)
     }
 
     /// Adds a held value that has a quantity of the state at samples, see [`assign_readings`](crate::System::assign_readings).
-    pub fn add_reading(&mut self, name: &str) -> HeldId {
+    pub fn add_reading(&mut self, name: &str) -> DiscreteValueId {
         let held = self.add_held(name, 0.0);
         self.graph.readings.push(held);
         held
@@ -131,7 +131,7 @@ impl Builder {
     /// # Errors
     /// If it refers to signals or held values that do not exist.
     pub fn add_event(&mut self, event: Event) -> Result<(), ParameterError> {
-        let is_there = |&(held, signal): &(HeldId, SignalId)| {
+        let is_there = |&(held, signal): &(DiscreteValueId, SignalId)| {
             held.index() < self.graph.held.len() && signal.index() < self.graph.signals.len()
         };
         if event.root.index() >= self.graph.signals.len() || !event.sets.iter().all(is_there) {
