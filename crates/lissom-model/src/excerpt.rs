@@ -58,14 +58,14 @@ pub(crate) struct Painter<'a> {
 }
 
 /// Where a label is drawn: line, first column and count of columns, all from zero, as they are shown.
-struct Place<'a> {
+struct Underline<'a> {
     line: usize,
     first: usize,
     count: usize,
     words: &'a str,
 }
 
-impl Place<'_> {
+impl Underline<'_> {
     /// Position of the label below.
     fn middle(&self) -> usize {
         self.first + self.count / 2
@@ -95,7 +95,7 @@ impl Painter<'_> {
     /// Writes the lines around the labels.
     pub(crate) fn excerpt(&mut self, excerpt: &Excerpt<'_>) {
         let lines: Vec<&str> = excerpt.text.split('\n').collect();
-        let places: Vec<Place<'_>> =
+        let places: Vec<Underline<'_>> =
             excerpt.labels.iter().map(|label| place(excerpt.text, &lines, label)).collect();
         let (Some(first), Some(label)) = (places.first(), excerpt.labels.first()) else { return };
         let before = excerpt.text.get(..label.range.start).unwrap_or(excerpt.text);
@@ -117,7 +117,7 @@ impl Painter<'_> {
             let number = self.painted(&format!("{:>1$}", line + 1, margin - 1), "2");
             let text = lines[line].trim_end_matches('\r').replace('\t', TAB);
             self.line(&format!("{number} │ {text}"));
-            let mut here: Vec<&Place<'_>> = places.iter().filter(|place| place.line == line).collect();
+            let mut here: Vec<&Underline<'_>> = places.iter().filter(|place| place.line == line).collect();
             here.sort_by_key(|place| place.first);
             self.underline(&empty, &here);
         }
@@ -125,7 +125,7 @@ impl Painter<'_> {
     }
 
     /// Writes lines below the labels of a line, in order, and their words, the last first.
-    fn underline(&mut self, margin: &str, places: &[&Place<'_>]) {
+    fn underline(&mut self, margin: &str, places: &[&Underline<'_>]) {
         if places.is_empty() {
             return;
         }
@@ -139,7 +139,7 @@ impl Painter<'_> {
         }
         let painted = self.painted(&line.iter().collect::<String>(), "35;1");
         self.line(&format!("{margin}· {painted}"));
-        let worded: Vec<&&Place<'_>> = places.iter().filter(|place| !place.words.is_empty()).collect();
+        let worded: Vec<&&Underline<'_>> = places.iter().filter(|place| !place.words.is_empty()).collect();
         for (index, place) in worded.iter().enumerate().rev() {
             let mut line = vec![' '; place.middle()];
             for before in &worded[..index] {
@@ -164,7 +164,7 @@ impl Painter<'_> {
 }
 
 /// Position of a label. A range of several lines is underlined in the first one, an empty range as one character.
-fn place<'a>(text: &str, lines: &[&str], label: &Label<'a>) -> Place<'a> {
+fn place<'a>(text: &str, lines: &[&str], label: &Label<'a>) -> Underline<'a> {
     let before = text.get(..label.range.start).unwrap_or(text);
     let line = before.matches('\n').count();
     let within = before.len() - before.rfind('\n').map_or(0, |end| end + 1);
@@ -174,7 +174,7 @@ fn place<'a>(text: &str, lines: &[&str], label: &Label<'a>) -> Place<'a> {
     let end = (within + label.range.len()).min(whole.len());
     let first = whole.get(..within).map_or_else(|| columns(whole), columns);
     let count = whole.get(within..end).map_or(0, columns).max(1);
-    Place { line, first, count, words: label.words }
+    Underline { line, first, count, words: label.words }
 }
 
 /// Words in lines of at most so many columns; a longer word has a line of its own.

@@ -88,7 +88,7 @@ fn imports(text: &str) -> String {
                 "Matrix",
                 "Node",
                 "Part",
-                "Place",
+                "PositionOrNode",
                 "Quantity",
                 "SectionMass",
                 "Shear",
@@ -235,7 +235,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
             let mut known = FILES.iter().flat_map(|(_, _, tables)| *tables);
             return known.find(|(name, _)| name == table).map(|(_, id)| (*id).to_owned());
         }
-        Shape::PlaceOrNode => "Place",
+        Shape::PlaceOrNode => "PositionOrNode",
         Shape::Node => "Node",
         Shape::Curve | Shape::Distribution | Shape::SectionDistribution => "[Expression; 3]",
         Shape::Axes => "[[f64; 3]; 2]",
@@ -248,7 +248,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::SectionMass => "SectionMass",
         Shape::Shear => "Shear",
         Shape::Stations => "Vec<(f64, SectionId)>",
-        Shape::Places => "Vec<(Node, Place)>",
+        Shape::Places => "Vec<(Node, PositionOrNode)>",
         Shape::Interfaces => "Vec<(String, [f64; 3])>",
         Shape::Pair | Shape::Range => "[f64; 2]",
         Shape::Numbers => "Vec<f64>",

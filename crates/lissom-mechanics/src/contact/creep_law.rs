@@ -14,7 +14,7 @@
 //! 1991, it is the rail's direction rotated about the vertical by θ/cos δ instead. For s, ω and the arm to the contact are
 //! rotated likewise, and φ v_r = cos δ θ' - sin δ ω_a, θ yaw angle, δ contact angle.
 
-use super::wheel_on_rail::{Place, Pose, RailContact};
+use super::wheel_on_rail::{ContactPosition, Pose, RailContact};
 use crate::dual::{Number, Three, cross, dot, sum, times};
 
 /// Rolling velocity that is added to the actual one, as the hypotenuse, so that a wheel at rest has finite creepages [m/s].
@@ -57,7 +57,7 @@ impl CreepLaw {
     pub fn creep<T: Number>(
         &self,
         contact: &RailContact,
-        (pose, place): (&Pose<T>, &Place<T>),
+        (pose, place): (&Pose<T>, &ContactPosition<T>),
         twist: &[T; 6],
         normal_force: T,
     ) -> Creep<T> {

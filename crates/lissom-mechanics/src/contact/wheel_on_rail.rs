@@ -133,7 +133,7 @@ pub(crate) struct WheelPoint<T> {
 
 /// Position of contact on wheel and rail.
 #[derive(Clone, Copy, Debug)]
-pub struct Place<T> {
+pub struct ContactPosition<T> {
     /// ξ [m].
     pub along: T,
     /// u [m].
@@ -144,7 +144,7 @@ pub struct Place<T> {
 #[derive(Clone, Copy, Debug)]
 pub struct Found {
     /// The point of contact.
-    pub place: Place<f64>,
+    pub place: ContactPosition<f64>,
     pub(crate) is_common_normal: bool,
 }
 
@@ -178,7 +178,7 @@ impl RailContact {
     }
 
     /// n·t and (P - Q)·t, in that order, and the gap.
-    fn equations<T: Number>(&self, pose: &Pose<T>, place: &Place<T>) -> ([T; 2], T) {
+    fn equations<T: Number>(&self, pose: &Pose<T>, place: &ContactPosition<T>) -> ([T; 2], T) {
         let of_wheel = self.wheel_point(pose, place.along);
         let point = self.rail.point(place.on_rail);
         let normal = self.rail.normal(place.on_rail);
@@ -189,14 +189,16 @@ impl RailContact {
     }
 
     /// Values of the equations and their derivatives with respect to ξ and u.
-    fn linearized(&self, pose: &Pose<f64>, place: &Place<f64>) -> [Dual<2>; 2] {
+    fn linearized(&self, pose: &Pose<f64>, place: &ContactPosition<f64>) -> [Dual<2>; 2] {
         let constant = |value: &f64| Dual::constant(*value);
         let fixed = Pose {
             rows: pose.rows.each_ref().map(|row| row.each_ref().map(constant)),
             position: pose.position.each_ref().map(constant),
         };
-        let varied =
-            Place { along: Dual::variable(place.along, 0), on_rail: Dual::variable(place.on_rail, 1) };
+        let varied = ContactPosition {
+            along: Dual::variable(place.along, 0),
+            on_rail: Dual::variable(place.on_rail, 1),
+        };
         self.equations(&fixed, &varied).0
     }
 
@@ -210,8 +212,10 @@ impl RailContact {
             let [along, on_rail] = solved(&rows, &rows.map(Number::value));
             let mut share = 1.0;
             let (next, next_rows, after) = loop {
-                let next =
-                    Place { along: place.along - share * along, on_rail: place.on_rail - share * on_rail };
+                let next = ContactPosition {
+                    along: place.along - share * along,
+                    on_rail: place.on_rail - share * on_rail,
+                };
                 let next_rows = self.linearized(pose, &next);
                 let after = size(&next_rows.map(Number::value));
                 if after <= before || share < 1e-3 || before <= round_off::CURVATURE_CENTRE {
@@ -230,7 +234,7 @@ impl RailContact {
     }
 
     /// Initial guess of the iteration.
-    fn first_place(&self, pose: &Pose<f64>) -> Place<f64> {
+    fn first_place(&self, pose: &Pose<f64>) -> ContactPosition<f64> {
         if let (WheelProfile::Cone(_), RailProfile::Circle { .. }) = (&self.wheel, &self.rail) {
             return self.foot(pose);
         }
@@ -238,7 +242,7 @@ impl RailContact {
         let samples = (0..=SAMPLES).map(|k| low + (high - low) * k as f64 / SAMPLES as f64);
         let cleared = samples.map(|along| {
             let (clearance, on_rail) = self.rail.clearance(self.wheel_point(pose, along).point);
-            (clearance, Place { along, on_rail })
+            (clearance, ContactPosition { along, on_rail })
         });
         let least = cleared.reduce(|least, own| if own.0 < least.0 { own } else { least });
         least.map_or_else(|| self.foot(pose), |(_, place)| place)
@@ -246,7 +250,7 @@ impl RailContact {
 
     /// Projection of the centre of the rail's circle onto the line of a cone, for those that fit at the nominal
     /// circle.
-    fn foot(&self, pose: &Pose<f64>) -> Place<f64> {
+    fn foot(&self, pose: &Pose<f64>) -> ContactPosition<f64> {
         let [from, to] = [0.0, self.radius].map(|along| self.wheel_point(pose, along).point);
         let (radius, cant) = self.rail.osculating();
         let line = [(to[0] - from[0]) / self.radius, (to[1] - from[1]) / self.radius];
@@ -259,7 +263,7 @@ impl RailContact {
             RailProfile::Circle { .. } => radius * (angle + cant),
             RailProfile::Given(..) => point[0],
         };
-        Place { along, on_rail }
+        ContactPosition { along, on_rail }
     }
 
     /// Angle between the spoke at a position and the lowest one, along the rail [rad].
@@ -284,10 +288,11 @@ impl RailContact {
         &self,
         pose: &Pose<f64>,
         varied: &Pose<Dual<N>>,
-    ) -> Place<Dual<N>> {
+    ) -> ContactPosition<Dual<N>> {
         let place = self.place(pose).place;
         let rows = self.linearized(pose, &place);
-        let constant = Place { along: Dual::constant(place.along), on_rail: Dual::constant(place.on_rail) };
+        let constant =
+            ContactPosition { along: Dual::constant(place.along), on_rail: Dual::constant(place.on_rail) };
         let (changes, _) = self.equations(varied, &constant);
         let mut out = constant;
         for k in 0..N {
@@ -306,7 +311,7 @@ impl RailContact {
     }
 
     /// Half the sums of curvatures of both surfaces along and across the rail [1/m].
-    pub fn curvatures<T: Number>(&self, place: &Place<T>, [radius, slope, bend]: [T; 3]) -> [T; 2] {
+    pub fn curvatures<T: Number>(&self, place: &ContactPosition<T>, [radius, slope, bend]: [T; 3]) -> [T; 2] {
         let steep = (slope * slope).plus(1.0);
         let of_wheel = bend * steep.power(-1.5);
         let across = (self.rail.curvature(place.on_rail) - of_wheel).scaled(0.5);
@@ -314,13 +319,13 @@ impl RailContact {
     }
 
     /// The rail's normal, from the rail to the wheel, in the base's axes.
-    pub fn normal<T: Number>(&self, place: &Place<T>) -> Three<T> {
+    pub fn normal<T: Number>(&self, place: &ContactPosition<T>) -> Three<T> {
         let [outwards, upwards] = self.rail.normal(place.on_rail);
         [outwards, upwards.scaled(self.side), T::constant(0.0)]
     }
 
     /// Derivative of the gap with respect to the body variation of the tip's joint frame.
-    pub fn row<T: Number>(&self, pose: &Pose<T>, place: &Place<T>) -> [T; 6] {
+    pub fn row<T: Number>(&self, pose: &Pose<T>, place: &ContactPosition<T>) -> [T; 6] {
         let normal = pose.apply_inverse(self.normal(place));
         let arm = pose.apply_inverse(self.wheel_point(pose, place.along).arm);
         let moment = cross(arm, normal);

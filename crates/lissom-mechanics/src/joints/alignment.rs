@@ -14,7 +14,7 @@
 
 use lissom_motion::{Matrix3, Vector3, skew};
 
-use super::slider::{CarriedPoint, LOCAL, OWN, Place, Row, TIP};
+use super::slider::{CarriedPoint, LOCAL, LinePosition, OWN, Row, TIP};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::{Kinematics, NodeMotion};
 
@@ -110,12 +110,12 @@ impl Aligned<'_> {
     }
 
     /// A derivative of y with respect to s.
-    fn across(&self, place: &Place, derivative: usize, at: &Kinematics) -> Vector3 {
+    fn across(&self, place: &LinePosition, derivative: usize, at: &Kinematics) -> Vector3 {
         place.support.sum(self.order() + derivative, |node| self.vector(node, at))
     }
 
     /// c, evaluated from absolute positions.
-    pub(crate) fn violation(&self, place: &Place, at: &Kinematics) -> f64 {
+    pub(crate) fn violation(&self, place: &LinePosition, at: &Kinematics) -> f64 {
         self.direction(at).dot(&self.across(place, 0, at))
     }
 
@@ -123,7 +123,7 @@ impl Aligned<'_> {
     /// the start.
     pub(crate) fn violation_change(
         &self,
-        after: &Place,
+        after: &LinePosition,
         slid: impl Fn(usize, &dyn Fn(usize) -> Vector3) -> Vector3,
         increments: &Increments<'_>,
     ) -> f64 {
@@ -140,7 +140,7 @@ impl Aligned<'_> {
     }
 
     /// B.
-    pub(crate) fn gradient(&self, place: &Place, at: &Kinematics) -> Row {
+    pub(crate) fn gradient(&self, place: &LinePosition, at: &Kinematics) -> Row {
         let mut row = [0.0; LOCAL];
         let direction = self.direction(at);
         for (k, weight) in place.weights(self.order()) {
@@ -158,7 +158,7 @@ impl Aligned<'_> {
     }
 
     /// Adds the derivatives of Bᵀ μ at a constant multiplier.
-    pub(crate) fn add_hessian(&self, place: &Place, at: &Kinematics, mu: f64, out: &mut [Row; LOCAL]) {
+    pub(crate) fn add_hessian(&self, place: &LinePosition, at: &Kinematics, mu: f64, out: &mut [Row; LOCAL]) {
         let mut add = |row: usize, column: usize, block: &Matrix3| {
             for i in 0..3 {
                 for j in 0..3 {
@@ -209,7 +209,7 @@ impl Aligned<'_> {
     }
 
     /// The terms of c̈ other than B v̇.
-    pub(crate) fn acceleration(&self, place: &Place, at: &Kinematics, rate: f64) -> f64 {
+    pub(crate) fn acceleration(&self, place: &LinePosition, at: &Kinematics, rate: f64) -> f64 {
         let order = self.order();
         let [turning, bending] = turning(&at.nodes[self.tip.node], &self.alignment.direction);
         let of = |derivative: usize, part: usize| {
@@ -223,7 +223,7 @@ impl Aligned<'_> {
     }
 
     /// Moment on the tip for a multiplier, in inertial axes [N m].
-    pub(crate) fn moment(&self, place: &Place, at: &Kinematics, mu: f64) -> Vector3 {
+    pub(crate) fn moment(&self, place: &LinePosition, at: &Kinematics, mu: f64) -> Vector3 {
         mu * self.direction(at).cross(&self.across(place, 0, at))
     }
 }

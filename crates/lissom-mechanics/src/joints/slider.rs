@@ -108,11 +108,11 @@ pub struct Slider {
 }
 
 /// Location of a slider on the line.
-pub struct Place {
+pub struct LinePosition {
     pub(super) support: Support,
 }
 
-impl Place {
+impl LinePosition {
     /// Local nodes of the beam, each with its weight in a derivative with respect to s.
     pub(super) fn weights(&self, derivative: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
         let Support { count, weights, .. } = self.support;
@@ -185,22 +185,22 @@ impl Slider {
     }
 
     /// Its present location.
-    pub fn place(&self, at: &Kinematics) -> Place {
+    pub fn place(&self, at: &Kinematics) -> LinePosition {
         let s = at.coordinates[self.coordinate].value;
-        Place { support: self.line.at(s) }
+        LinePosition { support: self.line.at(s) }
     }
 
-    fn carried(&self, place: &Place, local: usize) -> &CarriedPoint {
+    fn carried(&self, place: &LinePosition, local: usize) -> &CarriedPoint {
         if local == TIP { &self.tip } else { &self.nodes[place.support.first + local] }
     }
 
     /// Local nodes of the beam, each with the factor of its position in a derivative of c with respect to s.
-    fn on_beam(place: &Place, derivative: usize) -> impl Iterator<Item = (usize, f64)> {
+    fn on_beam(place: &LinePosition, derivative: usize) -> impl Iterator<Item = (usize, f64)> {
         place.weights(derivative).map(|(k, weight)| (k, -weight))
     }
 
     /// The same for c itself, including the tip.
-    fn all(place: &Place) -> impl Iterator<Item = (usize, f64)> {
+    fn all(place: &LinePosition) -> impl Iterator<Item = (usize, f64)> {
         Self::on_beam(place, 0).chain([(TIP, 1.0)])
     }
 
@@ -218,7 +218,7 @@ impl Slider {
         let start = increments.start.coordinates[self.coordinate].value;
         let change = increments.coordinates[self.coordinate.index()];
         let (s, slide) = (start + change, (start, change));
-        let after = Place { support: self.line.at(s) };
+        let after = LinePosition { support: self.line.at(s) };
         let increment = after.support.sum(0, |node| self.nodes[node].shift(increments));
         let slid = self.line.change(0, slide, |node| self.nodes[node].place(increments.start));
         let mut violation = filled(&(self.tip.shift(increments) - increment - slid));
@@ -231,12 +231,12 @@ impl Slider {
     }
 
     /// A derivative of x(s) with respect to s.
-    fn along(&self, place: &Place, derivative: usize, at: &Kinematics) -> Vector3 {
+    fn along(&self, place: &LinePosition, derivative: usize, at: &Kinematics) -> Vector3 {
         place.support.sum(derivative, |node| self.nodes[node].place(at))
     }
 
     /// B by equation.
-    fn rows(&self, place: &Place, at: &Kinematics) -> [Row; MAX_EQUATIONS] {
+    fn rows(&self, place: &LinePosition, at: &Kinematics) -> [Row; MAX_EQUATIONS] {
         let mut rows = [[0.0; LOCAL]; MAX_EQUATIONS];
         for (k, factor) in Self::all(place) {
             let own = self.carried(place, k);
@@ -258,7 +258,7 @@ impl Slider {
     }
 
     /// Derivatives of Bᵀ μ at constant multipliers, by row and column of the local unknowns.
-    fn row_derivatives(&self, place: &Place, at: &Kinematics, multipliers: &[f64]) -> [Row; LOCAL] {
+    fn row_derivatives(&self, place: &LinePosition, at: &Kinematics, multipliers: &[f64]) -> [Row; LOCAL] {
         let mut out = [[0.0; LOCAL]; LOCAL];
         let mu = &Vector3::from_column_slice(&multipliers[..ON_LINE]);
         let local_force = |k: usize| {

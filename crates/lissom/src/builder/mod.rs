@@ -62,7 +62,9 @@ pub use ids::{
     AnalysisId, BeamId, BodyId, EventId, ForeignId, InitialId, InputId, JointId, LoadId, MaterialId,
     MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId, SuperelementId,
 };
-pub use values::{GROUND, Inertia, Mass, Matrix, Node, Part, Place, Quantity, SectionMass, Shear, Solid};
+pub use values::{
+    GROUND, Inertia, Mass, Matrix, Node, Part, PositionOrNode, Quantity, SectionMass, Shear, Solid,
+};
 
 use ids::{Id, Table};
 use written::Written;

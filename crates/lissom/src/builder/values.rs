@@ -68,43 +68,43 @@ impl From<Node> for Written {
 
 /// A position [m], or a node of another part, which is then shared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum PositionOrNode {
     /// Three coordinates [m].
     Point([f64; 3]),
     /// A node.
     Node(Node),
 }
 
-impl From<[f64; 3]> for Place {
+impl From<[f64; 3]> for PositionOrNode {
     fn from(point: [f64; 3]) -> Self {
         Self::Point(point)
     }
 }
 
-impl From<Node> for Place {
+impl From<Node> for PositionOrNode {
     fn from(node: Node) -> Self {
         Self::Node(node)
     }
 }
 
-impl From<BodyId> for Place {
+impl From<BodyId> for PositionOrNode {
     fn from(body: BodyId) -> Self {
         Self::Node(body.into())
     }
 }
 
-impl From<Place> for Written {
-    fn from(place: Place) -> Self {
+impl From<PositionOrNode> for Written {
+    fn from(place: PositionOrNode) -> Self {
         match place {
-            Place::Point(point) => point.into(),
-            Place::Node(node) => node.into(),
+            PositionOrNode::Point(point) => point.into(),
+            PositionOrNode::Node(node) => node.into(),
         }
     }
 }
 
 /// One of several positions: its node, and its initial location.
-impl From<(Node, Place)> for Written {
-    fn from((on, at): (Node, Place)) -> Self {
+impl From<(Node, PositionOrNode)> for Written {
+    fn from((on, at): (Node, PositionOrNode)) -> Self {
         let mut fields = Fields::default();
         fields.set("on", on);
         fields.set("at", at);

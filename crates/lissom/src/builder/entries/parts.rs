@@ -5,7 +5,7 @@ use super::words;
 use crate::builder::entry::entry;
 use crate::builder::expression::{Expression, Function};
 use crate::builder::ids::SectionId;
-use crate::builder::values::{Inertia, Mass, Place, Solid};
+use crate::builder::values::{Inertia, Mass, PositionOrNode, Solid};
 
 entry! {
     /// A flexible beam.
@@ -20,9 +20,9 @@ entry! {
     /// \[{ at = 0, section = "a" }, …, { at = 1, … }\], interpolated linearly.
     stations: Vec<(f64, SectionId)> = "stations";
     /// Start: a position, or a node of another part, which is then shared \[m\].
-    from: Place = "from";
+    from: PositionOrNode = "from";
     /// End: a position, or a node of another part, which is then shared \[m\].
-    to: Place = "to";
+    to: PositionOrNode = "to";
     /// An intermediate point: the beam is a circular arc \[m\].
     through: [f64; 3] = "through";
     /// Instead of `from` and `to`: three expressions of s in 0..1 \[m\].

@@ -5,7 +5,7 @@ use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
 use crate::builder::ids::{InputId, JointId};
-use crate::builder::values::{Matrix, Node, Place};
+use crate::builder::values::{Matrix, Node, PositionOrNode};
 
 entry! {
     /// Spring and damper on a joint's relative displacement.
@@ -65,7 +65,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `along`: points over which it passes, from one end to the other \[m\]
-    new(along: Vec<(Node, Place)> = "along")
+    new(along: Vec<(Node, PositionOrNode)> = "along")
     /// Coordinates of joints that pay it out, such as "drum.angle"; the name of a joint stands for all its coordinates.
     drums: Vec<JointId> = "drums";
     /// Stiffness of the whole rope; default 0 \[N/m\].

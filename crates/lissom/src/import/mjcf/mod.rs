@@ -59,8 +59,13 @@ pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
     };
     for world in children(root, "worldbody") {
         let class = world.attribute("childclass");
-        let place =
-            Place { offset: Motion::identity(), class, is_world: true, needs_geoms: false, is_frame: false };
+        let place = Context {
+            offset: Motion::identity(),
+            class,
+            is_world: true,
+            needs_geoms: false,
+            is_frame: false,
+        };
         reader.content(world, &place, &mut Content::default())?;
         reader.carried(world, 0, &place)?;
     }
@@ -121,7 +126,7 @@ struct Content {
 
 /// Context of elements that are read.
 #[derive(Clone)]
-struct Place<'a> {
+struct Context<'a> {
     /// Enclosing frame relative to the body's.
     offset: Motion,
     /// Enclosing default class.
@@ -138,7 +143,7 @@ impl Reader {
     fn content(
         &mut self,
         node: Node<'_, '_>,
-        place: &Place<'_>,
+        place: &Context<'_>,
         content: &mut Content,
     ) -> Result<(), ImportError> {
         let may_move = !place.is_world && !place.is_frame;
@@ -179,16 +184,16 @@ impl Reader {
     }
 
     /// The context of the elements of a `<frame>`.
-    fn frame<'a>(&self, node: Node<'a, 'a>, around: &Place<'a>) -> Result<Place<'a>, ImportError> {
+    fn frame<'a>(&self, node: Node<'a, 'a>, around: &Context<'a>) -> Result<Context<'a>, ImportError> {
         let own = Element::bare(node);
         own.check_known(&frame::ATTRIBUTES, &["childclass"])?;
         let offset = around.offset * frame::frame(&own, &self.angles)?;
         let class = node.attribute("childclass").or(around.class);
-        Ok(Place { offset, class, is_frame: true, ..around.clone() })
+        Ok(Context { offset, class, is_frame: true, ..around.clone() })
     }
 
     /// Reads the child bodies of link `parent`.
-    fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Place<'_>) -> Result<(), ImportError> {
+    fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Context<'_>) -> Result<(), ImportError> {
         for child in node.children().filter(Node::is_element) {
             if child.has_tag_name("frame") {
                 self.carried(child, parent, &self.frame(child, place)?)?;
@@ -200,7 +205,7 @@ impl Reader {
     }
 
     /// Reads a child body of link `parent`, and all its descendants.
-    fn body(&mut self, node: Node<'_, '_>, parent: usize, around: &Place<'_>) -> Result<(), ImportError> {
+    fn body(&mut self, node: Node<'_, '_>, parent: usize, around: &Context<'_>) -> Result<(), ImportError> {
         let own = Element::bare(node);
         own.check_known(&frame::ATTRIBUTES, &["childclass", "mocap", "gravcomp", "user", "sleep"])?;
         let mut origin = around.offset * frame::frame(&own, &self.angles)?;
@@ -212,7 +217,7 @@ impl Reader {
             self.robot.left_out.push(format!("the prescribed motion of body `{name}`, which is fixed"));
         }
         let has_inertial = children(node, "inertial").next().is_some();
-        let place = Place {
+        let place = Context {
             offset: Motion::identity(),
             class: node.attribute("childclass").or(around.class),
             is_world: false,
