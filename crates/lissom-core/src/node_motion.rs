@@ -25,28 +25,27 @@ use crate::schemes::MAX_STAGES;
 
 /// Parametrization of the increments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Meaning {
+pub(crate) enum IncrementKind {
     /// See the formulas.
     FromStart,
     /// See the formulas.
-    Departure,
-    /// Departures, with V - V₀ computed without cancellation: multiplied by [`StageTable::gain`] it replaces the
-    /// acceleration.
-    Gain,
+    RelativeToDrift,
+    /// The same, with V - V₀ computed without cancellation: multiplied by [`StageTable::gain`] it replaces the acceleration.
+    VelocityChange,
 }
 
 /// A scheme's coefficients at a stage, in SI.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StageTable {
     /// Parametrization of the increments.
-    pub(crate) meaning: Meaning,
+    pub(crate) kind: IncrementKind,
     /// Time since the start of the step over which nodes are extrapolated [s].
     pub(crate) ahead: f64,
     /// Weights of all stages' increments in the rate [1/s].
     pub(crate) rate: [f64; MAX_STAGES],
     /// The same in the curvature [1/s²].
     pub(crate) curvature: [f64; MAX_STAGES],
-    /// See [`Meaning::Gain`] [1/s].
+    /// See [`IncrementKind::VelocityChange`] [1/s].
     pub(crate) gain: f64,
 }
 
@@ -211,7 +210,7 @@ impl WithSimd for Entry<'_> {
                 let part = Part { simd, index };
                 let twist = part.screw(&start.twist);
                 let straight = twist.scaled(self.table.ahead);
-                if self.table.meaning == Meaning::FromStart {
+                if self.table.kind == IncrementKind::FromStart {
                     part.store(straight, &mut start.straight);
                     part.store(twist + part.screw(&start.rate), &mut start.rate);
                 } else {
@@ -280,14 +279,14 @@ fn stage_kinematics<R: Real>(
     own: Screw<R>,
     [rate, curvature]: [Screw<R>; 2],
 ) -> Reached<R> {
-    if table.meaning == Meaning::FromStart {
+    if table.kind == IncrementKind::FromStart {
         let change = Pose::exponential(own + start.straight);
         return Reached { change, frame: start.frame * change, twist: rate, acceleration: curvature };
     }
     let motion = Pose::exponential(own);
     let change = start.ahead * motion;
     let frame = start.frame * change;
-    if table.meaning == Meaning::Gain {
+    if table.kind == IncrementKind::VelocityChange {
         let gained = motion.adjoint_inverse_gain(start.twist) + own.tangent_times(rate);
         return Reached {
             change,
@@ -327,7 +326,7 @@ pub(crate) fn depart(
     [rate, curvature]: [&Vector6; 2],
 ) -> NodeMotion {
     let table = StageTable {
-        meaning: Meaning::Departure,
+        kind: IncrementKind::RelativeToDrift,
         ahead,
         rate: [0.0; MAX_STAGES],
         curvature: [0.0; MAX_STAGES],
@@ -441,7 +440,7 @@ mod tests {
         [rate, curvature]: [Vector6; 2],
     ) -> (NodeMotion, Motion) {
         let straight = from.twist * table.ahead;
-        if table.meaning == Meaning::FromStart {
+        if table.kind == IncrementKind::FromStart {
             let change = Motion::exponential(&(straight + own));
             let to =
                 NodeMotion { frame: from.frame * change, twist: from.twist + rate, acceleration: curvature };
@@ -451,7 +450,7 @@ mod tests {
         let change = Motion::exponential(&straight) * motion;
         let carried = motion.adjoint_inverse_times(&from.twist);
         let gained = tangent_times(own, &rate);
-        let acceleration = if table.meaning == Meaning::Gain {
+        let acceleration = if table.kind == IncrementKind::VelocityChange {
             (carried - from.twist + gained) * table.gain
         } else {
             tangent_times(own, &curvature) + tangent_rate_times(own, &rate, &rate)
@@ -467,7 +466,7 @@ mod tests {
         left.into_iter().zip(right).all(|(left, right)| (left - right).abs() < 1e-13 * (1.0 + right.abs()))
     }
 
-    fn agrees(processor: pulp::Arch, count: usize, point_mass: usize, meaning: Meaning, size: f64) {
+    fn agrees(processor: pulp::Arch, count: usize, point_mass: usize, kind: IncrementKind, size: f64) {
         let mut number = numbers(7);
         let mut vector = || Vector6::from_fn(|_, _| number());
         let layout = layout(count, point_mass);
@@ -494,7 +493,7 @@ mod tests {
         let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
         let (rates, curvatures, increments) = (list(), list(), [list(), list(), list()]);
         let table = StageTable {
-            meaning,
+            kind,
             ahead: 0.1,
             rate: [0.7, -1.5, 0.3, 0.0, 0.0, 0.0, 0.0],
             curvature: [-3.0, 0.2, 1.1, 0.0, 0.0, 0.0, 0.0],
@@ -518,12 +517,9 @@ mod tests {
             let (to, change) = reference(&table, &start.nodes[node], &stages[1], linear);
             let (reached, change) = (&at.nodes[node], MotionChange::of(&change));
             let error = reached.frame.relative_to(&to.frame).logarithm();
-            assert!(error.amax() < 1e-14, "{processor:?}, {meaning:?}, node {node}: {error}");
-            assert!(is_near(&reached.twist, &to.twist), "{processor:?}, {meaning:?}, node {node}");
-            assert!(
-                is_near(&reached.acceleration, &to.acceleration),
-                "{processor:?}, {meaning:?}, node {node}"
-            );
+            assert!(error.amax() < 1e-14, "{processor:?}, {kind:?}, node {node}: {error}");
+            assert!(is_near(&reached.twist, &to.twist), "{processor:?}, {kind:?}, node {node}");
+            assert!(is_near(&reached.acceleration, &to.acceleration), "{processor:?}, {kind:?}, node {node}");
             assert!(
                 is_near(&changes[node].turn, &change.turn) && is_near(&changes[node].shift, &change.shift)
             );
@@ -537,9 +533,11 @@ mod tests {
         processors.extend(pulp::x86::V3::try_new().map(pulp::Arch::V3));
         for processor in processors {
             for (count, point_mass) in [(1, 0), (8, 0), (21, 18), (9, 9)] {
-                for meaning in [Meaning::FromStart, Meaning::Departure, Meaning::Gain] {
+                for kind in
+                    [IncrementKind::FromStart, IncrementKind::RelativeToDrift, IncrementKind::VelocityChange]
+                {
                     for size in [0.0, 1e-3, 0.1, 1.0] {
-                        agrees(processor, count, point_mass, meaning, size);
+                        agrees(processor, count, point_mass, kind, size);
                     }
                 }
             }

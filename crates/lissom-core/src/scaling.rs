@@ -17,8 +17,8 @@ use serde::{Deserialize, Serialize};
 use crate::joints::evaluation_point::Augmentation;
 use crate::kinematics::step_stages::STAGES;
 use crate::kinematics::{CoordinateMotion, Kinematics, Layout, MotionChange, Quantity};
-use crate::node_motion::{Known, Meaning, Nodes, StageTable};
-use crate::schemes::{Combination, Increments, Scheme, Stage, Tableau, Weights};
+use crate::node_motion::{IncrementKind, Known, Nodes, StageTable};
+use crate::schemes::{Combination, Parametrization, Scheme, Stage, Tableau, Weights};
 use crate::system::{Blend, Linearization, State, System};
 
 /// How the equations are scaled.
@@ -246,13 +246,13 @@ impl Scaled {
 
     /// A stage's coefficients for the motion of nodes, in SI.
     fn stage_table(&self, scheme: &Scheme, stage: &Stage) -> StageTable {
-        let meaning = match scheme.increments {
-            Increments::FromStart => Meaning::FromStart,
-            Increments::Departure if scheme.tableau.is_some() => Meaning::Gain,
-            Increments::Departure => Meaning::Departure,
+        let kind = match scheme.parametrization {
+            Parametrization::FromStart => IncrementKind::FromStart,
+            Parametrization::RelativeToDrift if scheme.tableau.is_some() => IncrementKind::VelocityChange,
+            Parametrization::RelativeToDrift => IncrementKind::RelativeToDrift,
         };
         StageTable {
-            meaning,
+            kind,
             ahead: if scheme.dynamic { stage.abscissa * self.h } else { 0.0 },
             rate: stage.rate.increments.map(|weight| weight / self.h),
             curvature: stage.curvature.increments.map(|weight| weight / (self.h * self.h)),

@@ -18,7 +18,7 @@ use lissom_motion::{
 };
 
 use super::variation::NOTHING;
-use crate::schemes::Increments;
+use crate::schemes::Parametrization;
 
 /// Six components of a node, each for all lanes.
 pub(super) type Six = [Block; 6];
@@ -54,10 +54,10 @@ pub(super) struct NodeMap {
 }
 
 impl NodeMap {
-    pub(super) fn new(increments: Increments, stage: &NodeStage) -> Self {
+    pub(super) fn new(parametrization: Parametrization, stage: &NodeStage) -> Self {
         let NodeStage { twist, ahead, increment, rate, curvature } = stage;
         let straight = twist * *ahead;
-        if increments == Increments::FromStart {
+        if parametrization == Parametrization::FromStart {
             let psi = straight + increment;
             let by_increment = tangent(&psi);
             return Self { place: [carry(&psi), by_increment * *ahead, by_increment], departure: None };

@@ -107,7 +107,7 @@ impl Stages {
                     rate: combined(&stage.rate, size),
                     curvature: combined(&stage.curvature, size * size),
                 };
-                NodeMap::new(scheme.increments, &stage)
+                NodeMap::new(scheme.parametrization, &stage)
             };
             self.maps[index] = self.moving.iter().map(map).collect();
         }

@@ -13,7 +13,7 @@ use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
-use crate::schemes::{Increments, Scheme, Stage, Tableau};
+use crate::schemes::{Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
@@ -186,12 +186,12 @@ impl StepEquations<'_> {
         let last = self.scheme.stages.len() - 1;
         let mut scratch = self.work.evaluation.scratch.take().unwrap_or_default();
         let mut tangents = std::mem::take(&mut self.work.evaluation.node_tangents);
-        let chart = match self.scheme.increments {
-            Increments::FromStart => {
+        let chart = match self.scheme.parametrization {
+            Parametrization::FromStart => {
                 self.whole_increments(last, &mut tangents);
                 Chart::Increments(&tangents)
             }
-            Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
+            Parametrization::RelativeToDrift => Chart::RelativeToDrift(&self.start.kinematics.nodes),
         };
         let mut point = self.point(last);
         if self.is_far() {

@@ -11,7 +11,7 @@ use crate::kinematics::{Layout, Quantity};
 use crate::saddle_point::SaddlePoint;
 use crate::saddle_point::stage_tangents::StageTangents;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStepState};
-use crate::schemes::{Increments, Scheme};
+use crate::schemes::{Parametrization, Scheme};
 use crate::solver_features::DisabledFeatures;
 use crate::system::{Scratch, State, System, Threads};
 use crate::tuning::Tuning;
@@ -176,9 +176,11 @@ impl Workspace {
             },
             evaluation: EvaluationSpace {
                 joint_starts: JointStarts::default(),
-                node_tangents: match scheme.increments {
-                    Increments::FromStart => vec![IncrementTangent::none(); state.kinematics.nodes.len()],
-                    Increments::Departure => Vec::new(),
+                node_tangents: match scheme.parametrization {
+                    Parametrization::FromStart => {
+                        vec![IncrementTangent::none(); state.kinematics.nodes.len()]
+                    }
+                    Parametrization::RelativeToDrift => Vec::new(),
                 },
                 scratch: Some(Box::default()),
                 threads: None,

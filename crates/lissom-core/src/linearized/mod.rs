@@ -49,7 +49,7 @@ pub use reduction::{Assembly, Reduction, ReductionError};
 pub use response::{FrequencyResponse, ResponseError};
 pub use shapes::NodeShape;
 pub use state_space::{StateSpace, StateSpaceError};
-pub use steady::{Departure, SteadyError, steady};
+pub use steady::{ModeDeviation, SteadyError, steady};
 pub use whirl::Whirl;
 
 /// Eigenvalues of the search and of the full matrix, and shapes of rigid modes, that differ by less than this fraction are equal.

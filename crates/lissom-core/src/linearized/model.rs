@@ -158,7 +158,7 @@ impl<'a> LinearModel<'a> {
         let mut parts = system.empty_linearization();
         let (still, unchanged) = nothing(&state.kinematics);
         let point = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &zeros);
-        let chart = if is_at_rest { Chart::Body } else { Chart::Departures(&state.kinematics.nodes) };
+        let chart = if is_at_rest { Chart::Body } else { Chart::RelativeToDrift(&state.kinematics.nodes) };
         system.linearize(&point, chart, &mut parts);
         parts.fold_multipliers();
         take_forces(system, &mut parts, is_at_rest);

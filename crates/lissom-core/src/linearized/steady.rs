@@ -1,7 +1,7 @@
 //! Steady rotation: the positions at which a model continues to rotate without any change in the axes of its nodes.
 //!
 //! The initial velocity field of each node is fixed in space; the solution is positions at which the equations of motion are
-//! satisfied with constant body twists. Newton's method with the linear model about the state, in departures from extrapolation:
+//! satisfied with constant body twists. Newton's method with the linear model about the state, in increments relative to extrapolation:
 //!
 //! ```text
 //! (s² M + s D + K) δ + Bᵀ δμ = -r(V̇ = 0),    B δ = -c,    δV = ad_V δ
@@ -37,7 +37,7 @@ const SAMPLES: usize = 3;
 
 /// Deviation of a mode from one of another model, over its magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Departure {
+pub struct ModeDeviation {
     /// The deviation.
     pub size: f64,
     /// The deviation due to round-off in the terms of the mode's own equations.
@@ -130,7 +130,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
         state.kinematics.show_multipliers(&state.multipliers);
         let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &violations);
         system.residual(&at, &mut residual);
-        system.linearize(&at, Chart::Departures(&state.kinematics.nodes), &mut parts);
+        system.linearize(&at, Chart::RelativeToDrift(&state.kinematics.nodes), &mut parts);
         parts.fold_multipliers();
         shifted
             .factor(&parts, Complex64::from(SLOW_RATE * rate))
@@ -230,10 +230,10 @@ impl<'a> LinearModel<'a> {
     ///
     /// # Errors
     /// If the matrices cannot be factorised.
-    pub fn departure_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<Departure, LinearError> {
+    pub fn deviation_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<ModeDeviation, LinearError> {
         let s = mode.eigenvalue;
         if s.norm() == 0.0 {
-            return Ok(Departure { size: 0.0, round_off: 0.0 });
+            return Ok(ModeDeviation { size: 0.0, round_off: 0.0 });
         }
         let mut shifted = ComplexShift::new(other.system, &other.representative);
         shifted.factor(&other.parts, RELATIVE_SHIFT * s).map_err(|error| other.stopped(&error))?;
@@ -266,7 +266,7 @@ impl<'a> LinearModel<'a> {
         }
         let size = |values: &[Complex64]| product(values, values).re.sqrt();
         let whole = size(&mode.shape);
-        let mut departure_by = |mut forces: Vec<Complex64>| {
+        let mut deviation_by = |mut forces: Vec<Complex64>| {
             shifted.solve(&mut forces);
             // Shapes do not contain the forces of constraints.
             other.system.layout().impulses().for_each(|(row, _)| forces[row] = Complex64::default());
@@ -278,9 +278,9 @@ impl<'a> LinearModel<'a> {
             let forces = terms
                 .iter()
                 .map(|term| Complex64::new(noise.number(), noise.number()) * (round_off::SUM * term));
-            round_off = round_off.max(departure_by(forces.collect()));
+            round_off = round_off.max(deviation_by(forces.collect()));
         }
-        Ok(Departure { size: departure_by(right), round_off })
+        Ok(ModeDeviation { size: deviation_by(right), round_off })
     }
 
     /// Modal assurance criterion of two shapes, weighted with the mass of this model: 1 for equal, 0 for orthogonal ones.

@@ -26,7 +26,7 @@ pub struct BranchChoice {
 }
 
 /// Bifurcation at which the path is to be left.
-pub(super) struct Departure {
+pub(super) struct BranchPoint {
     /// Direction of the branch; the load factor is constant along it.
     pub(super) tangent: Tangent,
     /// Direction of the primary path.
@@ -68,7 +68,7 @@ impl EquilibriumPath {
                 *value *= factor;
             }
             let tangent = Tangent { direction, load_rate: 0.0, turn: 0.0, unstable: 0, signature: 0.0 };
-            self.departure = Some(Departure { tangent, along });
+            self.branch_point = Some(BranchPoint { tangent, along });
             self.take(found, distance);
             critical.truncate(k + 1);
             self.bifurcations = met;
@@ -107,16 +107,20 @@ impl EquilibriumPath {
     }
 
     /// Steps to the first equilibrium of the branch.
-    pub(super) fn depart(&mut self, departure: &Departure, report: &mut PathStep) -> Result<(), PathError> {
+    pub(super) fn switch_branch(
+        &mut self,
+        branch_point: &BranchPoint,
+        report: &mut PathStep,
+    ) -> Result<(), PathError> {
         let start = self.state.clone();
         let mut last = None;
         for distance in DISTANCES {
             let along = Condition::Along(distance);
-            match self.solve(&start, self.load_factor, Some(&departure.tangent), along) {
+            match self.solve(&start, self.load_factor, Some(&branch_point.tangent), along) {
                 Ok(found) => {
                     report.iterations += found.iterations;
                     let length = self.work.length_of_last();
-                    let straight_on = self.work.inner(self.work.total(), &departure.along).abs();
+                    let straight_on = self.work.inner(self.work.total(), &branch_point.along).abs();
                     if straight_on > MAX_STRAIGHT_ON * length {
                         report.rejected += 1;
                         continue;

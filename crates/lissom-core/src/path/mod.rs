@@ -24,7 +24,7 @@ use crate::scaling::ScalingChoice;
 use crate::simulation::ArcControl;
 use crate::system::{State, System};
 pub use branch::BranchChoice;
-use branch::Departure;
+use branch::BranchPoint;
 pub use critical::{CriticalKind, CriticalPoint};
 use equations::{Condition, PathEquations, PathWork};
 pub use systems::Family;
@@ -276,7 +276,7 @@ pub struct EquilibriumPath {
     /// Bifurcations passed.
     bifurcations: usize,
     /// The bifurcation at which the path has arrived and is to be left.
-    departure: Option<Departure>,
+    branch_point: Option<BranchPoint>,
     is_finished: bool,
 }
 
@@ -368,7 +368,7 @@ impl EquilibriumPath {
             steps: 0,
             most: 0.0,
             bifurcations: 0,
-            departure: None,
+            branch_point: None,
             is_finished: false,
         };
         let start = path.state.clone();
@@ -451,8 +451,8 @@ impl EquilibriumPath {
             }
             return Err(PathError::TooManySteps { name, steps, load_factor, end });
         }
-        if let Some(departure) = self.departure.take() {
-            self.depart(&departure, &mut report)?;
+        if let Some(branch_point) = self.branch_point.take() {
+            self.switch_branch(&branch_point, &mut report)?;
             return Ok(report);
         }
         loop {

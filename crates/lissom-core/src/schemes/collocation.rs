@@ -17,7 +17,7 @@ use num_complex::Complex64;
 
 use super::dense_polynomial::DensePolynomial;
 use super::scheme::{
-    Combination, Coupling, Decoupled, ErrorEstimate, Increments, MAX_STAGES, Scheme, Stage, StageSystem,
+    Combination, Coupling, Decoupled, ErrorEstimate, MAX_STAGES, Parametrization, Scheme, Stage, StageSystem,
     Weights,
 };
 
@@ -52,7 +52,7 @@ pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rat
     Scheme {
         name,
         algorithmic: Combination::default(),
-        increments: Increments::Departure,
+        parametrization: Parametrization::RelativeToDrift,
         coupling: decouple(&matrix),
         tableau: None,
         memory_delay: 0.0,

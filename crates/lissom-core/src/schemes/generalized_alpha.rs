@@ -11,7 +11,7 @@
 //! Equilibrium and constraints hold at the end of the step.
 
 use super::scheme::{
-    Combination, Coupling, ErrorEstimate, Increments, Scheme, SchemeError, SchemeKind, SchemeParameters,
+    Combination, Coupling, ErrorEstimate, Parametrization, Scheme, SchemeError, SchemeKind, SchemeParameters,
     Stage, Weights, within,
 };
 
@@ -78,7 +78,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
         tableau: None,
         stages: vec![Stage { abscissa: 1.0, rate, curvature, prediction }],
         algorithmic: memory,
-        increments: Increments::FromStart,
+        parametrization: Parametrization::FromStart,
         memory_delay: alpha_m - alpha_f,
         order: 2,
         errors: vec![error],

@@ -14,8 +14,8 @@ pub mod statics;
 
 pub use dense_polynomial::DensePolynomial;
 pub use scheme::{
-    Combination, Coupling, Decoupled, ErrorEstimate, Increments, MAX_STAGES, Scheme, SchemeError, SchemeKind,
-    SchemeParameters, Stage, StageSystem, Tableau, Weights,
+    Combination, Coupling, Decoupled, ErrorEstimate, MAX_STAGES, Parametrization, Scheme, SchemeError,
+    SchemeKind, SchemeParameters, Stage, StageSystem, Tableau, Weights,
 };
 
 /// All schemes for dynamics, one line each; the first is the default.

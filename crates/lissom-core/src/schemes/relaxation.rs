@@ -4,7 +4,7 @@
 //! Rockafellar 1976]. The potential decreases in every step, and a step without motion is an equilibrium. The inertia makes the
 //! tangent definite where the stiffness is not, such as that of a slack cable.
 
-use super::scheme::{Combination, Coupling, Increments, Scheme, Stage, Weights};
+use super::scheme::{Combination, Coupling, Parametrization, Scheme, Stage, Weights};
 
 /// The scheme with zero velocity and the increment as acceleration.
 pub(crate) fn relaxation() -> Scheme {
@@ -17,7 +17,7 @@ pub(crate) fn relaxation() -> Scheme {
             prediction: Combination::default(),
         }],
         algorithmic: Combination::default(),
-        increments: Increments::FromStart,
+        parametrization: Parametrization::FromStart,
         coupling: Coupling::single(Weights { rate: 0.0, curvature: 1.0 }),
         tableau: None,
         memory_delay: 0.0,

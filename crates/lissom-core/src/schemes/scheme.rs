@@ -66,16 +66,16 @@ pub struct Stage {
     pub prediction: Combination,
 }
 
-/// Meaning of a scheme's increments z for a rotating frame H.
+/// Parametrization of the motion of a rotating frame H by a scheme's increments z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Increments {
+pub enum Parametrization {
     /// H = H_start exp(c q'_start + z), and q' is the body twist: the scheme is defined on the Lie group. Only the
     /// departure z from extrapolation is unknown, so that it keeps its digits in short steps.
     FromStart,
     /// H = H_start exp(c q'_start) exp z, the departure from extrapolation with the twist at the start, c the stage's
     /// abscissa. q' - q'_start is the rate of z: the scheme is defined in these local coordinates. They remain small
     /// however fast the frame rotates, and both stages have nearly the same tangent.
-    Departure,
+    RelativeToDrift,
 }
 
 /// Derivatives of velocity and acceleration with respect to the increment.
@@ -178,7 +178,7 @@ pub struct Scheme {
     /// The scheme's algorithmic acceleration at the end of the step.
     pub algorithmic: Combination,
     /// What the increments mean.
-    pub increments: Increments,
+    pub parametrization: Parametrization,
     /// The decoupled linear systems.
     pub coupling: Coupling,
     /// For schemes that integrate velocities, strains and violations; other schemes evaluate strains and violations

@@ -1,6 +1,6 @@
 //! Statics: equilibrium without inertia and velocities at the end of each load step.
 
-use super::scheme::{Combination, Coupling, Increments, Scheme, Stage, Weights};
+use super::scheme::{Combination, Coupling, Parametrization, Scheme, Stage, Weights};
 
 /// The scheme with zero velocity and acceleration.
 pub fn statics() -> Scheme {
@@ -13,7 +13,7 @@ pub fn statics() -> Scheme {
             prediction: Combination::default(),
         }],
         algorithmic: Combination::default(),
-        increments: Increments::FromStart,
+        parametrization: Parametrization::FromStart,
         coupling: Coupling::single(Weights { rate: 0.0, curvature: 0.0 }),
         tableau: None,
         memory_delay: 0.0,

@@ -622,7 +622,7 @@ pub fn through(chart: Chart<'_>, nodes: impl Iterator<Item = (NodeId, usize)>, s
             Chart::Increments(increments) => {
                 through_chart(&mut scratch.stiffness, size, column, &increments[node]);
             }
-            Chart::Departures(start) => {
+            Chart::RelativeToDrift(start) => {
                 let turning = lie_bracket_matrix(&start[node].twist);
                 let Tangents { stiffness, damping, mass, .. } = scratch;
                 add_columns(stiffness, damping, size, column, &turning);

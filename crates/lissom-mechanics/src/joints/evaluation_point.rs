@@ -67,7 +67,7 @@ pub enum Chart<'a> {
     Body,
     /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ, T given by node.
     Increments(&'a [IncrementTangent]),
-    /// Departures ψ̂ from extrapolation with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and δV̇ = δψ̂'' +
+    /// Increments ψ̂ relative to extrapolation with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and δV̇ = δψ̂'' +
     /// ad_V δψ̂'.
-    Departures(&'a [NodeMotion]),
+    RelativeToDrift(&'a [NodeMotion]),
 }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use lissom_core::errors::{InitialError, StepError};
 use lissom_core::kinematics::Kinematics;
 use lissom_core::linearized::{
-    Completeness, Departure, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind,
+    Completeness, EffectiveMasses, LinearError, LinearModel, Mode, ModeDeviation, ModeError, ModeKind,
     ModeOptions, Modes, NodeShape, SteadyError,
 };
 use lissom_model::Report;
@@ -340,7 +340,7 @@ fn divide(
     let Modes { modes, completeness } = found;
     let (mut constant, mut inconstant) = (Vec::new(), Vec::new());
     for (index, mode) in modes.into_iter().enumerate() {
-        let Departure { size, round_off } = own.departure_of(&mode, later)?;
+        let ModeDeviation { size, round_off } = own.deviation_of(&mode, later)?;
         if size <= CONSTANT || (size <= BEYOND_ROUND_OFF * round_off && round_off <= MAX_ROUND_OFF) {
             constant.push(mode);
         } else {
