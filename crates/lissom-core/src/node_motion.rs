@@ -41,10 +41,10 @@ pub(crate) struct StageTable {
     pub(crate) kind: IncrementKind,
     /// Time since the start of the step over which nodes are extrapolated [s].
     pub(crate) ahead: f64,
-    /// Weights of all stages' increments in the rate [1/s].
-    pub(crate) rate: [f64; MAX_STAGES],
-    /// The same in the curvature [1/s²].
-    pub(crate) curvature: [f64; MAX_STAGES],
+    /// Weights of all stages' increments in the velocity [1/s].
+    pub(crate) velocity: [f64; MAX_STAGES],
+    /// The same in the acceleration [1/s²].
+    pub(crate) acceleration: [f64; MAX_STAGES],
     /// See [`IncrementKind::VelocityChange`] [1/s].
     pub(crate) gain: f64,
 }
@@ -52,10 +52,10 @@ pub(crate) struct StageTable {
 /// Known terms at the start of a step, by row.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known<'a> {
-    /// Part of the rate that does not depend on increments, without the twist itself [m/s, rad/s].
-    pub(crate) rate: &'a [f64],
-    /// The same of the curvature [m/s², rad/s²].
-    pub(crate) curvature: &'a [f64],
+    /// Part of the velocity that does not depend on increments, without the twist itself [m/s, rad/s].
+    pub(crate) velocity: &'a [f64],
+    /// The same of the acceleration [m/s², rad/s²].
+    pub(crate) acceleration: &'a [f64],
 }
 
 /// Which nodes move, and their state at the start of a step.
@@ -204,8 +204,8 @@ impl WithSimd for Entry<'_> {
             let nodes = &block.nodes[..block.count];
             gather_frames(self.start, nodes, lanes, &mut start.frame);
             gather_twists(self.start, nodes, lanes, &mut start.twist);
-            block.gather(lanes, self.known.rate, &mut start.rate);
-            block.gather(lanes, self.known.curvature, &mut start.curvature);
+            block.gather(lanes, self.known.velocity, &mut start.rate);
+            block.gather(lanes, self.known.acceleration, &mut start.curvature);
             for index in 0..parts {
                 let part = Part { simd, index };
                 let twist = part.screw(&start.twist);
@@ -246,7 +246,7 @@ impl WithSimd for StageKinematics<'_> {
                 for index in 0..parts {
                     let part = Part { simd, index };
                     for (sum, weights) in
-                        [(&mut rate, &self.table.rate), (&mut curvature, &self.table.curvature)]
+                        [(&mut rate, &self.table.velocity), (&mut curvature, &self.table.acceleration)]
                     {
                         let weight = Lanes::splat(simd, weights[stage]);
                         part.store(part.screw(sum).plus_scaled(part.screw(increment), weight), sum);
@@ -328,8 +328,8 @@ pub(crate) fn depart(
     let table = StageTable {
         kind: IncrementKind::RelativeToDrift,
         ahead,
-        rate: [0.0; MAX_STAGES],
-        curvature: [0.0; MAX_STAGES],
+        velocity: [0.0; MAX_STAGES],
+        acceleration: [0.0; MAX_STAGES],
         gain: 0.0,
     };
     let twist = Screw::from(&from.twist);
@@ -495,13 +495,13 @@ mod tests {
         let table = StageTable {
             kind,
             ahead: 0.1,
-            rate: [0.7, -1.5, 0.3, 0.0, 0.0, 0.0, 0.0],
-            curvature: [-3.0, 0.2, 1.1, 0.0, 0.0, 0.0, 0.0],
+            velocity: [0.7, -1.5, 0.3, 0.0, 0.0, 0.0, 0.0],
+            acceleration: [-3.0, 0.2, 1.1, 0.0, 0.0, 0.0, 0.0],
             gain: 4.0,
         };
         let mut moving = Nodes::new(&layout, MAX_STAGES);
         moving.processor = processor;
-        moving.enter(1, &table, &start, Known { rate: &rates, curvature: &curvatures });
+        moving.enter(1, &table, &start, Known { velocity: &rates, acceleration: &curvatures });
         let mut at = start.clone();
         let mut changes = vec![MotionChange::none(); start.nodes.len()];
         moving.update_nodes(1, &table, &start, &increments, (&mut at, &mut changes));
@@ -513,7 +513,7 @@ mod tests {
             let combine = |known: &[f64], weights: [f64; MAX_STAGES]| {
                 stages.iter().zip(weights).fold(pick(known), |sum, (stage, weight)| sum + stage * weight)
             };
-            let linear = [combine(&rates, table.rate), combine(&curvatures, table.curvature)];
+            let linear = [combine(&rates, table.velocity), combine(&curvatures, table.acceleration)];
             let (to, change) = reference(&table, &start.nodes[node], &stages[1], linear);
             let (reached, change) = (&at.nodes[node], MotionChange::of(&change));
             let error = reached.frame.relative_to(&to.frame).logarithm();

@@ -237,8 +237,8 @@ impl Scaled {
     pub fn blend<T: Mul<f64, Output = T>>(&self, weights: Weights<T>) -> Blend<T> {
         Blend {
             place: self.dynamic,
-            rate: weights.rate * (self.dynamic / self.h),
-            acceleration: weights.curvature * (self.dynamic / (self.h * self.h)),
+            rate: weights.velocity * (self.dynamic / self.h),
+            acceleration: weights.acceleration * (self.dynamic / (self.h * self.h)),
             augmented: self.augmented,
             constraint: self.s,
         }
@@ -254,8 +254,8 @@ impl Scaled {
         StageTable {
             kind,
             ahead: if scheme.dynamic { stage.abscissa * self.h } else { 0.0 },
-            rate: stage.rate.increments.map(|weight| weight / self.h),
-            curvature: stage.curvature.increments.map(|weight| weight / (self.h * self.h)),
+            velocity: stage.velocity.increments.map(|weight| weight / self.h),
+            acceleration: stage.acceleration.increments.map(|weight| weight / (self.h * self.h)),
             gain: 1.0 / self.h,
         }
     }
@@ -267,24 +267,26 @@ impl Scaled {
         for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
             for (k, &row) in rows.iter().enumerate() {
                 if row != crate::kinematics::LOCKED {
-                    out.rate[row as usize] = self.h * node.twist[k];
-                    out.curvature[row as usize] = square * node.acceleration[k];
+                    out.velocity[row as usize] = self.h * node.twist[k];
+                    out.acceleration[row as usize] = square * node.acceleration[k];
                 }
             }
         }
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&state.kinematics.coordinates) {
-            out.rate[row as usize] = self.h * coordinate.rate;
-            out.curvature[row as usize] = square * coordinate.acceleration;
+            out.velocity[row as usize] = self.h * coordinate.rate;
+            out.acceleration[row as usize] = square * coordinate.acceleration;
         }
         for (value, algorithmic) in out.algorithmic.iter_mut().zip(&state.algorithmic) {
             *value = square * algorithmic;
         }
         for (index, stage) in scheme.stages.iter().enumerate() {
-            let UnitStepState { rate, curvature, algorithmic, known_rate, known_curvature, .. } = &mut *out;
-            let start = [&rate[..], &curvature[..], &algorithmic[..]];
-            known_part(&stage.rate.times(1.0 / self.h), start, known_rate);
-            known_part(&stage.curvature.times(1.0 / square), start, known_curvature);
-            let known = Known { rate: &out.known_rate, curvature: &out.known_curvature };
+            let UnitStepState {
+                velocity, acceleration, algorithmic, known_velocity, known_acceleration, ..
+            } = &mut *out;
+            let start = [&velocity[..], &acceleration[..], &algorithmic[..]];
+            known_part(&stage.velocity.times(1.0 / self.h), start, known_velocity);
+            known_part(&stage.acceleration.times(1.0 / square), start, known_acceleration);
+            let known = Known { velocity: &out.known_velocity, acceleration: &out.known_acceleration };
             out.nodes.enter(index, &self.stage_table(scheme, stage), &state.kinematics, known);
         }
     }
@@ -299,7 +301,7 @@ impl Scaled {
         memory: &mut [f64],
     ) {
         let combination = combination.times(1.0 / (self.h * self.h));
-        known_part(&combination, [&start.rate, &start.curvature, &start.algorithmic], memory);
+        known_part(&combination, [&start.velocity, &start.acceleration, &start.algorithmic], memory);
         for (weight, increment) in combination.increments.iter().zip(increments) {
             for (value, increment) in memory.iter_mut().zip(increment) {
                 *value += weight * increment;
@@ -341,8 +343,8 @@ impl Scaled {
             let ahead = straight * from.rate;
             coordinate_changes[coordinate] = out.elapsed * ahead + own[row];
             to.value = from.value + coordinate_changes[coordinate];
-            to.rate = ahead + unit.combine(&stage.rate, increments.all, row) / self.h;
-            to.acceleration = unit.combine(&stage.curvature, increments.all, row) / square;
+            to.rate = ahead + unit.combine(&stage.velocity, increments.all, row) / self.h;
+            to.acceleration = unit.combine(&stage.acceleration, increments.all, row) / square;
         }
     }
 }
@@ -457,14 +459,14 @@ pub struct StageIncrements<'a> {
 #[derive(Clone, Debug)]
 pub struct UnitStepState {
     /// q'.
-    pub rate: Vec<f64>,
+    pub velocity: Vec<f64>,
     /// q''.
-    pub curvature: Vec<f64>,
+    pub acceleration: Vec<f64>,
     /// The scheme's memory, like q''.
     pub algorithmic: Vec<f64>,
     /// Terms of velocity and acceleration at a stage that depend on the start, in SI.
-    known_rate: Vec<f64>,
-    known_curvature: Vec<f64>,
+    known_velocity: Vec<f64>,
+    known_acceleration: Vec<f64>,
     nodes: Nodes,
 }
 
@@ -473,25 +475,25 @@ impl UnitStepState {
     pub fn new(layout: &Layout, scheme: &Scheme) -> Self {
         let zeros = vec![0.0; layout.coordinate_count()];
         Self {
-            rate: zeros.clone(),
-            curvature: zeros.clone(),
+            velocity: zeros.clone(),
+            acceleration: zeros.clone(),
             algorithmic: zeros.clone(),
-            known_rate: zeros.clone(),
-            known_curvature: zeros,
+            known_velocity: zeros.clone(),
+            known_acceleration: zeros,
             nodes: Nodes::new(layout, scheme.stages.len()),
         }
     }
 
     /// A scheme's initial guess, with all increments zero, for all rows.
     pub(crate) fn predict(&self, combination: &Combination, out: &mut [f64]) {
-        known_part(combination, [&self.rate, &self.curvature, &self.algorithmic], out);
+        known_part(combination, [&self.velocity, &self.acceleration, &self.algorithmic], out);
     }
 
     /// A scheme's linear combination of the increments and the start, for one row.
     pub fn combine(&self, combination: &Combination, increments: &[Vec<f64>], row: usize) -> f64 {
-        let mut sum = combination.rate * self.rate[row]
+        let mut sum = combination.velocity * self.velocity[row]
             + combination.algorithmic * self.algorithmic[row]
-            + combination.curvature * self.curvature[row];
+            + combination.acceleration * self.acceleration[row];
         for (weight, increment) in combination.increments.iter().zip(increments) {
             sum += weight * increment[row];
         }
@@ -500,11 +502,16 @@ impl UnitStepState {
 }
 
 /// Terms of a linear combination from the velocities, accelerations and memory at the start, by row.
-fn known_part(combination: &Combination, [rate, curvature, algorithmic]: [&[f64]; 3], out: &mut [f64]) {
-    for (((value, rate), curvature), algorithmic) in out.iter_mut().zip(rate).zip(curvature).zip(algorithmic)
+fn known_part(
+    combination: &Combination,
+    [velocity, acceleration, algorithmic]: [&[f64]; 3],
+    out: &mut [f64],
+) {
+    for (((value, velocity), acceleration), algorithmic) in
+        out.iter_mut().zip(velocity).zip(acceleration).zip(algorithmic)
     {
-        *value = combination.rate * rate
+        *value = combination.velocity * velocity
             + combination.algorithmic * algorithmic
-            + combination.curvature * curvature;
+            + combination.acceleration * acceleration;
     }
 }

@@ -193,7 +193,7 @@ fn share(base: &Simulation, lanes: &Lanes, lane: usize) -> f64 {
     let place = column(&lanes.now.place);
     let found = largest_found(base, lanes)[lane];
     let change = found.max(base.integrator.scaled.step_size() * column(&lanes.now.rate));
-    let straight = largest(&mut sizes().zip(work.unit.rate.iter().copied()));
+    let straight = largest(&mut sizes().zip(work.unit.velocity.iter().copied()));
     let travel = work
         .increments
         .iter()

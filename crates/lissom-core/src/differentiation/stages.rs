@@ -104,8 +104,8 @@ impl Stages {
                     twist: previous.kinematics.nodes[node].twist,
                     ahead: if scheme.dynamic { stage.abscissa * size } else { 0.0 },
                     increment: own(&|row| work.increments[index][row]),
-                    rate: combined(&stage.rate, size),
-                    curvature: combined(&stage.curvature, size * size),
+                    rate: combined(&stage.velocity, size),
+                    curvature: combined(&stage.acceleration, size * size),
                 };
                 NodeMap::new(scheme.parametrization, &stage)
             };
@@ -292,8 +292,8 @@ impl pulp::WithSimd for Vary<'_> {
         let (layout, scheme) = (base.system.layout(), &base.settings.scheme);
         let (stage, size) = (&scheme.stages[index], base.integrator.scaled.step_size());
         let (now, own) = (&lanes.now, &lanes.increments[index]);
-        combine(&stage.rate, lanes, size, 1.0 / size, &mut out.rate);
-        combine(&stage.curvature, lanes, size, 1.0 / (size * size), &mut out.acceleration);
+        combine(&stage.velocity, lanes, size, 1.0 / size, &mut out.rate);
+        combine(&stage.acceleration, lanes, size, 1.0 / (size * size), &mut out.acceleration);
         let straight = if scheme.dynamic { 1.0 } else { 0.0 };
         for &row in &layout.coordinate_rows {
             let row = row as usize;
@@ -346,9 +346,9 @@ fn combine(combination: &Combination, lanes: &Lanes, size: f64, factor: f64, out
     let square = factor * size * size;
     out.fill(NOTHING);
     let starts = [
-        (&now.rate, factor * size * combination.rate),
+        (&now.rate, factor * size * combination.velocity),
         (&now.algorithmic, square * combination.algorithmic),
-        (&now.acceleration, square * combination.curvature),
+        (&now.acceleration, square * combination.acceleration),
     ];
     let increments = lanes.increments.iter().zip(combination.increments.map(|weight| factor * weight));
     for (values, weight) in starts.into_iter().chain(increments) {

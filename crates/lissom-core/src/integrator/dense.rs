@@ -103,22 +103,22 @@ impl SolvedStages<'_> {
                     if rows[k] == LOCKED { 0.0 } else { factor * combine(combination, rows[k] as usize) }
                 })
             };
-            let acceleration =
-                weights.curvature.curvature * from.acceleration + of_rows(&weights.curvature, per_square);
+            let acceleration = weights.acceleration.acceleration * from.acceleration
+                + of_rows(&weights.acceleration, per_square);
             *node = depart(
                 from,
                 ahead,
                 &of_rows(&weights.place, 1.0),
-                [&of_rows(&weights.rate, per_time), &acceleration],
+                [&of_rows(&weights.velocity, per_time), &acceleration],
             );
         }
         let coordinates = out.kinematics.coordinates.iter_mut().zip(&start.coordinates);
         for ((own, from), &row) in coordinates.zip(&layout.coordinate_rows) {
             let row = row as usize;
             own.value = from.value + ahead * from.rate + combine(&weights.place, row);
-            own.rate = from.rate + per_time * combine(&weights.rate, row);
-            own.acceleration = weights.curvature.curvature * from.acceleration
-                + per_square * combine(&weights.curvature, row);
+            own.rate = from.rate + per_time * combine(&weights.velocity, row);
+            own.acceleration = weights.acceleration.acceleration * from.acceleration
+                + per_square * combine(&weights.acceleration, row);
         }
         out.accumulated.clear();
         let accumulated = from.accumulated.iter().zip(&to.accumulated);

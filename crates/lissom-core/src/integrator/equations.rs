@@ -216,7 +216,7 @@ impl StepEquations<'_> {
             let mut psi = Vector6::zeros();
             for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
                 let row = row as usize;
-                psi[k] = straight * work.unit.rate[row] + work.increments[stage][row];
+                psi[k] = straight * work.unit.velocity[row] + work.increments[stage][row];
             }
             *tangent = IncrementTangent::new(&psi);
         }
@@ -280,7 +280,7 @@ impl StepEquations<'_> {
             .units
             .coordinates
             .iter()
-            .zip(&work.unit.rate)
+            .zip(&work.unit.velocity)
             .fold(0.0_f64, |most, (size, rate)| most.max((size * rate).abs()));
         self.roundings() * f64::EPSILON * travel
     }
@@ -288,7 +288,7 @@ impl StepEquations<'_> {
     /// Accumulated round-off factor of an acceleration: the sum of the weights of the increments.
     fn roundings(&self) -> f64 {
         let weights =
-            |stage: &Stage| stage.curvature.increments.iter().map(|weight| weight.abs()).sum::<f64>();
+            |stage: &Stage| stage.acceleration.increments.iter().map(|weight| weight.abs()).sum::<f64>();
         self.scheme.stages.iter().map(weights).fold(round_off::OPERATIONS / f64::EPSILON, f64::max)
     }
 
@@ -298,7 +298,7 @@ impl StepEquations<'_> {
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
         for (row, impulse) in layout.impulses() {
             for (stage, motion) in self.work.motions.iter().enumerate().take(self.scheme.stages.len()) {
-                let increments = &self.scheme.stages[stage].rate.increments;
+                let increments = &self.scheme.stages[stage].velocity.increments;
                 let by_correction = increments.iter().zip(&self.work.residuals);
                 let rate: f64 = by_correction.map(|(weight, corrections)| weight * corrections[row]).sum();
                 change = change.max((rate / self.scaled.step_size()).abs());

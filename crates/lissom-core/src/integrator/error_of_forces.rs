@@ -40,8 +40,8 @@ impl Integrator {
             let of_row = ((work.error.filtered[row] - again[row]) * size).abs();
             // A NaN counts as the largest.
             error = if of_row <= error || error.is_nan() { error } else { of_row };
-            let end = work.unit.combine(&stage.curvature, &work.increments, row);
-            largest = largest.max((work.unit.curvature[row] * size).abs()).max((end * size).abs());
+            let end = work.unit.combine(&stage.acceleration, &work.increments, row);
+            largest = largest.max((work.unit.acceleration[row] * size).abs()).max((end * size).abs());
         }
         let share = coupling.inertial_share();
         ((error - round_off::VIBRATION).max(0.0) / (share * square), largest / square)

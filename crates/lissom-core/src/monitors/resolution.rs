@@ -213,9 +213,9 @@ mod tests {
     const ESTIMATE: ErrorEstimate = ErrorEstimate {
         combination: Combination {
             increments: [0.0; MAX_STAGES],
-            rate: 0.0,
+            velocity: 0.0,
             algorithmic: 0.0,
-            curvature: 0.0,
+            acceleration: 0.0,
         },
         order: 3,
         of_oscillation: 1.0 / 12.0,

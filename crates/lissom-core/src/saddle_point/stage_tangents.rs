@@ -254,11 +254,11 @@ impl StageTangents {
     pub(crate) fn solve_inertial(&mut self, coupling: &Coupling, values: &mut [f64]) {
         match (self.systems.first_mut(), coupling.systems.first()) {
             (Some(FactoredSystem::Real(own)), Some(StageSystem::Real(of))) => {
-                own.solve_weighted(of.weights.curvature, values);
+                own.solve_weighted(of.weights.acceleration, values);
                 values.copy_from_slice(&own.right_hand_side);
             }
             (Some(FactoredSystem::Complex(own)), Some(StageSystem::Complex(of))) => {
-                own.solve_weighted(of.weights.curvature, values);
+                own.solve_weighted(of.weights.acceleration, values);
                 for (value, real) in own.right_hand_side.iter().zip(values) {
                     *real = value.re;
                 }

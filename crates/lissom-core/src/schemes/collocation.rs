@@ -32,17 +32,17 @@ const MARGIN: f64 = 0.6;
 #[expect(clippy::cast_possible_wrap, reason = "stages are few")]
 pub(super) fn collocation<const S: usize>(name: String, abscissae: [f64; S], rate: [[f64; S]; S]) -> Scheme {
     let matrix = SMatrix::<f64, S, S>::from_fn(|i, j| rate[i][j]);
-    let curvature = matrix * matrix;
+    let square = matrix * matrix;
     let row = |of: &SMatrix<f64, S, S>, i: usize| {
         Combination::of_increments(&std::array::from_fn::<f64, S, _>(|j| of[(i, j)]))
     };
     let stages: Vec<Stage> = (0..S)
         .map(|i| Stage {
             abscissa: abscissae[i],
-            rate: row(&matrix, i),
-            curvature: row(&curvature, i),
+            velocity: row(&matrix, i),
+            acceleration: row(&square, i),
             prediction: Combination {
-                curvature: 0.5 * abscissae[i] * abscissae[i],
+                acceleration: 0.5 * abscissae[i] * abscissae[i],
                 ..Combination::default()
             },
         })
@@ -106,8 +106,8 @@ fn estimates(abscissae: &[f64], stages: &[Stage], dense: &DensePolynomial) -> [E
     };
     let accelerations = stages.iter().zip(dense.slopes_at_start());
     let accelerations = accelerations
-        .fold(Combination { curvature: 1.0, ..Combination::default() }, |sum, (stage, slope)| {
-            sum.plus(&stage.rate.times(-slope))
+        .fold(Combination { acceleration: 1.0, ..Combination::default() }, |sum, (stage, slope)| {
+            sum.plus(&stage.velocity.times(-slope))
         });
     let slopes: Vec<f64> = dense.slopes_at_start().collect();
     let rates = Combination::of_increments(&slopes);
@@ -143,13 +143,13 @@ fn decouple<const S: usize>(matrix: &SMatrix<f64, S, S>) -> Coupling {
             std::array::from_fn(|i| if i < S { factor * column[i] } else { 0.0.into() });
         systems.push(if is_real {
             StageSystem::Real(Decoupled {
-                weights: Weights { rate: value.re, curvature: value.re * value.re },
+                weights: Weights { velocity: value.re, acceleration: value.re * value.re },
                 left: left.map(|number| number.re),
                 right: right.map(|number| number.re),
             })
         } else {
             StageSystem::Complex(Decoupled {
-                weights: Weights { rate: value, curvature: value * value },
+                weights: Weights { velocity: value, acceleration: value * value },
                 left,
                 right,
             })
@@ -202,7 +202,7 @@ mod tests {
                     let stage = &scheme.stages[i];
                     let entry = |j: usize| {
                         let identity = if i == j { k } else { 0.0 };
-                        m * stage.curvature.increments[j] + d * stage.rate.increments[j] + identity
+                        m * stage.acceleration.increments[j] + d * stage.velocity.increments[j] + identity
                     };
                     (0..count).map(|j| entry(j) * solution[j]).sum()
                 })
@@ -211,12 +211,12 @@ mod tests {
             for system in &scheme.coupling.systems {
                 match system {
                     StageSystem::Real(Decoupled { weights, left, right }) => {
-                        let jacobian = weights.curvature * m + weights.rate * d + k;
+                        let jacobian = weights.acceleration * m + weights.velocity * d + k;
                         let w = (0..count).map(|i| left[i] * residual[i]).sum::<f64>() / jacobian;
                         (0..count).for_each(|i| found[i] += right[i] * w);
                     }
                     StageSystem::Complex(Decoupled { weights, left, right }) => {
-                        let jacobian = weights.curvature * m + weights.rate * d + k;
+                        let jacobian = weights.acceleration * m + weights.velocity * d + k;
                         let w = (0..count).map(|i| left[i] * residual[i]).sum::<Complex64>() / jacobian;
                         (0..count).for_each(|i| found[i] += (right[i] * w).re);
                     }

@@ -26,9 +26,9 @@ pub(crate) struct DenseWeights {
     /// The increment.
     pub place: Combination,
     /// q' minus that at the start.
-    pub rate: Combination,
+    pub velocity: Combination,
     /// q''.
-    pub curvature: Combination,
+    pub acceleration: Combination,
     /// Weights of the multipliers at the start and at the stages.
     pub multipliers: [f64; MAX_STAGES + 1],
 }
@@ -63,14 +63,14 @@ impl DensePolynomial {
             let value = powers.iter().rev().fold(0.0, |sum, power| sum * x + power);
             weights.multipliers[knot] = value;
             let Some(stage) = knot.checked_sub(1).map(|stage| &stages[stage]) else {
-                weights.curvature.curvature = value;
+                weights.acceleration.acceleration = value;
                 continue;
             };
             let terms = powers.iter().enumerate().rev();
             let integral = terms.fold(0.0, |sum, (degree, power)| (sum + power / (degree + 1) as f64) * x);
-            weights.place = weights.place.plus(&stage.rate.times(integral));
-            weights.rate = weights.rate.plus(&stage.rate.times(value));
-            weights.curvature = weights.curvature.plus(&stage.curvature.times(value));
+            weights.place = weights.place.plus(&stage.velocity.times(integral));
+            weights.velocity = weights.velocity.plus(&stage.velocity.times(value));
+            weights.acceleration = weights.acceleration.plus(&stage.acceleration.times(value));
         }
         weights
     }

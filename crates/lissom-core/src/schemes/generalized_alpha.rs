@@ -61,11 +61,11 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let memory =
         Combination { algorithmic: -(0.5 - beta) / beta, ..Combination::of_increments(&[1.0 / beta]) };
     let old = Combination { algorithmic: 1.0, ..Combination::default() };
-    let rate = old.times(1.0 - gamma).plus(&memory.times(gamma));
-    let curvature = memory
+    let velocity = old.times(1.0 - gamma).plus(&memory.times(gamma));
+    let acceleration = memory
         .times((1.0 - alpha_m) / (1.0 - alpha_f))
         .plus(&old.times(alpha_m / (1.0 - alpha_f)))
-        .plus(&Combination { curvature: -alpha_f / (1.0 - alpha_f), ..Combination::default() });
+        .plus(&Combination { acceleration: -alpha_f / (1.0 - alpha_f), ..Combination::default() });
     let prediction = Combination { algorithmic: 0.5, ..Combination::default() };
     // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The error of the prediction is β j, that of the scheme
     // (β - 1/6 + (α_m - α_f)/2) j.
@@ -74,9 +74,12 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let error = ErrorEstimate { combination: missed.times(of_oscillation / beta), order: 3, of_oscillation };
     Scheme {
         name,
-        coupling: Coupling::single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),
+        coupling: Coupling::single(Weights {
+            velocity: velocity.increments[0],
+            acceleration: acceleration.increments[0],
+        }),
         tableau: None,
-        stages: vec![Stage { abscissa: 1.0, rate, curvature, prediction }],
+        stages: vec![Stage { abscissa: 1.0, velocity, acceleration, prediction }],
         algorithmic: memory,
         parametrization: Parametrization::FromStart,
         memory_delay: alpha_m - alpha_f,
@@ -100,14 +103,14 @@ mod tests {
         let [StageSystem::Real(Decoupled { weights, .. })] = scheme.coupling.systems[..] else {
             panic!("one stage")
         };
-        assert!((weights.rate - 0.8 / 0.4225).abs() < 1e-14);
-        assert!((weights.curvature - 1.0 / (0.4225 * 0.7)).abs() < 1e-14);
+        assert!((weights.velocity - 0.8 / 0.4225).abs() < 1e-14);
+        assert!((weights.acceleration - 1.0 / (0.4225 * 0.7)).abs() < 1e-14);
         // A spectral radius of 1 is the trapezoidal rule.
         let scheme = with_spectral_radius(1.0).expect("in range");
         let [StageSystem::Real(Decoupled { weights, .. })] = scheme.coupling.systems[..] else {
             panic!("one stage")
         };
-        assert!((weights.rate - 2.0).abs() < 1e-14 && (weights.curvature - 4.0).abs() < 1e-14);
+        assert!((weights.velocity - 2.0).abs() < 1e-14 && (weights.acceleration - 4.0).abs() < 1e-14);
     }
 
     #[test]

@@ -160,10 +160,10 @@ mod tests {
                 };
                 for stage in &scheme.stages {
                     let rate = n * stage.abscissa.powf(n - 1.0);
-                    assert!((combine(&stage.rate) - rate).abs() < 1e-11, "{} {power}", scheme.name);
+                    assert!((combine(&stage.velocity) - rate).abs() < 1e-11, "{} {power}", scheme.name);
                     if power < count {
                         let curvature = n * (n - 1.0) * stage.abscissa.powf(n - 2.0);
-                        let found = combine(&stage.curvature);
+                        let found = combine(&stage.acceleration);
                         assert!((found - curvature).abs() < 1e-9, "{} {power}: {found}", scheme.name);
                     }
                 }

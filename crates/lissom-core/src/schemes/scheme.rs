@@ -15,11 +15,11 @@ pub struct Combination {
     /// Of each stage's increment.
     pub increments: [f64; MAX_STAGES],
     /// Of the velocity q' at the start.
-    pub rate: f64,
+    pub velocity: f64,
     /// Of the scheme's algorithmic acceleration at the start, which is similar to q''.
     pub algorithmic: f64,
     /// Of the acceleration q'' at the start.
-    pub curvature: f64,
+    pub acceleration: f64,
 }
 
 impl Combination {
@@ -34,9 +34,9 @@ impl Combination {
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.increments.iter_mut().for_each(|value| *value *= factor);
-        self.rate *= factor;
+        self.velocity *= factor;
         self.algorithmic *= factor;
-        self.curvature *= factor;
+        self.acceleration *= factor;
         self
     }
 
@@ -46,9 +46,9 @@ impl Combination {
         for (value, add) in self.increments.iter_mut().zip(other.increments) {
             *value += add;
         }
-        self.rate += other.rate;
+        self.velocity += other.velocity;
         self.algorithmic += other.algorithmic;
-        self.curvature += other.curvature;
+        self.acceleration += other.acceleration;
         self
     }
 }
@@ -59,9 +59,9 @@ pub struct Stage {
     /// Position in the step, 0 … 1.
     pub abscissa: f64,
     /// q' at the stage minus that at the start.
-    pub rate: Combination,
+    pub velocity: Combination,
     /// q'' at the stage.
-    pub curvature: Combination,
+    pub acceleration: Combination,
     /// Initial guess of the increment.
     pub prediction: Combination,
 }
@@ -82,9 +82,9 @@ pub enum Parametrization {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights<T> {
     /// ∂q'/∂z.
-    pub rate: T,
+    pub velocity: T,
     /// ∂q''/∂z.
-    pub curvature: T,
+    pub acceleration: T,
 }
 
 /// A linear system of the size of one stage. With the residuals r of the stages, solve J w = Σ left_i r_i; its contribution
@@ -126,8 +126,8 @@ impl Coupling {
     /// Re(1/∂q''/∂z) of the first system: for vibrations with h ω ≪ 1, what its matrix adds to the mass over the stiffness.
     pub(crate) fn inertial_share(&self) -> f64 {
         match self.systems.first() {
-            Some(StageSystem::Real(of)) => 1.0 / of.weights.curvature,
-            Some(StageSystem::Complex(of)) => of.weights.curvature.re / of.weights.curvature.norm_sqr(),
+            Some(StageSystem::Real(of)) => 1.0 / of.weights.acceleration,
+            Some(StageSystem::Complex(of)) => of.weights.acceleration.re / of.weights.acceleration.norm_sqr(),
             None => 1.0,
         }
     }
