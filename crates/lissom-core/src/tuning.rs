@@ -59,6 +59,9 @@ pub(crate) const MAX_HALVINGS: u32 = 12;
 /// Maximum number of iterations that end by their own criteria: solutions need far fewer, and where there is none this one ends them.
 pub(crate) const MAX_ITERATIONS: usize = 100;
 
+/// Inverse iterations at a shift close to an eigenvalue; one is sufficient at a distance of 1e-10.
+pub(crate) const INVERSE_ITERATIONS: usize = 4;
+
 /// Their names.
 pub const WORDS: [&str; TUNING_PARAMETERS.len()] = {
     let mut words = [""; TUNING_PARAMETERS.len()];

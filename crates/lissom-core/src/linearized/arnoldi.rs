@@ -19,14 +19,12 @@ use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::{LinearError, LinearModel};
 use super::schur::schur;
 use super::shifted::{GeneralShift, Shift, small_square};
-use super::{ADDITIONAL_MODES, EQUAL, krylov};
+use super::{ADDITIONAL_MODES, EIGENVALUE_TOLERANCE, EQUAL, krylov};
 use crate::interrupt;
 use crate::kinematics::Quantity;
 use crate::round_off;
 
 const TOLERANCE: f64 = 1e-8;
-/// Tolerance if the basis has become large compared with the number of modes: the remaining residual is then round-off.
-const LOOSE: f64 = 1e-6;
 const CHECK_INTERVAL: usize = 12;
 /// A basis with this number of vectors, and three times the number of requested eigenvalues, is large.
 const LARGE_BASIS: usize = 100;
@@ -376,7 +374,8 @@ fn search<S: Field>(
         since = 0;
         let mut estimates = estimates(krylov)?;
         *is_exhausted |= krylov.order() >= operator.size();
-        let tolerance = if krylov.order() > LARGE_BASIS + 3 * wanted { LOOSE } else { TOLERANCE };
+        let tolerance =
+            if krylov.order() > LARGE_BASIS + 3 * wanted { EIGENVALUE_TOLERANCE } else { TOLERANCE };
         let converged = |estimate: &Estimate| estimate.residual <= tolerance * estimate.value.norm();
         let are_enough = estimates.len() >= wanted && estimates.iter().take(wanted).all(converged);
         if are_enough || *is_exhausted {

@@ -11,17 +11,13 @@ use super::krylov::{Noise, Operator, product};
 use super::mode::Mode;
 use super::model::LinearModel;
 use super::shifted::GeneralShift;
+use super::{EIGENVALUE_TOLERANCE, EQUAL};
 
-use super::EQUAL;
 use crate::round_off;
+use crate::tuning::INVERSE_ITERATIONS;
 
 /// Maximum number of states of a model whose eigenvalues are all computed.
 const MAX_STATES: usize = 200;
-/// Eigenvalues of the search and of an inverse iteration that differ by less than this fraction are equal; also the
-/// allowed residual of the inverse iteration.
-const EIGENVALUE_TOLERANCE: f64 = 1e-6;
-/// Maximum number of solves of an inverse iteration.
-const SOLVES: usize = 4;
 /// Distance of its shift from the eigenvalue, relative to it.
 const RELATIVE_SHIFT: f64 = 1e-5;
 /// Allowed remainder of a vector that is a combination of known ones, relative to its norm.
@@ -110,7 +106,7 @@ impl Spectrum {
             .filter(|mode| (mode.eigenvalue - value).norm() <= self.tolerance(value))
             .map(|mode| operator.vector_of(mode))
             .collect();
-        for _ in 0..SOLVES {
+        for _ in 0..INVERSE_ITERATIONS {
             operator.apply(&vector, &mut image);
             std::mem::swap(&mut vector, &mut image);
             normalise(&mut vector)?;

@@ -52,6 +52,9 @@ pub use state_space::{StateSpace, StateSpaceError};
 pub use steady::{ModeDeviation, SteadyError, steady};
 pub use whirl::Whirl;
 
+/// Eigenvalues of a search and of an inverse iteration that differ by less than this fraction are equal. Also the allowed residual of
+/// an inverse iteration, and of a search whose basis has become so large that its residual is round-off.
+const EIGENVALUE_TOLERANCE: f64 = 1e-6;
 /// Eigenvalues of the search and of the full matrix, and shapes of rigid modes, that differ by less than this fraction are equal.
 const EQUAL: f64 = 1e-4;
 /// Displacements of differences, as a fraction of the model's length, and rotations [rad]: errors are of the square.

@@ -13,8 +13,6 @@ use crate::tuning::MAX_ITERATIONS;
 /// Load rate at which a search ends, relative to the rates at the ends of the step.
 const FLAT: f64 = 1e-11;
 
-/// Maximum number of consecutive failures of evaluations.
-const MAX_FAILURES: usize = 2;
 /// Width of the bracket within which the signature is linear, as a step fraction; the relative error of its zero is the square.
 const STRAIGHT: f64 = 1e-4;
 
@@ -229,7 +227,8 @@ impl EquilibriumPath {
             };
             let Ok(next) = self.trial(start, low.distance + part * width, iterations) else {
                 failures += 1;
-                if failures > MAX_FAILURES {
+                // All three have failed.
+                if failures > 2 {
                     break;
                 }
                 continue;

@@ -20,11 +20,10 @@ use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{Scratch, State, Sum, System, TangentAssembler};
+use crate::tuning::INVERSE_ITERATIONS;
 
 /// Largest correction; larger ones are scaled down [-, rad].
 const MAX_CORRECTION: f64 = 0.5;
-/// Inverse iterations for the softest direction. One is sufficient at a bifurcation located to 1e-10.
-const INVERSE_ITERATIONS: usize = 4;
 
 /// Largest asymmetry of the equilibrated tangent of a conservative system.
 const ASYMMETRY: f64 = 1e-7;
