@@ -56,7 +56,7 @@ enum State {
 
 struct Elimination {
     graph: QuotientGraph,
-    marked: Marks,
+    marked: Stamped,
     has_hosts: Vec<bool>,
     hosts: HostCount,
     freed: Vec<u32>,
@@ -83,8 +83,8 @@ struct QuotientGraph {
     followers: Vec<Vec<u32>>,
 }
 
-/// Marks that are valid where their stamp is the present one.
-struct Marks {
+/// Values that are valid where their stamp is the present one.
+struct Stamped {
     /// Weight of an element outside the present boundary.
     outside: Vec<u64>,
     outside_stamps: Vec<u64>,
@@ -133,7 +133,7 @@ impl Elimination {
         };
         Elimination {
             graph,
-            marked: Marks {
+            marked: Stamped {
                 outside: vec![0; count],
                 outside_stamps: vec![0; count],
                 marks: vec![0; count],
