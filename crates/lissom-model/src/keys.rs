@@ -249,12 +249,27 @@ impl Shape {
     /// Keys of an inertia that is given by a solid.
     pub(crate) fn solid_keys() -> Vec<Key> {
         vec![
-            optional("kind", choice(&["box", "cylinder", "tube", "sphere"]), "", "which solid it is"),
+            optional(
+                "kind",
+                choice(&["box", "cylinder", "tube", "sphere", "capsule"]),
+                "",
+                "which solid it is",
+            ),
             optional("sides", Self::Vector, "m", "of a box, along the body axes"),
-            optional("radius", Self::Positive, "m", "of a cylinder or sphere; the outer one of a tube"),
+            optional(
+                "radius",
+                Self::Positive,
+                "m",
+                "of a cylinder, sphere or capsule; the outer one of a tube",
+            ),
             optional("inner_radius", Self::Positive, "m", "of a tube"),
-            optional("length", Self::Positive, "m", "of a cylinder or tube"),
-            optional("axis", Self::BodyDirection, "", "of a cylinder or tube, body axes; default z"),
+            optional(
+                "length",
+                Self::Positive,
+                "m",
+                "of a cylinder or tube; of a capsule between the centres of its ends",
+            ),
+            optional("axis", Self::BodyDirection, "", "of a cylinder, tube or capsule, body axes; default z"),
             optional("box", Self::Vector, "m", "sides along the body axes, instead of `kind` and dimensions"),
             optional("cylinder", Self::Pair, "m", "[radius, length], instead of `kind` and dimensions"),
             optional(
@@ -270,8 +285,14 @@ impl Shape {
     /// Keys of what is drawn of a body.
     pub(crate) fn drawn_keys() -> Vec<Key> {
         let mut keys = Self::solid_keys();
-        keys[0].holds = choice(&["box", "cylinder", "tube", "sphere", "mesh"]);
+        keys[0].holds = choice(&["box", "cylinder", "tube", "sphere", "capsule", "plane", "mesh"]);
         keys.extend([
+            optional(
+                "normal",
+                Self::BodyDirection,
+                "",
+                "of a plane, body axes: out of the solid half-space; default z",
+            ),
             optional("file", Self::Text, "", "of a mesh: an STL or glTF file; path relative to this file"),
             optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres; default 1"),
             optional(

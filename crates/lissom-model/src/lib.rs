@@ -5,6 +5,7 @@
 
 mod channel_components;
 pub mod channels;
+mod contact_point;
 mod context;
 mod data_file;
 pub mod document;

@@ -13,7 +13,7 @@ use crate::manual::words;
 use crate::registry::Registry;
 
 /// The files by name without extension, with the tables of their entries.
-const FILES: [(&str, &str, &[&str]); 9] = [
+const FILES: [(&str, &str, &[&str]); 10] = [
     ("sections", "Materials and cross sections.", &["materials", "sections"]),
     (
         "parts",
@@ -23,6 +23,7 @@ const FILES: [(&str, &str, &[&str]); 9] = [
     ("joints", "What holds nodes together, one class per kind.", &["joints"]),
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),
     ("loads", "Applied forces and moments, and those of actuators.", &["loads"]),
+    ("contacts", "Parts that may touch, and the solids that are fixed in space.", &["contacts", "ground"]),
     ("feedback", "First-order states and events.", &["states", "events"]),
     ("motions", "How the parts are and move at the start.", &["initial"]),
     ("outputs", "What is recorded, one class per kind.", &["outputs"]),

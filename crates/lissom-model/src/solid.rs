@@ -1,6 +1,6 @@
 //! Volume and inertia of homogeneous solids.
 
-use lissom_motion::{Matrix3, Vector3};
+use lissom_motion::{Matrix3, Motion, Vector3};
 
 /// A homogeneous solid about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,30 @@ pub(crate) enum Solid {
     },
     /// Radius [m].
     Sphere(f64),
+    /// A rod with hemispherical ends.
+    Capsule {
+        /// Radius [m].
+        radius: f64,
+        /// Length between the centres of the ends [m].
+        length: f64,
+        /// Direction of the axis, a unit vector.
+        axis: Vector3,
+    },
+}
+
+/// What touches: a solid about its centre, or everything below the plane z = 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Form {
+    Solid(Solid),
+    HalfSpace,
+}
+
+/// A solid at its position in a part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlacedSolid {
+    pub(crate) form: Form,
+    /// Its axes in those of the part; the third is the axis of a round one and the normal of a plane.
+    pub(crate) frame: Motion,
 }
 
 impl Solid {
@@ -29,6 +53,7 @@ impl Solid {
             Self::Box(sides) => sides.iter().all(|side| *side > 0.0),
             Self::Tube { outer, inner, length, .. } => inner >= 0.0 && outer > inner && length > 0.0,
             Self::Sphere(radius) => radius > 0.0,
+            Self::Capsule { radius, length, .. } => radius > 0.0 && length > 0.0,
         }
     }
 
@@ -40,6 +65,9 @@ impl Solid {
                 std::f64::consts::PI * (outer * outer - inner * inner) * length
             }
             Self::Sphere(radius) => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+            Self::Capsule { radius, length, .. } => {
+                std::f64::consts::PI * radius * radius * (length + 4.0 / 3.0 * radius)
+            }
         }
     }
 
@@ -54,6 +82,16 @@ impl Solid {
                 return across * (Matrix3::identity() - along) + 0.5 * radii * along;
             }
             Self::Sphere(radius) => Vector3::repeat(0.4 * radius * radius),
+            Self::Capsule { radius, length, axis } => {
+                // Cylinder and two half balls, whose centres are 3/8 of the radius from their faces.
+                let ends = 4.0 / 3.0 * radius / (length + 4.0 / 3.0 * radius);
+                let square = radius * radius;
+                let rod = (1.0 - ends) * (square / 4.0 + length * length / 12.0);
+                let balls = ends * (0.4 * square + 0.25 * length * length + 0.375 * length * radius);
+                let spin = square * ((1.0 - ends) / 2.0 + 0.4 * ends);
+                let along = axis * axis.transpose();
+                return (rod + balls) * (Matrix3::identity() - along) + spin * along;
+            }
         };
         Matrix3::from_diagonal(&moments)
     }
@@ -85,7 +123,10 @@ mod tests {
         let across = |x: &Vector3| x.y.hypot(x.z);
         let tube = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: Vector3::x() };
         let sides = [0.4, 0.7, 1.0];
+        let rod = Solid::Capsule { radius: 0.25, length: 0.5, axis: Vector3::x() };
+        let beyond = |x: &Vector3| (x - Vector3::new(x.x.clamp(-0.25, 0.25), 0.0, 0.0)).norm();
         for (solid, (volume, moments)) in [
+            (rod, summed(|x| beyond(x) < 0.25, 1.0)),
             (Solid::Sphere(0.5), summed(|x| x.norm() < 0.5, 1.0)),
             (tube, summed(|x| x.x.abs() < 0.4 && (0.2..0.5).contains(&across(x)), 1.0)),
             (Solid::Box(sides), summed(|x| (0..3).all(|k| x[k].abs() < 0.5 * sides[k]), 1.0)),

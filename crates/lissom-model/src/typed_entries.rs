@@ -14,7 +14,7 @@ use crate::registry::Registry;
 type TableAndId = (&'static str, &'static str);
 
 /// The files by name without extension, with the tables of their entries and the types of their ids.
-const FILES: [(&str, &str, &[TableAndId]); 9] = [
+const FILES: [(&str, &str, &[TableAndId]); 10] = [
     ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
     (
         "parts",
@@ -33,6 +33,11 @@ const FILES: [(&str, &str, &[TableAndId]); 9] = [
     ),
     ("springs", "What pulls nodes or joints back, one type per kind.", &[("springs", "SpringId")]),
     ("loads", "Applied forces and moments, and those of actuators.", &[("loads", "LoadId")]),
+    (
+        "contacts",
+        "Parts that may touch, and the solids that are fixed in space.",
+        &[("contacts", "ContactId"), ("ground", "GroundId")],
+    ),
     ("feedback", "First-order states and events.", &[("states", "StateId"), ("events", "EventId")]),
     ("motions", "How the parts are and move at the start.", &[("initial", "InitialId")]),
     ("outputs", "What is recorded, one type per kind.", &[("outputs", "OutputId")]),
@@ -78,7 +83,19 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
 /// The types that `text` names.
 fn imports(text: &str) -> String {
     const KNOWN: [(&str, &[&str]); 4] = [
-        ("ids", &["BeamId", "InputId", "JointId", "MaterialId", "SectionId", "SpringId", "SuperelementId"]),
+        (
+            "ids",
+            &[
+                "BeamId",
+                "ContactId",
+                "InputId",
+                "JointId",
+                "MaterialId",
+                "SectionId",
+                "SpringId",
+                "SuperelementId",
+            ],
+        ),
         ("entry", &["entry", "keys", "nested"]),
         (
             "values",
@@ -297,6 +314,8 @@ fn single(table: &str) -> &'static str {
         "superelements" => "superelement",
         "states" => "state",
         "events" => "event",
+        "contacts" => "contact",
+        "ground" => "ground",
         "initial" => "initial_motion",
         _ => "entry",
     }
@@ -311,6 +330,8 @@ fn summary_of(table: &str) -> &'static str {
         "superelements" => "A linear elastic part that is given by reduced matrices.",
         "states" => "A first-order state: a number whose time derivative is an expression.",
         "events" => "What happens when an expression passes through zero.",
+        "contacts" => "Two parts that may touch, by their shapes.",
+        "ground" => "Solids that are fixed in space.",
         "initial" => "A rigid motion of all parts at the start, or static equilibrium.",
         _ => "An entry.",
     }

@@ -3,6 +3,7 @@
 mod breakpoints;
 mod configuration;
 mod constraints;
+mod contacts;
 mod departures;
 mod energies;
 mod feedback;

@@ -1,7 +1,10 @@
-//! Geometry and laws of contact between wheels, planes and rails. Independent of elements, joints and systems.
+//! Geometry and laws of contact between solids, and between wheels, planes and rails. Independent of elements, joints and systems.
 
+pub mod compliance;
 pub mod creep_law;
+pub mod gap;
 pub mod profile;
+pub mod surfaces;
 pub mod wheel_on_plane;
 pub mod wheel_on_rail;
 

@@ -52,6 +52,11 @@ impl FramePair {
         }
     }
 
+    /// From the axes of the base's frame to global ones.
+    pub(super) fn base_rotation(&self, at: &Kinematics) -> Matrix3 {
+        (at.nodes[self.nodes[0]].frame.rotation * self.frames[0].offset.rotation).matrix()
+    }
+
     /// Inverse Ad of the frames' offsets: from variations of the nodes to those of the frames.
     fn carry(&self) -> [Matrix6; 2] {
         self.frames.map(|frame| frame.offset.inverse().adjoint())

@@ -5,6 +5,7 @@
 
 pub mod beam;
 pub mod bushing;
+pub mod contact;
 pub mod contribution;
 pub mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;

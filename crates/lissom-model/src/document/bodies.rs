@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::entries::each;
-use super::solids::{solid, surface};
+use super::solids::{shape, solid};
 use super::{Body, Plane, PointMass};
 use crate::context::Context;
 use crate::keys::Shape;
@@ -20,8 +20,8 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
         let (position, axes) = (position(reader), axes(reader));
         let (velocity, angular_velocity) = (reader.vector("velocity"), reader.vector("angular_velocity"));
         let center_of_mass = reader.vector("center_of_mass").map_or(Vector3::zeros(), |center| center.value);
-        let surface = surface(reader, &center_of_mass);
-        let (mass, inertia) = mass_and_inertia?;
+        let shape = shape(reader, &center_of_mass);
+        let ((mass, inertia), shape) = (mass_and_inertia?, shape?);
         Some(Body {
             name: Located::new(name.to_owned(), reader.name),
             mass,
@@ -29,7 +29,8 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
             position: position?,
             axes: axes?,
             center_of_mass,
-            surface: surface?,
+            surface: shape.surface,
+            solids: shape.solids,
             velocity,
             angular_velocity,
         })
@@ -165,7 +166,15 @@ pub(super) fn point_masses(context: &Context<'_>) -> Vec<PointMass> {
             }
         }
         let name = Located::new(name.to_owned(), reader.name);
-        let surface = surface(reader, &Vector3::zeros())?;
-        Some(PointMass { name, mass: mass?.value, position: position?, plane, surface, velocity })
+        let shape = shape(reader, &Vector3::zeros())?;
+        Some(PointMass {
+            name,
+            mass: mass?.value,
+            position: position?,
+            plane,
+            surface: shape.surface,
+            solids: shape.solids,
+            velocity,
+        })
     })
 }

@@ -256,7 +256,7 @@ fn own_place(
     places.of(node)
 }
 
-fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located<NodeReference>)> {
+pub(super) fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located<NodeReference>)> {
     let context = reader.context;
     let node = |key| reader.node(key).and_then(|node| context.node(node, &reader.words(key)));
     let (base, tip) = (node("base"), node("tip"));

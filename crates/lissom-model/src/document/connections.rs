@@ -125,6 +125,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("joints", document.joints.len()),
         ("springs", document.springs.len()),
         ("loads", document.loads.len()),
+        ("contacts", document.contacts.len()),
         ("outputs", document.outputs.len()),
         ("inputs", document.inputs.len()),
         ("signals", document.signals.len()),
@@ -203,6 +204,9 @@ fn free_parts(context: &Context<'_>, document: &Document) {
                 groups.join(part_of(&pair[0].0.value), part_of(&pair[1].0.value));
             }
         }
+    }
+    for contact in &document.contacts {
+        groups.join(part_of(&contact.between[0].value), part_of(&contact.between[1].value));
     }
     for beam in &document.beams {
         for shared in beam.shared_start.iter().chain(&beam.shared_end) {

@@ -10,8 +10,8 @@ use lissom_motion::Vector3;
 use super::entries::PARTS;
 use super::top_level::{self, Holds};
 use super::{
-    Document, analysis, assembly, beams, bodies, components, connections, events, initial, materials,
-    outputs, signals, superelements,
+    Document, analysis, assembly, beams, bodies, components, connections, contacts, events, initial,
+    materials, outputs, signals, superelements,
 };
 use crate::context::{Context, singular};
 use crate::expression;
@@ -87,6 +87,8 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
+    let ground = contacts::ground(context);
+    let contacts = contacts::contacts(context, (&bodies, &point_masses, ground.as_ref()));
     signals::check_names(context);
     let inputs = signals::inputs(context);
     let signals = signals::signals(context);
@@ -110,6 +112,8 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         joints,
         springs,
         loads,
+        ground: ground?,
+        contacts,
         inputs,
         signals,
         states,

@@ -8,6 +8,7 @@ mod beams;
 mod bodies;
 mod components;
 mod connections;
+mod contacts;
 pub(crate) mod decode;
 mod distributed;
 mod entries;
@@ -39,12 +40,14 @@ use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
 use crate::scene::Outline;
 use crate::sections::{Isotropic, SectionProperties};
+use crate::solid::PlacedSolid;
 use crate::surface::Surface;
 
 pub(crate) use bodies::body_axes;
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
+pub use contacts::{ContactEntry, Ground, Restitution};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use output_kinds::OutputKind;
@@ -103,6 +106,10 @@ pub struct Document {
     pub springs: Vec<Component>,
     /// Loads.
     pub loads: Vec<Component>,
+    /// The shape of the ground.
+    pub ground: Ground,
+    /// Contacts between parts.
+    pub contacts: Vec<ContactEntry>,
     /// Numbers set from outside, with their values at the start.
     pub inputs: Vec<(Located<String>, f64)>,
     /// Named expressions of time, inputs, states and outputs.
@@ -281,6 +288,8 @@ pub struct Body {
     pub center_of_mass: Vector3,
     /// Shape for drawings, if it is specified.
     pub surface: Option<Arc<Surface>>,
+    /// Solids with which it touches others.
+    pub(crate) solids: Vec<PlacedSolid>,
     /// Velocity of the reference point at the start, global axes [m/s]; `None` leaves it to the initial motion.
     pub velocity: Option<Located<Vector3>>,
     /// Angular velocity at the start, body axes [rad/s]; `None` leaves it to the initial motion.
@@ -311,6 +320,8 @@ pub struct PointMass {
     pub plane: Option<Plane>,
     /// Shape to be drawn, if it is specified.
     pub surface: Option<Arc<Surface>>,
+    /// Solids with which it touches others.
+    pub(crate) solids: Vec<PlacedSolid>,
     /// Velocity at the start, global axes [m/s]; `None` leaves it to the initial motion.
     pub velocity: Option<Located<Vector3>>,
 }

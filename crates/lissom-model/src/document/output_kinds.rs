@@ -12,6 +12,7 @@ pub(crate) enum Subject {
     Section,
     Joint,
     Spring,
+    Contact,
     /// A spring, load, drive or joint with friction.
     Actor,
     /// A whole beam.
@@ -125,6 +126,8 @@ kinds! {
     RelativeMotion = outputs::frames::RELATIVE_MOTION,
     /// Where a wheel touches its rail, and what acts there.
     Contact = outputs::contact::CONTACT,
+    /// Gap and force of a contact between two parts.
+    ContactForce = outputs::contact_force::CONTACT_FORCE,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring = outputs::spring::SPRING,
     /// Power that a spring, load, drive or friction puts into the model [W].

@@ -28,6 +28,8 @@ pub enum OutputSource {
     Joint(Located<String>),
     /// A spring, by name.
     Spring(Located<String>),
+    /// A contact, by name.
+    Contact(Located<String>),
     /// A spring, a load, a drive or a joint with friction, by name.
     Actor(Located<String>),
     /// A whole beam, by name.
@@ -95,6 +97,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             Subject::Node | Subject::Section => node(reader, kind)?,
             Subject::Joint => OutputSource::Joint(reader.name_in("of")?),
             Subject::Spring => OutputSource::Spring(reader.name_in("of")?),
+            Subject::Contact => OutputSource::Contact(reader.name_in("of")?),
             Subject::Actor => {
                 let tables = ["springs", "loads", "joints"];
                 OutputSource::Actor(name_of_one(reader, &tables, "spring, load or joint")?)

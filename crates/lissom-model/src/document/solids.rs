@@ -1,4 +1,4 @@
-//! Solids of a model file: those that determine the inertia of a body, and what is drawn of it.
+//! Solids of a model file: those that determine the inertia of a part, are drawn of it, and touch others.
 
 use std::sync::Arc;
 
@@ -8,21 +8,24 @@ use crate::keys::{Key, Shape};
 use crate::library::joined;
 use crate::reader::Reader;
 use crate::report::Problem;
-use crate::solid::Solid;
+use crate::solid::{Form, PlacedSolid, Solid};
 use crate::surface::Surface;
 use crate::text::{Node, Value};
 
 /// Kinds of solids with their dimensions.
-const KINDS: [(&str, &[&str]); 5] = [
+const KINDS: [(&str, &[&str]); 7] = [
     ("box", &["sides"]),
     ("cylinder", &["radius", "length", "axis"]),
     ("tube", &["radius", "inner_radius", "length", "axis"]),
     ("sphere", &["radius"]),
+    ("capsule", &["radius", "length", "axis"]),
+    ("plane", &["normal"]),
     ("mesh", &["file", "scale"]),
 ];
 /// All dimensions; those that may be omitted.
-const DIMENSIONS: [&str; 7] = ["sides", "radius", "inner_radius", "length", "axis", "file", "scale"];
-const OPTIONAL: [&str; 2] = ["axis", "scale"];
+const DIMENSIONS: [&str; 8] =
+    ["sides", "radius", "inner_radius", "length", "axis", "normal", "file", "scale"];
+const OPTIONAL: [&str; 3] = ["axis", "normal", "scale"];
 /// Kinds whose name may be the key of their dimensions instead.
 const SHORT: [&str; 4] = ["box", "cylinder", "tube", "sphere"];
 
@@ -34,31 +37,42 @@ pub(super) fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<S
     read(&own, node, kind)
 }
 
-/// Surface for drawings, if it is specified; the outer `None` stands for an error.
-#[expect(clippy::option_option, reason = "a mistake, or nothing given")]
-pub(super) fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surface>>> {
+/// What a part consists of: its surface for drawings, and the solids with which it touches others.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Body {
+    pub(super) surface: Option<Arc<Surface>>,
+    pub(super) solids: Vec<PlacedSolid>,
+}
+
+/// The shape of a part, empty if it is not specified; none stands for an error.
+pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
     let context = reader.context;
     match (reader.node("shape"), reader.node("mesh")) {
-        (None, None) => Some(None),
+        (None, None) => Some(Body::default()),
         (Some(node), None) => {
             let what = reader.words("shape");
-            let Value::List(list) = &node.value else {
-                return Some(Some(Arc::new(drawn(reader, node, &what, center)?)));
+            let entries = match &node.value {
+                Value::List(list) => list.as_slice(),
+                _ => std::slice::from_ref(node),
             };
-            if list.is_empty() {
+            if entries.is_empty() {
                 return context.fail(
                     node.span,
                     format!("{what} is empty"),
                     "give at least one solid, or remove it",
                 );
             }
-            let mut whole = Surface::default();
-            for entry in list {
-                whole.append(&drawn(reader, entry, &format!("each entry of {what}"), center)?);
+            let (mut surface, mut solids) = (Surface::default(), Vec::new());
+            for entry in entries {
+                let what = if entries.len() > 1 { format!("each entry of {what}") } else { what.clone() };
+                let (drawn, solid) = drawn(reader, entry, &what, center)?;
+                surface.append(&drawn);
+                solids.extend(solid);
             }
-            Some(Some(Arc::new(whole)))
+            let surface = (!surface.triangles.is_empty()).then(|| Arc::new(surface));
+            Some(Body { surface, solids })
         }
-        (None, Some(node)) => file(reader, node, "mesh"),
+        (None, Some(node)) => Some(Body { surface: file(reader, node, "mesh")?, solids: Vec::new() }),
         (Some(_), Some(node)) => {
             let message = format!("{} has both `shape` and `mesh`", reader.what);
             context.fail(node.span, message, "remove one of them")
@@ -82,8 +96,13 @@ fn file(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Option<Arc<Su
     }
 }
 
-/// The surface of a solid or a file, at its position in the body.
-fn drawn(reader: &Reader<'_, '_>, node: &Node, what: &str, center: &Vector3) -> Option<Surface> {
+/// The surface of a solid or a file at its position in the body, and the solid.
+fn drawn(
+    reader: &Reader<'_, '_>,
+    node: &Node,
+    what: &str,
+    center: &Vector3,
+) -> Option<(Surface, Option<PlacedSolid>)> {
     let own = opened(reader, node, what, Shape::drawn_keys())?;
     let kind = kind(&own, node, what)?;
     let vector = |key: &str, default: Vector3| {
@@ -95,15 +114,40 @@ fn drawn(reader: &Reader<'_, '_>, node: &Node, what: &str, center: &Vector3) -> 
         Rotation::exponential(&vector("rotation", Vector3::zeros())?),
         vector("position", origin)?,
     );
-    if kind != "mesh" {
-        return Some(
-            Surface::of_solid(&read(&own, node, kind)?, &Vector3::zeros())
-                .moved(&frame, &Vector3::repeat(1.0)),
-        );
+    if kind == "mesh" {
+        let scale = vector("scale", Vector3::repeat(1.0))?;
+        let surface = file(&own, own.node("file")?, "file")?;
+        return Some((surface.map_or_else(Surface::default, |surface| surface.moved(&frame, &scale)), None));
     }
-    let scale = vector("scale", Vector3::repeat(1.0))?;
-    let surface = file(&own, own.node("file")?, "file")?;
-    Some(surface.map_or_else(Surface::default, |surface| surface.moved(&frame, &scale)))
+    if kind == "plane" {
+        let normal = direction(&own, "normal")?;
+        let frame = frame * Motion::new(turned_to(&normal), Vector3::zeros());
+        return Some((Surface::default(), Some(PlacedSolid { form: Form::HalfSpace, frame })));
+    }
+    let solid = read(&own, node, kind)?;
+    let surface = Surface::of_solid(&solid, &Vector3::zeros()).moved(&frame, &Vector3::repeat(1.0));
+    let turn = match solid {
+        Solid::Tube { axis, .. } | Solid::Capsule { axis, .. } => turned_to(&axis),
+        Solid::Box(_) | Solid::Sphere(_) => Rotation::IDENTITY,
+    };
+    let placed = PlacedSolid { form: Form::Solid(solid), frame: frame * Motion::new(turn, Vector3::zeros()) };
+    Some((surface, Some(placed)))
+}
+
+/// The shortest rotation of the third axis to a unit vector.
+fn turned_to(axis: &Vector3) -> Rotation {
+    let across = Vector3::z().cross(axis);
+    let sine = across.norm();
+    let angle = sine.atan2(axis.z);
+    let turn = if sine > 0.0 { across * (angle / sine) } else { angle * Vector3::x() };
+    Rotation::exponential(&turn)
+}
+
+/// A direction in body axes, by default the third.
+fn direction(own: &Reader<'_, '_>, key: &str) -> Option<Vector3> {
+    own.node(key).map_or(Some(Vector3::z()), |axis| {
+        own.context.own_direction(axis, &own.words(key)).map(|axis| axis.normalize())
+    })
 }
 
 fn opened<'c, 'a>(
@@ -122,8 +166,7 @@ fn kind(own: &Reader<'_, '_>, node: &Node, what: &str) -> Option<&'static str> {
     let given = usize::from(own.has("kind")) + short.len();
     if given != 1 {
         let message = format!("{what} must name one solid, not {given}");
-        let help =
-            "write `kind = \"box\"` with its `sides`, or `cylinder`, `tube` or `sphere` with a `radius` …";
+        let help = "write `kind = \"box\"` with its `sides`, or `cylinder`, `tube`, `sphere` or `capsule` with a `radius` …";
         return context.fail(node.span, message, help);
     }
     let named = own.choice("kind").map(|kind| kind.value);
@@ -151,10 +194,7 @@ fn kind(own: &Reader<'_, '_>, node: &Node, what: &str) -> Option<&'static str> {
 fn read(own: &Reader<'_, '_>, node: &Node, kind: &str) -> Option<Solid> {
     let context = own.context;
     let number = |key: &str| own.number(key).map(|number| number.value);
-    let axis = match own.node("axis") {
-        None => Vector3::z(),
-        Some(axis) => context.own_direction(axis, &own.words("axis"))?.normalize(),
-    };
+    let axis = direction(own, "axis")?;
     let short = own.node(kind).filter(|_| !own.has("kind"));
     let solid = match (kind, short) {
         ("box", None) => Solid::Box(own.vector("sides")?.value.into()),
@@ -176,6 +216,7 @@ fn read(own: &Reader<'_, '_>, node: &Node, kind: &str) -> Option<Solid> {
             let [outer, inner, length] = context.numbers::<3>(value, &own.words(kind))?;
             Solid::Tube { outer, inner, length, axis }
         }
+        ("capsule", _) => Solid::Capsule { radius: number("radius")?, length: number("length")?, axis },
         (_, None) => Solid::Sphere(number("radius")?),
         (_, Some(_)) => Solid::Sphere(number("sphere")?),
     };

@@ -33,6 +33,8 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "joints" => (Some("kind"), joints(&registry.joints)),
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),
+        "ground" => (None, vec![single(super::contacts::ground_keys())]),
+        "contacts" => (None, vec![single(super::contacts::keys())]),
         "states" => (None, vec![single(state())]),
         "events" => (None, vec![single(super::events::keys())]),
         "initial" => (None, vec![single(initial())]),
@@ -348,6 +350,7 @@ fn output_subject(subject: Subject) -> Option<Key> {
         Subject::Node | Subject::Section => required("of", Shape::Node, "", "the node, such as \"beam@0.5\""),
         Subject::Joint => required("of", Shape::Name("joints"), "", "the joint"),
         Subject::Spring => required("of", Shape::Name("springs"), "", "the spring"),
+        Subject::Contact => required("of", Shape::Name("contacts"), "", "the contact"),
         Subject::Actor => {
             let words = "the name of a spring, a load, a drive or a joint with friction";
             required("of", Shape::Text, "", words)

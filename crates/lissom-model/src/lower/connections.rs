@@ -70,6 +70,15 @@ pub(super) fn add(
             }
         }
     }
+    for entry in by_name(&document.contacts, |entry| &entry.name.value) {
+        let nodes = entry.between.each_ref().map(|part| names.node(part));
+        let [base, tip] = nodes;
+        let added = base.and_then(|base| Ok([base, tip?]));
+        match added.and_then(|nodes| super::contacts::add(document, entry, nodes, builder)) {
+            Ok(points) => drop(names.contacts.insert(entry.name.value.clone(), points)),
+            Err(problem) => problems.push(problem),
+        }
+    }
     super::measurements::bind(document, builder, names, problems);
 }
 

@@ -3,6 +3,7 @@
 mod analysis;
 mod assembly;
 mod connections;
+mod contacts;
 mod couplings;
 mod distributed;
 mod initial_state;
@@ -34,6 +35,7 @@ use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 
 use crate::channels::Channel;
+use crate::contact_point::ContactPoint;
 use crate::document::{
     Component, DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output,
     OutputSource, Subject, interface_name,
@@ -118,6 +120,8 @@ pub struct Names {
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
     /// Springs, loads and joints' friction, whose power can be determined.
     pub powers: BTreeMap<String, ElementId>,
+    /// Points of each contact.
+    pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
     /// Loads on coordinates of joints; those of size zero have no element.
     pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.
@@ -235,6 +239,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
             Err(problem) => return Err(document.report(vec![problem])),
         }
     }
+    contacts::start(names.contacts.values().flatten(), &mut state.kinematics);
     let mut warnings = initial_state::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
     let (channels, accumulated) =
@@ -321,6 +326,7 @@ impl Names {
             coordinates: &self.coordinates,
             springs: &self.springs,
             powers: &self.powers,
+            contacts: &self.contacts,
             signals: &self.signals,
         }
     }

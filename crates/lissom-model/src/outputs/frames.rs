@@ -162,6 +162,7 @@ pub(super) fn name_of(output: &Output) -> Result<&Located<String>, Problem> {
     match &output.source {
         OutputSource::Joint(name)
         | OutputSource::Spring(name)
+        | OutputSource::Contact(name)
         | OutputSource::Actor(name)
         | OutputSource::Beam(name)
         | OutputSource::Superelement(name)

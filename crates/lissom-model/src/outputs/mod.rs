@@ -3,6 +3,7 @@
 
 pub(crate) mod angle;
 pub(crate) mod contact;
+pub(crate) mod contact_force;
 mod derivatives;
 mod differences;
 pub(crate) mod energy;
@@ -40,6 +41,7 @@ use lissom_core::system::{ElementId, State, System};
 use nalgebra::DMatrix;
 
 use crate::channels::Channel;
+use crate::contact_point::ContactPoint;
 use crate::document::Output;
 use crate::report::Problem;
 
@@ -158,6 +160,8 @@ pub(crate) struct Resolver<'a> {
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
     /// Springs, loads and joints' friction.
     pub(crate) powers: &'a BTreeMap<String, ElementId>,
+    /// Points of each contact.
+    pub(crate) contacts: &'a BTreeMap<String, Vec<ContactPoint>>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
 }

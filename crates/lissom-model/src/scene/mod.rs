@@ -227,6 +227,7 @@ impl Places<'_> {
             OutputSource::Model | OutputSource::Expression(_) => (None, None),
             OutputSource::Joint(name)
             | OutputSource::Spring(name)
+            | OutputSource::Contact(name)
             | OutputSource::Actor(name)
             | OutputSource::Beam(name)
             | OutputSource::Superelement(name)

@@ -1,6 +1,6 @@
 //! Bodies, point masses and beams as they look.
 
-use lissom_core::kinematics::NodeId;
+use lissom_core::kinematics::{GROUND, NodeId};
 use lissom_motion::{Matrix3, Motion};
 use serde::{Deserialize, Serialize};
 
@@ -109,7 +109,14 @@ pub(super) fn point_masses(document: &Document, places: &Places<'_>) -> Vec<Poin
         let surface = mass.surface.as_deref().cloned();
         Some(PointMass { node: *nodes.get(&name)?, name, mass: mass.mass, surface })
     };
-    document.point_masses.iter().filter_map(drawn).collect()
+    // The ground is drawn as a part that does not move.
+    let ground = document.ground.surface.as_deref().map(|surface| PointMass {
+        name: "ground".to_owned(),
+        node: GROUND,
+        mass: 0.0,
+        surface: Some(surface.clone()),
+    });
+    document.point_masses.iter().filter_map(drawn).chain(ground).collect()
 }
 
 pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {

@@ -83,19 +83,29 @@ impl Surface {
                     Self::of_rings(&outside, center, true)
                 }
             }
-            Solid::Sphere(radius) => {
-                let ring = |row: usize| -> Vec<Vector3> {
-                    let (sine, cosine) = (std::f64::consts::PI * row as f64 / (ROUND / 2) as f64).sin_cos();
-                    let of = |side: usize| {
-                        let (s, c) = (std::f64::consts::TAU * side as f64 / ROUND as f64).sin_cos();
-                        radius * Vector3::new(sine * c, sine * s, -cosine)
-                    };
-                    (0..ROUND).map(of).collect()
-                };
-                let rings: Vec<Vec<Vector3>> = (0..=ROUND / 2).map(ring).collect();
-                Self::of_rings(&rings, center, true)
-            }
+            Solid::Sphere(radius) => Self::of_rod((radius, 0.0), &Vector3::z(), center),
+            Solid::Capsule { radius, length, axis } => Self::of_rod((radius, 0.5 * length), &axis, center),
         }
+    }
+
+    /// A rod with hemispherical ends, by its radius and half its length.
+    fn of_rod((radius, half): (f64, f64), axis: &Vector3, center: &Vector3) -> Self {
+        let start = Vector3::ith((axis.iamax() + 1) % 3, 1.0);
+        let across = (start - start.dot(axis) * axis).normalize();
+        let other = axis.cross(&across);
+        let ring = |row: usize, shift: f64| -> Vec<Vector3> {
+            let (sine, cosine) = (std::f64::consts::PI * row as f64 / (ROUND / 2) as f64).sin_cos();
+            let of = |side: usize| {
+                let (s, c) = (std::f64::consts::TAU * side as f64 / ROUND as f64).sin_cos();
+                radius * (sine * c * across + sine * s * other - cosine * axis) + shift * axis
+            };
+            (0..ROUND).map(of).collect()
+        };
+        let lower = (0..=ROUND / 4).map(|row| ring(row, -half));
+        let first_upper = if half > 0.0 { ROUND / 4 } else { ROUND / 4 + 1 };
+        let rings: Vec<Vec<Vector3>> =
+            lower.chain((first_upper..=ROUND / 2).map(|row| ring(row, half))).collect();
+        Self::of_rings(&rings, center, true)
     }
 
     /// The same stretched along its axes and placed in others. A reflection turns the order of the corners.

@@ -52,7 +52,7 @@ macro_rules! tables {
 
             /// Whether it has no named entries.
             pub(crate) fn is_single(self) -> bool {
-                matches!(self, Self::Initial | Self::Analysis)
+                matches!(self, Self::Initial | Self::Analysis | Self::Ground)
             }
 
             fn singular(self) -> &'static str {
@@ -112,6 +112,10 @@ tables! {
     SpringId: Springs = "springs", "spring";
     /// A load.
     LoadId: Loads = "loads", "load";
+    /// A contact.
+    ContactId: Contacts = "contacts", "contact";
+    /// The shape of the ground.
+    GroundId: Ground = "ground", "ground";
     /// A number that can be set while a simulation runs.
     InputId: Inputs = "inputs", "input";
     /// A named expression.

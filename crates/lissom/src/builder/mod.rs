@@ -53,14 +53,14 @@ use lissom_model::{Problem, Report, Sources, Span};
 use crate::model::Model;
 
 pub use entries::feedback::{Event, State};
-pub use entries::{analyses, joints, loads, motions, outputs, parts, sections, springs, words};
+pub use entries::{analyses, contacts, joints, loads, motions, outputs, parts, sections, springs, words};
 pub use entry::Entry;
 pub use expression::{Expression, Function, TabulatedFunction};
 pub use feedback::{Input, Signal};
 pub(crate) use ids::IdNames;
 pub use ids::{
-    AnalysisId, BeamId, BodyId, EventId, ForeignId, InitialId, InputId, JointId, LoadId, MaterialId,
-    MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId, SuperelementId,
+    AnalysisId, BeamId, BodyId, ContactId, EventId, ForeignId, GroundId, InitialId, InputId, JointId, LoadId,
+    MaterialId, MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId, SuperelementId,
 };
 pub use values::{
     GROUND, Inertia, Mass, Matrix, Node, Part, PositionOrNode, Quantity, SectionMass, Shear, Solid,

@@ -4,8 +4,9 @@ Every class stands for an entry of a model file and has its keys as keyword argu
 are words of Python get a line below: `from_`, `in_`. Wherever a number stands a text may stand instead: an expression.
 """
 
-from . import analyses, feedback, joints, loads, motions, outputs, parts, sections, springs
+from . import analyses, contacts, feedback, joints, loads, motions, outputs, parts, sections, springs
 from ._entry import Entry
+from .contacts import Contact, Ground
 from .feedback import Event, State
 from .motions import Initial, PartMotion
 from .parts import Beam, Body, Part, PointMass
@@ -14,8 +15,10 @@ from .sections import Material
 __all__ = [
     "Beam",
     "Body",
+    "Contact",
     "Entry",
     "Event",
+    "Ground",
     "Initial",
     "Material",
     "Part",
@@ -23,6 +26,7 @@ __all__ = [
     "PointMass",
     "State",
     "analyses",
+    "contacts",
     "feedback",
     "joints",
     "loads",

@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from . import sections, parts, joints, springs, loads, feedback, motions, outputs, analyses
+from . import sections, parts, joints, springs, loads, contacts, feedback, motions, outputs, analyses
 from ._entry import Entry, ModelTree
 from .sections import Material, Section
 from .parts import Beam, Body, PointMass, Superelement, Part
 from .joints import Joint
 from .springs import Spring
 from .loads import Load
+from .contacts import Contact, Ground
 from .feedback import State, Event
 from .motions import Initial
 from .outputs import Output
@@ -83,6 +84,8 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "joint_force": loads.JointForce,
         "gyrostat": loads.Gyrostat,
     },
+    "ground": contacts.Ground,
+    "contacts": contacts.Contact,
     "states": feedback.State,
     "events": feedback.Event,
     "initial": motions.Initial,
@@ -106,6 +109,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "relative_acceleration": outputs.RelativeAcceleration,
         "relative_motion": outputs.RelativeMotion,
         "contact": outputs.Contact,
+        "contact_force": outputs.ContactForce,
         "spring": outputs.Spring,
         "power": outputs.Power,
         "work": outputs.Work,
@@ -140,6 +144,8 @@ ORDER = (
     "joints",
     "springs",
     "loads",
+    "ground",
+    "contacts",
     "inputs",
     "signals",
     "states",
@@ -295,6 +301,26 @@ class ModelTables(ModelTree):
     @loads.setter
     def loads(self, of: dict[str, Load]) -> None:
         self._set("loads", of)
+
+    @property
+    def ground(self) -> Ground | None:
+        """Solids that are fixed in space, for contacts and drawings."""
+        of: Ground | None = self._value("ground")
+        return of
+
+    @ground.setter
+    def ground(self, of: Ground | None) -> None:
+        self._set("ground", of)
+
+    @property
+    def contacts(self) -> dict[str, Contact]:
+        """Pairs of parts that may touch, by their shapes."""
+        of: dict[str, Contact] = self._table("contacts")
+        return of
+
+    @contacts.setter
+    def contacts(self, of: dict[str, Contact]) -> None:
+        self._set("contacts", of)
 
     @property
     def inputs(self) -> dict[str, Any]:

@@ -319,6 +319,19 @@ class Contact(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class ContactForce(Output):
+    """Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, and sliding velocity.
+
+    Args:
+        of: the contact; the name of an entry of `[contacts]`.
+    """
+
+    _form: ClassVar[str] = "contact_force"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
 class Spring(Output):
     """Elongation or rotation of a spring, its rate, and its force or moment.
 

@@ -169,6 +169,7 @@ class Part(Entry):
         joints: Constraints between nodes, or between coordinates of joints; entries as in `[joints]`, or nothing.
         springs: Springs, dampers, friction, stops and latches; entries as in `[springs]`, or nothing.
         loads: Applied forces and moments, and those of actuators; entries as in `[loads]`, or nothing.
+        contacts: Pairs of parts that may touch, by their shapes; entries as in `[contacts]`, or nothing.
         inputs: Numbers that are set during a simulation by events or by the calling program, with their initial values; entries as in `[inputs]`, or nothing.
         signals: Named expressions of time, inputs, states and outputs; entries as in `[signals]`, or nothing.
         states: First-order states: numbers whose time derivative is an expression; entries as in `[states]`, or nothing.
@@ -197,6 +198,7 @@ class Part(Entry):
     joints: Tables | None = None
     springs: Tables | None = None
     loads: Tables | None = None
+    contacts: Tables | None = None
     inputs: Tables | None = None
     signals: Tables | None = None
     states: Tables | None = None

@@ -3,6 +3,7 @@
 #![allow(clippy::doc_markdown, reason = "the words are those of the tables")]
 
 pub mod analyses;
+pub mod contacts;
 pub(crate) mod feedback;
 pub mod joints;
 pub mod loads;

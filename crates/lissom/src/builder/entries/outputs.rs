@@ -4,7 +4,7 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Expression;
-use crate::builder::ids::{BeamId, JointId, SpringId, SuperelementId};
+use crate::builder::ids::{BeamId, ContactId, JointId, SpringId, SuperelementId};
 use crate::builder::values::{Node, Quantity};
 
 entry! {
@@ -198,6 +198,16 @@ entry! {
     ///
     /// - `of`: the joint
     new(of: JointId = "of")
+}
+
+entry! {
+    /// Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, and sliding velocity.
+    ContactForce => OutputId, "contact_force";
+    ["kind" = "contact_force"]
+    /// With what must be given.
+    ///
+    /// - `of`: the contact
+    new(of: ContactId = "of")
 }
 
 entry! {

@@ -1,0 +1,89 @@
+//! Contacts of all pairs of solids: derivatives, energy and gradients of what they report.
+
+use std::sync::Arc;
+
+use lissom_core::contact::compliance::Compliance;
+use lissom_core::contact::gap::Pair;
+use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+use lissom_core::elements::Contribution;
+use lissom_core::elements::contact::{Contact, ContactFriction, Dissipation};
+use lissom_core::kinematics::{CarriedFrame, Freedoms};
+use lissom_core::system::{Builder, State, System};
+use lissom_motion::{Motion, Vector3};
+
+use crate::derivatives::check;
+use crate::derivatives::configuration::{Configuration, Random, difference};
+
+/// Pairs of solids, and where the tip is in the axes of the base, so that they overlap.
+fn pairs() -> Vec<(Pair, Vector3)> {
+    let point = |surface: Arc<dyn Surface>| Pair::PointOnSurface { rounding: 3.0, surface };
+    vec![
+        (point(Arc::new(HalfSpace)), Vector3::new(0.2, 0.1, 2.3)),
+        (point(Arc::new(Rod { half_length: 0.0, radius: 4.0 })), Vector3::new(3.0, 2.5, 3.5)),
+        (point(Arc::new(Rod { half_length: 15.0, radius: 4.0 })), Vector3::new(3.5, 3.5, 2.0)),
+        (point(Arc::new(Cuboid { half_sides: [2.0, 2.0, 15.0] })), Vector3::new(4.0, 3.5, 1.5)),
+        (point(Arc::new(Ring { radii: [0.0, 16.0], half_length: 25.0 })), Vector3::new(14.0, 10.5, 2.0)),
+        (point(Arc::new(Ring { radii: [16.0, 30.0], half_length: 25.0 })), Vector3::new(12.0, 8.0, 1.5)),
+        (Pair::RimOnPlane { radius: 4.5, rounding: 0.5 }, Vector3::new(1.0, 0.5, 2.0)),
+    ]
+}
+
+/// Two bodies with a contact, which dissipates where `is_rough`.
+fn with_contact(seed: u64, (pair, place): (Pair, Vector3), is_rough: bool) -> (System, State, Random) {
+    let mut random = Random::new(seed);
+    let mut builder = Builder::new();
+    let base = builder.add_node("base", random.motion(), Freedoms::Full);
+    let frame = random.motion();
+    let tip_frame = builder.initial_frame(base) * frame * Motion::translation(place);
+    let tip = builder.add_node("tip", tip_frame * random.motion(), Freedoms::Full);
+    let of_tip = tip_frame.relative_to(&builder.initial_frame(tip));
+    let turn = Vector3::new(0.9, 0.5, 0.0) + 0.2 * random.vector();
+    let turn = Motion::exponential(&lissom_motion::screw(&Vector3::zeros(), &turn));
+    let frames =
+        [CarriedFrame { node: base, offset: frame }, CarriedFrame { node: tip, offset: of_tip * turn }];
+    let mut contribution = Contribution::to(builder.model());
+    let friction = is_rough.then(|| ContactFriction {
+        bristles: (0..3).map(|k| contribution.add_state(format!("bristle {k}"), 0.1, 1.0)).collect(),
+        sliding: 0.4,
+        at_rest: 0.7,
+        stribeck: 40.0,
+        deflection: 4.0,
+    });
+    let dissipation = Dissipation::Factor(if is_rough { 0.1 } else { 0.0 });
+    let exponent = if seed.is_multiple_of(2) { 1.0 } else { 1.5 };
+    let law = (Compliance { stiffness: 3.0, exponent }, dissipation);
+    builder.add(contribution.with(Contact::new(frames, pair, law, friction)));
+    let (system, state) = builder.build(0.0).expect("valid");
+    (system, state, random)
+}
+
+#[test]
+fn derivatives_of_contacts_are_those_of_differences() {
+    for (index, pair) in pairs().into_iter().enumerate() {
+        for seed in [2 * index as u64, 2 * index as u64 + 1] {
+            for is_rough in [false, true] {
+                let (system, state, mut random) = with_contact(seed + 40, pair.clone(), is_rough);
+                assert!(system.energy(&state.kinematics).strain > 0.0, "{index}");
+                check(&format!("contact {index}"), &system, &state, 0.02, &mut random);
+            }
+        }
+    }
+}
+
+/// Without friction the forces at rest are the gradient of the energy.
+#[test]
+fn normal_forces_are_the_gradient_of_their_energy() {
+    for (index, pair) in pairs().into_iter().enumerate() {
+        let (system, state, mut random) = with_contact(index as u64 + 80, pair, false);
+        let mut here = Configuration::random(&system, &state, 0.02, &mut random);
+        for node in &mut here.at.nodes {
+            node.twist.fill(0.0);
+            node.acceleration.fill(0.0);
+        }
+        let energy = |at: &Configuration| vec![system.energy(&at.at).total()];
+        for (row, force) in here.residual(&system, 0.0).iter().enumerate() {
+            let slope = difference(|step| energy(&here.displaced(&system, row, step, false)))[0];
+            assert!((force - slope).abs() < 1e-7 * (1.0 + force.abs()), "{index} {row}: {force} {slope}");
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! The normal force of a compliant contact, by the law of Hunt and Crossley [1975].
+//!
+//! Legend: δ penetration, k stiffness, n exponent, a dissipation factor, e restitution, v velocity of impact.
+//!
+//! ```text
+//! f = k δⁿ max(0, 1 + a δ̇),      P = k δⁿ⁺¹/(n + 1)
+//! A (1 + e) = ln((1 + A)/(1 - e A)),      a = A/v
+//! ```
+//!
+//! The second line is exact for a body that meets the contact at v under no other force: m δ̇ dδ̇/(1 + a δ̇) = -k δⁿ dδ over
+//! the whole contact, for any m, k and n. The force is continuous at touch and never pulls.
+
+/// Smallest restitution of a contact.
+pub const MIN_RESTITUTION: f64 = 0.01;
+
+/// Force over penetration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    /// k [N/mⁿ or N m/radⁿ].
+    pub stiffness: f64,
+    /// n, at least 1.
+    pub exponent: f64,
+}
+
+impl Compliance {
+    /// Force at a penetration and its rate with the factor a, and its derivatives with respect to both.
+    pub fn force(&self, depth: f64, rate: f64, dissipation: f64) -> [f64; 3] {
+        let factor = 1.0 + dissipation * rate;
+        if factor <= 0.0 {
+            return [0.0; 3];
+        }
+        let depth = self.continued(depth);
+        let elastic = self.stiffness * depth.powf(self.exponent);
+        let slope = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
+        [elastic * factor, slope * factor, elastic * dissipation]
+    }
+
+    /// Energy at a penetration.
+    pub fn energy(&self, depth: f64) -> f64 {
+        self.stiffness * self.continued(depth).powf(self.exponent + 1.0) / (self.exponent + 1.0)
+    }
+
+    /// A contact that lasts until the end of a step may end within it: its force is continued along a straight line, if it is
+    /// linear.
+    fn continued(&self, depth: f64) -> f64 {
+        if self.exponent == 1.0 { depth } else { depth.max(0.0) }
+    }
+}
+
+/// A of a restitution e, by bisection between 0 and 1/e: A (1 + e) is below the logarithm only near 1/e.
+pub fn relative_dissipation(restitution: f64) -> f64 {
+    if restitution >= 1.0 {
+        return 0.0;
+    }
+    let is_below = |a: f64| a * (1.0 + restitution) > (a.ln_1p() - (-restitution * a).ln_1p());
+    let (mut low, mut high) = (0.0, 1.0 / restitution);
+    // To the last digit of a value up to 100.
+    for _ in 0..70 {
+        let middle = 0.5 * (low + high);
+        if is_below(middle) { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::relative_dissipation;
+
+    #[test]
+    fn dissipation_follows_from_restitution() {
+        for restitution in [0.05, 0.1, 0.5, 0.8, 0.99] {
+            let a = relative_dissipation(restitution);
+            let residual = a * (1.0 + restitution) - ((1.0 + a) / (1.0 - restitution * a)).ln();
+            assert!(residual.abs() < 1e-9 * (1.0 + a) && a > 0.0, "{restitution}: {a} {residual:e}");
+        }
+        // 1/e, to all digits.
+        assert!((relative_dissipation(0.01) - 100.0).abs() < 1e-9);
+        // For small losses: 3 (1 - e)/2.
+        assert!((relative_dissipation(0.999) - 1.5e-3).abs() < 5e-6);
+        assert_eq!(relative_dissipation(1.0), 0.0);
+    }
+}

@@ -1,0 +1,19 @@
+//! Everything below a plane.
+
+use lissom_motion::{Matrix3, Vector3};
+
+use super::{Distance, Surface};
+
+/// The half-space below the plane z = 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HalfSpace;
+
+impl Surface for HalfSpace {
+    fn distance(&self, y: &Vector3) -> Distance {
+        Distance { value: y.z, normal: Vector3::z(), curvature: Matrix3::zeros() }
+    }
+
+    fn is_plane(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,637 @@
+//! Compliant contact of two solids in one point, with friction that sticks.
+//!
+//! Legend: g gap, n normal and p point of contact in the axes of the base's solid, see [`contact::gap`](crate::contact::gap); (R, x)
+//! tip's frame in the base's, d = Rᵀ(p - x); (v, ω) relative twist in the tip's axes, c = v + ω × d, u = R c velocity of the tip's
+//! point, s = u - n (n·u) sliding velocity; N normal force, z deflection of the bristles in the axes of the base (first-order states),
+//! z_c deflection at which they slip, μ(s) = μ + (μ_s - μ) exp(-(|s|/v_s)²); η variation of the tip's frame.
+//!
+//! ```text
+//! f = N n - N μ(s) [z_t/z_c + (1 - |z_t|²/z_c²) d],      z_t = z - n (n·z),      d = (s/v_s)/√(1 + |s|²/v_s²)
+//! z' = s - α(|z|/z_c) max(0, s·ẑ) ẑ in contact,  0 without,      ẑ = z/|z|,      α = 0 below r₀, 1 from 1 on, cubic between
+//! wrench on the tip's frame:  (Rᵀ f, d × Rᵀ f)
+//! δd = Rᵀδp - η_v + d × η_θ,      δu = R (δc - c × η_θ),      δ(Rᵀf) = Rᵀδf + Rᵀf × η_θ
+//! ```
+//!
+//! Bristles deflect elastically below r₀ z_c, so that a sticking part does not creep, and yield from there to z_c, at which they slip
+//! [Dupont, Armstrong and Hayward 2000; here in two directions]. The term with d damps vibrations of a sticking part, and vanishes
+//! where bristles slip. Without contact bristles keep their deflection.
+
+use lissom_motion::{
+    Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew, translation_part,
+};
+use nalgebra::SMatrix;
+
+use super::force_law::Response;
+use super::frame_pair::{FramePair, RelativeMotion};
+use super::{Element, Energy, Tangents, add_block};
+use crate::contact::compliance::Compliance;
+use crate::contact::gap::{Gap, Pair};
+use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
+use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
+use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw, scaled, sum};
+use crate::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
+
+type Matrix3x6 = SMatrix<f64, 3, 6>;
+
+/// Rows of the states of the bristles, after two nodes.
+const BRISTLES: usize = 12;
+
+/// r₀: share of the deflection at slip below which bristles are elastic.
+const ELASTIC_SHARE: f64 = 0.8;
+/// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
+const SMALL_DEPTH: f64 = 1e-6;
+
+/// Dissipation of the normal force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Dissipation {
+    /// The factor a [s/m].
+    Factor(f64),
+    /// The factor is A/v with the velocity v [m/s] at which the contact began, an input that an event sets.
+    AtTouch {
+        /// A.
+        relative: f64,
+        /// v.
+        velocity: DiscreteValueId,
+    },
+}
+
+/// Dry friction by bristles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactFriction {
+    /// Deflection of the bristles in the axes of the base.
+    pub bristles: Vec<CoordinateId>,
+    /// Coefficient of sliding friction, μ.
+    pub sliding: f64,
+    /// Coefficient of friction at rest, μ_s.
+    pub at_rest: f64,
+    /// Sliding velocity at which the difference has fallen to 1/e, v_s [m/s].
+    pub stribeck: f64,
+    /// Deflection at which the bristles slip, z_c [m].
+    pub deflection: f64,
+}
+
+/// The part of the sliding velocity by which bristles yield, with its derivatives by sliding velocity and deflection.
+#[derive(Default)]
+struct Yielding {
+    rate: Vector3,
+    by_sliding: Matrix3,
+    by_bristles: Matrix3,
+}
+
+/// Friction per normal force, with its derivatives by the sliding velocity and by the tangential deflection of the bristles.
+struct Share {
+    force: Vector3,
+    by_sliding: Matrix3,
+    by_bristles: Matrix3,
+}
+
+impl ContactFriction {
+    fn yielding(&self, bristles: &Vector3, sliding: &Vector3) -> Yielding {
+        let length = bristles.norm();
+        let beyond = (length / self.deflection - ELASTIC_SHARE) / (1.0 - ELASTIC_SHARE);
+        if beyond <= 0.0 {
+            return Yielding::default();
+        }
+        let direction = bristles / length;
+        let along = sliding.dot(&direction);
+        if along <= 0.0 {
+            return Yielding::default();
+        }
+        let (share, slope) = if beyond < 1.0 {
+            let slope = 6.0 * beyond * (1.0 - beyond) / ((1.0 - ELASTIC_SHARE) * self.deflection);
+            (beyond * beyond * (3.0 - 2.0 * beyond), slope)
+        } else {
+            (1.0, 0.0)
+        };
+        let outer = direction * direction.transpose();
+        let turn = (Matrix3::identity() - outer) / length;
+        Yielding {
+            rate: share * along * direction,
+            by_sliding: share * outer,
+            by_bristles: slope * along * outer
+                + share * (direction * (sliding.transpose() * turn) + along * turn),
+        }
+    }
+
+    /// Opposed to the sliding of the tip.
+    fn share(&self, bristles: &Vector3, sliding: &Vector3, normal: &Vector3) -> Share {
+        let velocity = self.stribeck;
+        let squared = sliding.norm_squared() / (velocity * velocity);
+        let more = (self.at_rest - self.sliding) * (-squared).exp();
+        let coefficient = self.sliding + more;
+        let tangential = bristles - normal * normal.dot(bristles);
+        let relative = tangential / self.deflection;
+        let root = 1.0 / (1.0 + squared).sqrt();
+        let damping = sliding / velocity * root;
+        let (remaining, slope) = match 1.0 - relative.norm_squared() {
+            remaining if remaining > 0.0 => (remaining, 1.0),
+            _ => (0.0, 0.0),
+        };
+        let direction = relative + remaining * damping;
+        let damping_by = (Matrix3::identity() - damping * damping.transpose()) * (root / velocity);
+        Share {
+            force: coefficient * direction,
+            by_sliding: coefficient * remaining * damping_by
+                - direction * sliding.transpose() * (2.0 * more / (velocity * velocity)),
+            by_bristles: (Matrix3::identity() - damping * relative.transpose() * (2.0 * slope))
+                * (coefficient / self.deflection),
+        }
+    }
+}
+
+/// Two solids that may touch.
+#[derive(Clone, Debug)]
+pub struct Contact {
+    frames: FramePair,
+    pair: Pair,
+    compliance: Compliance,
+    dissipation: Dissipation,
+    friction: Option<ContactFriction>,
+    switch_states: SwitchStates,
+}
+
+/// Gap, forces on the tip in global axes and sliding velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactForces {
+    /// g [m].
+    pub gap: f64,
+    /// N [N].
+    pub normal: f64,
+    /// Normal force and friction [N].
+    pub force: Vector3,
+    /// Friction [N].
+    pub friction: Vector3,
+    /// |s| [m/s].
+    pub slip: f64,
+}
+
+/// Gap and rate of a contact, for events.
+pub struct ContactMotion(Contact);
+
+impl ContactMotion {
+    /// Of this contact.
+    pub fn new(contact: &Contact) -> Self {
+        Self(Contact { friction: None, ..contact.clone() })
+    }
+}
+
+impl Measurement for ContactMotion {
+    fn nodes(&self) -> &[NodeId] {
+        &self.0.frames.nodes
+    }
+
+    fn component_count(&self) -> usize {
+        2
+    }
+
+    fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
+        let [gap, rate, _] = self.0.motion(at);
+        [gap, rate, 0.0, 0.0, 0.0, 0.0]
+    }
+
+    fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
+        self.0.spring_gradients(at)[component]
+    }
+}
+
+/// Motion at the point of contact, and the force.
+struct Touch {
+    motion: RelativeMotion,
+    gap: Gap,
+    is_touching: bool,
+    /// d [m].
+    arm: Vector3,
+    /// c, in the tip's axes.
+    carried: Vector3,
+    /// u.
+    velocity: Vector3,
+    /// s.
+    sliding: Vector3,
+    /// N and its derivatives by penetration and its rate.
+    normal_force: [f64; 3],
+    /// z; zero without friction.
+    bristles: Vector3,
+    /// z' as the law determines it.
+    deflecting: Vector3,
+    /// f, on the tip in the base's axes.
+    force: Vector3,
+}
+
+impl Touch {
+    fn rate(&self) -> f64 {
+        self.gap.normal.dot(&self.velocity)
+    }
+
+    /// The wrench on the tip's frame.
+    fn wrench(&self) -> Vector6 {
+        let force = self.motion.rotation.tr_mul(&self.force);
+        screw(&force, &self.arm.cross(&force))
+    }
+}
+
+/// Derivatives with respect to η, and with respect to its rate at fixed twists of the nodes.
+struct Variations {
+    normal: Matrix3x6,
+    arm: Matrix3x6,
+    rate: [nalgebra::RowVector6<f64>; 2],
+    sliding: [Matrix3x6; 2],
+}
+
+fn side_by_side(left: &Matrix3, right: &Matrix3) -> Matrix3x6 {
+    let mut both = Matrix3x6::zeros();
+    both.fixed_columns_mut::<3>(0).copy_from(left);
+    both.fixed_columns_mut::<3>(3).copy_from(right);
+    both
+}
+
+impl Contact {
+    /// Between the frames of two solids: base and tip.
+    pub fn new(
+        frames: [CarriedFrame; 2],
+        pair: Pair,
+        (compliance, dissipation): (Compliance, Dissipation),
+        friction: Option<ContactFriction>,
+    ) -> Self {
+        let frames = FramePair::new(frames);
+        Self { frames, pair, compliance, dissipation, friction, switch_states: SwitchStates::default() }
+    }
+
+    /// Gap [m], its rate [m/s] and the normal force [N].
+    pub fn motion(&self, at: &Kinematics) -> [f64; 3] {
+        let touch = self.touch(at);
+        [touch.gap.value, touch.rate(), touch.normal_force[0]]
+    }
+
+    /// What acts on the tip.
+    pub fn forces_at(&self, at: &Kinematics) -> ContactForces {
+        let touch = self.touch(at);
+        let base = self.frames.base_rotation(at);
+        let normal = touch.normal_force[0];
+        let along = normal * touch.gap.normal;
+        ContactForces {
+            gap: touch.gap.value,
+            normal,
+            force: base * touch.force,
+            friction: base * (touch.force - along),
+            slip: touch.sliding.norm(),
+        }
+    }
+
+    fn dissipation(&self, at: &Kinematics) -> f64 {
+        match self.dissipation {
+            Dissipation::Factor(factor) => factor,
+            Dissipation::AtTouch { relative, velocity } => {
+                at.held.get(velocity.index()).map_or(0.0, |velocity| relative / velocity)
+            }
+        }
+    }
+
+    fn touch(&self, at: &Kinematics) -> Touch {
+        let motion = self.frames.motion(at);
+        let gap = self.pair.gap(&motion.position, &motion.rotation.column(2).into());
+        let arm = motion.rotation.tr_mul(&(gap.point - motion.position));
+        let carried = translation_part(&motion.twist) + rotation_part(&motion.twist).cross(&arm);
+        let velocity = motion.rotation * carried;
+        let n = gap.normal;
+        let sliding = velocity - n * n.dot(&velocity);
+        let is_touching = is_on_upper_branch(self.switch_states.of(at).first(), -gap.value);
+        let normal_force = if is_touching {
+            self.compliance.force(-gap.value, -n.dot(&velocity), self.dissipation(at))
+        } else {
+            [0.0; 3]
+        };
+        let (mut bristles, mut deflecting) = (Vector3::zeros(), Vector3::zeros());
+        let mut force = normal_force[0] * n;
+        if let Some(friction) = &self.friction {
+            bristles = Vector3::from_fn(|k, _| at.coordinates[friction.bristles[k]].value);
+            if is_touching {
+                deflecting = sliding - friction.yielding(&bristles, &sliding).rate;
+                force -= normal_force[0] * friction.share(&bristles, &sliding, &n).force;
+            }
+        }
+        Touch {
+            motion,
+            gap,
+            is_touching,
+            arm,
+            carried,
+            velocity,
+            sliding,
+            normal_force,
+            bristles,
+            deflecting,
+            force,
+        }
+    }
+
+    fn variations(touch: &Touch) -> Variations {
+        let Touch { motion, gap, arm, carried, velocity, .. } = touch;
+        let rotation = &motion.rotation;
+        let n = gap.normal;
+        // δx = R η_v, δa = R (η_θ × e₃).
+        let axis_by = -rotation * skew(&Vector3::z());
+        let of = |[by_position, by_axis]: &[Matrix3; 2]| {
+            side_by_side(&(by_position * rotation), &(by_axis * axis_by))
+        };
+        let (normal, point) = (of(&gap.normal_by), of(&gap.point_by));
+        let arm_by = rotation.transpose() * point + side_by_side(&-Matrix3::identity(), &skew(arm));
+        let by_twist = side_by_side(&Matrix3::identity(), &-skew(arm));
+        // At fixed twists of the nodes: δη̇ = -ad(A V_base) η.
+        let bracket = lie_bracket_matrix(&motion.carried);
+        let spin = skew(&rotation_part(&motion.twist));
+        let carried_by = -by_twist * bracket + spin * arm_by;
+        let turned = side_by_side(&Matrix3::zeros(), &skew(carried));
+        let velocity_by = [rotation * (carried_by - turned), rotation * by_twist];
+        let across = Matrix3::identity() - n * n.transpose();
+        let rate = n.dot(velocity);
+        let sliding = [
+            across * velocity_by[0] - rate * normal - n * (velocity.transpose() * normal),
+            across * velocity_by[1],
+        ];
+        let rate_by =
+            [n.transpose() * velocity_by[0] + velocity.transpose() * normal, n.transpose() * velocity_by[1]];
+        Variations { normal, arm: arm_by, rate: rate_by, sliding }
+    }
+
+    /// Energy of the bristles per normal force [m].
+    fn deflected(&self, touch: &Touch) -> f64 {
+        self.friction.as_ref().map_or(0.0, |friction| {
+            0.5 * friction.at_rest / friction.deflection * touch.bristles.norm_squared()
+        })
+    }
+
+    /// Derivatives of the gap with respect to η.
+    fn gap_by(touch: &Touch) -> Vector6 {
+        let normal = touch.motion.rotation.tr_mul(&touch.gap.normal);
+        screw(&normal, &touch.arm.cross(&normal))
+    }
+}
+
+impl Element for Contact {
+    fn nodes(&self) -> &[NodeId] {
+        &self.frames.nodes
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        self.friction.as_ref().map_or(&[], |friction| &friction.bristles)
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let touch = self.touch(at);
+        if touch.is_touching {
+            self.frames.add_wrench(&touch.motion, &-touch.wrench(), out);
+        }
+        for (k, &bristle) in self.coordinates().iter().enumerate() {
+            out[BRISTLES + k] += at.coordinates[bristle].rate - touch.deflecting[k];
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let touch = self.touch(at);
+        let size = out.size();
+        for k in 0..self.coordinates().len() {
+            out.damping[(BRISTLES + k) * size + BRISTLES + k] += 1.0;
+        }
+        if !touch.is_touching {
+            return;
+        }
+        let by = Self::variations(&touch);
+        let (n, [force, by_depth, by_closing]) = (touch.gap.normal, touch.normal_force);
+        let rotation = &touch.motion.rotation;
+        // N by η and η̇.
+        let gap_by = Self::gap_by(&touch);
+        let force_by = [-by_depth * gap_by.transpose() - by_closing * by.rate[0], -by_closing * by.rate[1]];
+        let mut direction = n;
+        let mut force_derivatives = [force * by.normal, Matrix3x6::zeros()];
+        let mut by_bristles = Matrix3::zeros();
+        if let Some(friction) = &self.friction {
+            let share = friction.share(&touch.bristles, &touch.sliding, &n);
+            direction -= share.force;
+            let along = n.dot(&touch.bristles);
+            let turned = along * by.normal + n * (touch.bristles.transpose() * by.normal);
+            force_derivatives[0] += share.by_bristles * turned * force;
+            for (of, sliding_by) in force_derivatives.iter_mut().zip(&by.sliding) {
+                *of -= force * share.by_sliding * sliding_by;
+            }
+            by_bristles = share.by_bristles * (n * n.transpose() - Matrix3::identity()) * force;
+        }
+        for (of, own) in force_derivatives.iter_mut().zip(&force_by) {
+            *of += direction * own;
+        }
+        // The wrench and its derivatives, on the right-hand side.
+        let local = rotation.tr_mul(&touch.force);
+        let mut wrench_by = force_derivatives.map(|of| rotation.transpose() * of);
+        wrench_by[0] += side_by_side(&Matrix3::zeros(), &skew(&local));
+        let full = |force_by: &Matrix3x6, arm_by: &Matrix3x6| {
+            let mut both = Matrix6::zeros();
+            both.fixed_rows_mut::<3>(0).copy_from(force_by);
+            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.arm) * force_by - skew(&local) * arm_by));
+            both
+        };
+        let [by_place, by_rate] = [full(&wrench_by[0], &by.arm), full(&wrench_by[1], &Matrix3x6::zeros())];
+        self.frames.add_derivatives(&touch.motion, &-touch.wrench(), (&-by_place, &-by_rate), out);
+        let Some(friction) = &self.friction else { return };
+        let columns = self.frames.columns(&touch.motion);
+        let yielding = friction.yielding(&touch.bristles, &touch.sliding);
+        let deflecting_by = Matrix3::identity() - yielding.by_sliding;
+        let wrench_by_bristles = {
+            let local = rotation.transpose() * by_bristles;
+            let mut both = SMatrix::<f64, 6, 3>::zeros();
+            both.fixed_rows_mut::<3>(0).copy_from(&local);
+            both.fixed_rows_mut::<3>(3).copy_from(&(skew(&touch.arm) * local));
+            both
+        };
+        for (j, columns) in columns.iter().enumerate() {
+            let block = -columns.transpose() * wrench_by_bristles;
+            add_block(&mut out.stiffness, size, (6 * j, BRISTLES), &block);
+            let rows = [-deflecting_by * by.sliding[0] * columns, -deflecting_by * by.sliding[1] * columns];
+            add_block(&mut out.stiffness, size, (BRISTLES, 6 * j), &rows[0]);
+            add_block(&mut out.damping, size, (BRISTLES, 6 * j), &rows[1]);
+        }
+        add_block(&mut out.stiffness, size, (BRISTLES, BRISTLES), &yielding.by_bristles);
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let touch = self.touch(at);
+        let mut strain = 0.0;
+        if touch.is_touching {
+            let [force, ..] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
+            strain = self.compliance.energy(-touch.gap.value) + force * self.deflected(&touch);
+        }
+        Energy { strain, ..Energy::default() }
+    }
+
+    /// Friction is not the derivative of the energy of the bristles.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        let touch = self.touch(fall);
+        if !touch.is_touching {
+            return;
+        }
+        let [force, stiffness, _] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
+        let slope = -(force + stiffness * self.deflected(&touch)) * Self::gap_by(&touch);
+        self.frames.add_wrench(&touch.motion, &slope, out);
+        if let Some(friction) = &self.friction {
+            for (k, bristle) in touch.bristles.iter().enumerate() {
+                out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;
+            }
+        }
+    }
+
+    fn switch_count(&self) -> usize {
+        1
+    }
+
+    fn freeze_switches(&mut self, switch_states: SwitchStates) {
+        self.switch_states = switch_states;
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        let motion = self.frames.motion(at);
+        out.push((-self.pair.gap(&motion.position, &motion.rotation.column(2).into()).value).into());
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        let motion = self.frames.motion(at);
+        let (x, a) = (motion.position, motion.rotation.column(2));
+        let law = ForceOverGap { pair: &self.pair, compliance: self.compliance };
+        if self.pair.reach() == 0.0 {
+            visit(&law, x.as_slice());
+        } else {
+            visit(&law, &[x.x, x.y, x.z, a.x, a.y, a.z]);
+        }
+    }
+
+    /// Gap, its rate and the normal force.
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        Some(self.motion(at))
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let touch = self.touch(at);
+        let by = Self::variations(&touch);
+        let gap_by = Self::gap_by(&touch);
+        let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
+        for (j, columns) in self.frames.columns(&touch.motion).iter().enumerate() {
+            let slots = 6 * j..6 * j + 6;
+            gap.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&gap_by).as_slice());
+            rate.by_place[slots.clone()].copy_from_slice((by.rate[0] * columns).as_slice());
+            rate.by_rate[slots].copy_from_slice((by.rate[1] * columns).as_slice());
+        }
+        let [force, by_depth, by_closing] = touch.normal_force;
+        Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate])
+    }
+}
+
+/// The elastic normal force as a scalar law of x, and of a where the gap depends on it. Two solids that pass each other within a
+/// step are as far apart at its ends as if they had never met; the range of the gap follows from those of its arguments: it changes
+/// by no more than x does.
+struct ForceOverGap<'p> {
+    pair: &'p Pair,
+    compliance: Compliance,
+}
+
+impl ForceOverGap<'_> {
+    fn gap(&self, arguments: &[f64]) -> f64 {
+        let a = arguments.get(3..).filter(|a| !a.is_empty()).map_or(Vector3::z(), Vector3::from_column_slice);
+        self.pair.gap(&Vector3::from_column_slice(&arguments[..3]), &a).value
+    }
+
+    fn force(&self, gap: f64) -> f64 {
+        if gap < 0.0 { self.compliance.force(-gap, 0.0, 0.0)[0] } else { 0.0 }
+    }
+
+    /// Range of the gap.
+    fn gaps(&self, arguments: &[Interval]) -> Interval {
+        let middle: [f64; 6] =
+            std::array::from_fn(|k| arguments.get(k).map_or(0.0, |[low, high]| 0.5 * (low + high)));
+        let half = |all: &[Interval]| {
+            all.iter().map(|[low, high]| 0.25 * (high - low) * (high - low)).sum::<f64>().sqrt()
+        };
+        let change = half(&arguments[..3]) + self.pair.reach() * half(&arguments[3..]);
+        let gap = self.gap(&middle[..arguments.len()]);
+        [gap - change, gap + change]
+    }
+}
+
+impl ScalarLaw for ForceOverGap<'_> {
+    fn value(&self, _: f64, arguments: &[f64]) -> f64 {
+        self.force(self.gap(arguments))
+    }
+
+    fn is_smooth(&self) -> bool {
+        false
+    }
+
+    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
+        if arguments.iter().all(|ends| !ends[0].is_finite()) {
+            return None;
+        }
+        if arguments.iter().flatten().any(|end| !end.is_finite()) {
+            // The force of the deepest penetration is not a measure of the forces of a motion.
+            return Some([0.0, self.force(-SMALL_DEPTH)]);
+        }
+        let [low, high] = self.gaps(arguments);
+        Some([self.force(high), self.force(low)])
+    }
+
+    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        let ranges: [Interval; 6] =
+            std::array::from_fn(|k| arguments.get(k).map_or([0.0; 2], |own| own.value));
+        let [low, high] = self.gaps(&ranges[..arguments.len()]);
+        if low > 0.0 {
+            return Some(Enclosure::of_constant([0.0; 2]));
+        }
+        if high >= 0.0 || !self.pair.is_linear() {
+            return None;
+        }
+        // Of a point above a plane, in contact: g = n·x - r.
+        let n = self.pair.gap(&Vector3::zeros(), &Vector3::z()).normal;
+        let along = |of: fn(&Enclosure) -> Interval| {
+            (0..3).fold([0.0; 2], |all, k| sum(all, scaled(n[k], of(&arguments[k]))))
+        };
+        let gap =
+            Enclosure { value: [low, high], first: along(|own| own.first), second: along(|own| own.second) };
+        let Compliance { stiffness, exponent } = self.compliance;
+        let of = |power: f64, factor: f64| {
+            let [one, other] = [-high, -low].map(|depth| factor * depth.powf(power));
+            [one.min(other), one.max(other)]
+        };
+        let slope = of(exponent - 1.0, -stiffness * exponent);
+        let bend = of(exponent - 2.0, stiffness * exponent * (exponent - 1.0));
+        Some(gap.through([of(exponent, stiffness), slope, bend]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bristles yield between the elastic limit and the deflection at slip, and beyond it follow the sliding completely.
+    #[test]
+    fn derivatives_of_yielding_are_those_of_differences() {
+        let friction = ContactFriction {
+            bristles: Vec::new(),
+            sliding: 0.4,
+            at_rest: 0.5,
+            stribeck: 0.1,
+            deflection: 2.0,
+        };
+        let sliding = Vector3::new(0.3, -0.2, 0.5);
+        let step = 1e-6;
+        for length in [1.0, 1.7, 1.9, 2.3] {
+            let bristles = length * Vector3::new(0.5, 0.1, 0.6).normalize();
+            let at = friction.yielding(&bristles, &sliding);
+            assert_eq!(at.rate == Vector3::zeros(), length < 1.6, "{length}");
+            for k in 0..3 {
+                let aside = step * Vector3::ith(k, 1.0);
+                let slope =
+                    |of: &dyn Fn(Vector3) -> Yielding| (of(aside).rate - of(-aside).rate) / (2.0 * step);
+                let by_sliding = slope(&|aside| friction.yielding(&bristles, &(sliding + aside)));
+                let by_bristles = slope(&|aside| friction.yielding(&(bristles + aside), &sliding));
+                assert!((by_sliding - at.by_sliding.column(k)).norm() < 1e-8, "{length} {by_sliding}");
+                assert!((by_bristles - at.by_bristles.column(k)).norm() < 1e-8, "{length} {by_bristles}");
+            }
+        }
+        assert_eq!(friction.yielding(&Vector3::new(1.9, 0.0, 0.0), &-sliding).rate, Vector3::zeros());
+    }
+}

@@ -1,0 +1,15 @@
+//! A contact of a model at one of its points, for outputs.
+
+use lissom_core::elements::contact::Contact;
+use lissom_core::kinematics::DiscreteValueId;
+
+/// One point of a contact.
+#[derive(Clone, Debug)]
+pub(crate) struct ContactPoint {
+    /// The element.
+    pub(crate) contact: Contact,
+    /// 1 if the tip of the element is that of the contact, otherwise -1.
+    pub(crate) sign: f64,
+    /// The discrete value with the velocity of the impact, and the smallest one [m/s].
+    pub(crate) velocity: Option<(DiscreteValueId, f64)>,
+}

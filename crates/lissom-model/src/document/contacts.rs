@@ -1,0 +1,245 @@
+//! Contacts between parts, and the shape of the ground.
+
+use std::sync::Arc;
+
+use lissom_motion::Vector3;
+
+use super::components::two_nodes;
+use super::entries::each;
+use super::solids::shape;
+use super::tables::variants;
+use super::{Body, NodeReference, PointMass};
+use crate::context::Context;
+use crate::keys::{Key, Shape, optional, required};
+use crate::reader::Reader;
+use crate::registry::Registry;
+use crate::report::Located;
+use crate::solid::PlacedSolid;
+use crate::surface::Surface;
+
+/// Solids that are fixed in space.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ground {
+    /// Shape for drawings.
+    pub surface: Option<Arc<Surface>>,
+    /// Solids that parts touch, in global axes.
+    pub(crate) solids: Vec<PlacedSolid>,
+}
+
+/// Dissipation of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Restitution {
+    /// Relative increase of the normal force per penetration velocity [s/m].
+    Dissipation(f64),
+    /// Velocity after an impact over that before, at every velocity above the second number [m/s].
+    Coefficient(f64, f64),
+}
+
+/// Two parts that may touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactEntry {
+    /// Name.
+    pub name: Located<String>,
+    /// Base and tip.
+    pub between: [Located<NodeReference>; 2],
+    /// Force at a penetration of 1 m [N/mⁿ], or the materials of both parts, from which it follows.
+    pub stiffness: Result<f64, [Located<String>; 2]>,
+    /// Exponent n of the penetration.
+    pub exponent: f64,
+    /// Dissipation.
+    pub restitution: Restitution,
+    /// Coefficients of friction: sliding and at rest; none without friction.
+    pub friction: Option<[f64; 2]>,
+    /// Sliding velocity at which their difference has fallen to 1/e [m/s].
+    pub stribeck: f64,
+    /// Tangential deflection before it slips [m].
+    pub deflection: f64,
+}
+
+/// Keys of `[ground]`.
+pub(super) fn ground_keys() -> Vec<Key> {
+    vec![
+        optional("shape", Shape::Solid, "", "solids, in global axes; the default position is the origin"),
+        optional("mesh", Shape::Text, "", "instead of `shape`: an STL or glTF file in metres, drawn only"),
+    ]
+}
+
+/// Keys of a contact.
+pub(super) fn keys() -> Vec<Key> {
+    vec![
+        required("base", Shape::Node, "", "a body or point mass with a `shape`, or \"ground\""),
+        required("tip", Shape::Node, "", "the other part that may touch it"),
+        optional("stiffness", Shape::Positive, "N/m^n", "normal force at a penetration of 1 m"),
+        optional("exponent", Shape::Positive, "", "exponent n of the penetration, at least 1; default 1"),
+        optional(
+            "material",
+            Shape::Name("materials"),
+            "",
+            "instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz",
+        ),
+        optional("tip_material", Shape::Name("materials"), "", "material of the tip, if it is another one"),
+        optional(
+            "restitution",
+            Shape::Between(0.01, 1.0),
+            "",
+            "velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1",
+        ),
+        optional(
+            "rest_velocity",
+            Shape::Positive,
+            "m/s",
+            "slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution`",
+        ),
+        optional(
+            "dissipation",
+            Shape::NotNegative,
+            "s/m",
+            "instead of `restitution`: relative increase of the normal force per penetration velocity",
+        ),
+        optional("friction", Shape::NotNegative, "", "coefficient of sliding friction; default 0"),
+        optional(
+            "static_friction",
+            Shape::Positive,
+            "",
+            "coefficient at rest, not below `friction`; default equal",
+        ),
+        optional(
+            "stribeck",
+            Shape::Positive,
+            "m/s",
+            "sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01",
+        ),
+        optional("deflection", Shape::Positive, "m", "tangential deflection before it slips; default 1e-5"),
+    ]
+}
+
+/// The shape of the ground; none stands for an error.
+pub(super) fn ground(context: &Context<'_>) -> Option<Ground> {
+    let Some((node, span)) = context.top("ground").filter(|(node, _)| node.table().is_some()) else {
+        return Some(Ground::default());
+    };
+    let keys = variants("ground", &Registry::default()).all.into_iter().next()?.keys;
+    let reader = Reader::open(context, node, ("[ground]".to_owned(), span), keys)?;
+    shape(&reader, &Vector3::zeros()).map(|shape| Ground { surface: shape.surface, solids: shape.solids })
+}
+
+/// The contacts.
+pub(super) fn contacts(
+    context: &Context<'_>,
+    (bodies, point_masses, ground): (&[Body], &[PointMass], Option<&Ground>),
+) -> Vec<ContactEntry> {
+    let has_solids = |node: &NodeReference| match node {
+        NodeReference::Ground => ground.is_none_or(|ground| !ground.solids.is_empty()),
+        NodeReference::Body(name) => {
+            bodies.iter().find(|body| body.name.value == *name).is_none_or(|body| !body.solids.is_empty())
+        }
+        NodeReference::PointMass(name) => point_masses
+            .iter()
+            .find(|mass| mass.name.value == *name)
+            .is_none_or(|mass| !mass.solids.is_empty()),
+        _ => false,
+    };
+    each(context, "contacts", |reader, name| {
+        let (base, tip) = two_nodes(reader)?;
+        let between = [base, tip];
+        for part in &between {
+            if !matches!(
+                part.value,
+                NodeReference::Ground | NodeReference::Body(_) | NodeReference::PointMass(_)
+            ) {
+                let message = format!("{} names a node that is no body", reader.what);
+                return context.fail(part.span, message, "name bodies, point masses or \"ground\"");
+            }
+            if !has_solids(&part.value) {
+                let message = format!("{} has no solid that could touch", words(&part.value));
+                let help = match part.value {
+                    NodeReference::Ground => "add [ground] with shape = { kind = \"plane\" }",
+                    _ => {
+                        "add a `shape` to it, such as { kind = \"sphere\", radius = 0.1 }; a mesh is only drawn"
+                    }
+                };
+                return context.fail(part.span, message, help);
+            }
+        }
+        let stiffness = stiffness(reader)?;
+        let exponent = number_or(reader, "exponent", 1.0);
+        if exponent < 1.0 {
+            let span = reader.node("exponent").map_or(reader.name, |node| node.span);
+            let message = format!("`exponent` of {} is below 1", reader.what);
+            return context.fail(span, message, "the stiffness at touch would be infinite");
+        }
+        let friction = number_or(reader, "friction", 0.0);
+        let at_rest = number_or(reader, "static_friction", friction);
+        if at_rest < friction {
+            let span = reader.node("static_friction").map_or(reader.name, |node| node.span);
+            let message = format!("`static_friction` of {} is below `friction`", reader.what);
+            return context.fail(span, message, "static friction must not be smaller than sliding friction");
+        }
+        Some(ContactEntry {
+            name: Located::new(name.to_owned(), reader.name),
+            between,
+            exponent: if stiffness.is_err() { 1.5 } else { exponent },
+            stiffness,
+            restitution: restitution(reader)?,
+            friction: (at_rest > 0.0).then_some([friction, at_rest]),
+            stribeck: number_or(reader, "stribeck", 0.01),
+            deflection: number_or(reader, "deflection", 1e-5),
+        })
+    })
+}
+
+/// A part in words.
+pub(crate) fn words(node: &NodeReference) -> String {
+    match node {
+        NodeReference::Body(name) | NodeReference::PointMass(name) => format!("`{name}`"),
+        _ => "the ground".to_owned(),
+    }
+}
+
+fn number_or(reader: &Reader<'_, '_>, key: &str, default: f64) -> f64 {
+    reader.number(key).map_or(default, |number| number.value)
+}
+
+fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]>> {
+    let context = reader.context;
+    if let Some(material) = reader.node("material") {
+        for key in ["stiffness", "exponent"] {
+            if reader.has(key) {
+                let message = format!("{} has both `material` and `{key}`", reader.what);
+                return context.fail(material.span, message, "remove one of them");
+            }
+        }
+        let base = reader.name_in("material")?;
+        let tip = if reader.has("tip_material") { reader.name_in("tip_material")? } else { base.clone() };
+        return Some(Err([base, tip]));
+    }
+    if let Some(node) = reader.node("tip_material") {
+        let message = format!("{} has `tip_material` without `material`", reader.what);
+        return context.fail(node.span, message, "name the material of the base in `material`");
+    }
+    if !reader.has("stiffness") {
+        let message = format!("{} has neither `stiffness` nor `material`", reader.what);
+        return context.fail(reader.name, message, "add `stiffness`, such as 1e6");
+    }
+    Some(Ok(reader.number("stiffness")?.value))
+}
+
+fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
+    let context = reader.context;
+    match (reader.node("restitution"), reader.node("dissipation"), reader.node("rest_velocity")) {
+        (None, None, None) => Some(Restitution::Dissipation(0.0)),
+        (None, Some(_), None) => Some(Restitution::Dissipation(reader.number("dissipation")?.value)),
+        (Some(_), None, _) => Some(Restitution::Coefficient(
+            reader.number("restitution")?.value,
+            number_or(reader, "rest_velocity", 1e-3),
+        )),
+        (Some(_), Some(node), _) => {
+            let message = format!("{} has both `restitution` and `dissipation`", reader.what);
+            context.fail(node.span, message, "remove one of them")
+        }
+        (None, _, Some(node)) => {
+            let message = format!("{} has `rest_velocity` without `restitution`", reader.what);
+            context.fail(node.span, message, "add `restitution`, or remove this")
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! Gap and force of a contact between two parts.
+
+use std::sync::Arc;
+
+use super::differences::Touched;
+use super::frames::name_of;
+use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
+use crate::contact_point::ContactPoint;
+use crate::document::{Declaration, Output, Subject};
+use crate::report::Problem;
+use lissom_core::elements::Element;
+use lissom_core::system::System;
+use lissom_motion::Vector3;
+
+/// Registry entry.
+pub(crate) const CONTACT_FORCE: Declaration = Declaration {
+    word: "contact_force",
+    summary: "Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, \
+              and sliding velocity.",
+    subject: Subject::Contact,
+    features: &[],
+    components: &[
+        ("gap", "m"),
+        ("normal", "N"),
+        ("friction", "N"),
+        ("f1", "N"),
+        ("f2", "N"),
+        ("f3", "N"),
+        ("slip", "m/s"),
+    ],
+    build: Build::System(WHOLE_MODEL, quantity),
+};
+
+/// All points of a contact.
+struct ContactForce(Vec<ContactPoint>);
+
+fn quantity(output: &Output, _: &System, subjects: &Subjects<'_>) -> Found {
+    let name = name_of(output)?;
+    let points = subjects.names.contacts.get(&name.value);
+    let points =
+        points.ok_or_else(|| Problem::error(name.span, format!("there is no contact `{}`", name.value)))?;
+    Ok(Arc::new(ContactForce(points.clone())))
+}
+
+impl OutputQuantity for ContactForce {
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let (mut gap, mut normal, mut force, mut friction) =
+            (f64::INFINITY, 0.0, Vector3::zeros(), Vector3::zeros());
+        let (mut largest, mut slip) = (0.0, 0.0);
+        for point in &self.0 {
+            let found = point.contact.forces_at(at.motion());
+            gap = gap.min(found.gap);
+            normal += found.normal;
+            force += point.sign * found.force;
+            friction += point.sign * found.friction;
+            if found.normal > largest {
+                (largest, slip) = (found.normal, found.slip);
+            }
+        }
+        out.extend([gap, normal, friction.norm(), force.x, force.y, force.z, slip]);
+    }
+
+    fn touched(&self, _: &System) -> Option<Touched> {
+        let mut touched = Touched::default();
+        for ContactPoint { contact, .. } in &self.0 {
+            touched.nodes.extend(contact.nodes());
+            touched.coordinates.extend(contact.coordinates());
+        }
+        Some(touched)
+    }
+}

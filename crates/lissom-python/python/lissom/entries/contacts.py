@@ -1,0 +1,61 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""Parts that may touch, and the solids that are fixed in space."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ._entry import Entry, Number, Table
+
+
+@dataclass(kw_only=True, slots=True)
+class Contact(Entry):
+    """Pairs of parts that may touch, by their shapes.
+
+    Args:
+        base: a body or point mass with a `shape`, or "ground"; a node.
+        tip: the other part that may touch it; a node.
+        stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
+        exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
+        material: instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz; the name of an entry of `[materials]`, or nothing.
+        tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
+        restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; a number from 0.0100 to 1, or nothing.
+        rest_velocity: slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` [m/s]; a number > 0, or nothing.
+        dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
+        friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
+        static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
+        stribeck: sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 [m/s]; a number > 0, or nothing.
+        deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
+    """
+
+    _table: ClassVar[str] = "contacts"
+
+    base: str
+    tip: str
+    stiffness: Number | None = None
+    exponent: Number | None = None
+    material: str | None = None
+    tip_material: str | None = None
+    restitution: Number | None = None
+    rest_velocity: Number | None = None
+    dissipation: Number | None = None
+    friction: Number | None = None
+    static_friction: Number | None = None
+    stribeck: Number | None = None
+    deflection: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Ground(Entry):
+    """Solids that are fixed in space, for contacts and drawings.
+
+    Args:
+        shape: solids, in global axes; the default position is the origin; a solid, or a list of solids, or nothing.
+        mesh: instead of `shape`: an STL or glTF file in metres, drawn only; a text, or nothing.
+    """
+
+    _table: ClassVar[str] = "ground"
+
+    shape: Table | list[Table] | None = None
+    mesh: str | None = None

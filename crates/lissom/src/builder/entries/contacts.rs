@@ -1,0 +1,51 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! Parts that may touch, and the solids that are fixed in space.
+
+use crate::builder::entry::entry;
+use crate::builder::ids::MaterialId;
+use crate::builder::values::{Node, Solid};
+
+entry! {
+    /// Two parts that may touch, by their shapes.
+    Contact => ContactId, "contact";
+    []
+    /// With what must be given.
+    ///
+    /// - `base`: a body or point mass with a `shape`, or "ground"
+    /// - `tip`: the other part that may touch it
+    new(base: Node = "base", tip: Node = "tip")
+    /// Normal force at a penetration of 1 m \[N/m^n\].
+    stiffness: f64 = "stiffness";
+    /// Exponent n of the penetration, at least 1; default 1.
+    exponent: f64 = "exponent";
+    /// Instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz.
+    material: MaterialId = "material";
+    /// Material of the tip, if it is another one.
+    tip_material: MaterialId = "tip_material";
+    /// Velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1.
+    restitution: f64 = "restitution";
+    /// Slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` \[m/s\].
+    rest_velocity: f64 = "rest_velocity";
+    /// Instead of `restitution`: relative increase of the normal force per penetration velocity \[s/m\].
+    dissipation: f64 = "dissipation";
+    /// Coefficient of sliding friction; default 0.
+    friction: f64 = "friction";
+    /// Coefficient at rest, not below `friction`; default equal.
+    static_friction: f64 = "static_friction";
+    /// Sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 \[m/s\].
+    stribeck: f64 = "stribeck";
+    /// Tangential deflection before it slips; default 1e-5 \[m\].
+    deflection: f64 = "deflection";
+}
+
+entry! {
+    /// Solids that are fixed in space.
+    Ground => GroundId, "ground";
+    []
+    /// With what must be given.
+    new()
+    /// Solids, in global axes; the default position is the origin.
+    shape: Solid = "shape";
+    /// Instead of `shape`: an STL or glTF file in metres, drawn only.
+    mesh: String = "mesh";
+}

@@ -1,0 +1,330 @@
+//! Contacts between parts: restitution, friction that sticks, rolling, clearance, chains of balls, and wrong models.
+
+use lissom::modes::{ModeRequest, OperatingPoint, modes};
+use lissom::{Model, Record, SessionError};
+
+fn run(text: &str, set: &[(&str, &str)]) -> Record {
+    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+    let mut session = match Model::from_text("contact.toml", text).session(&given) {
+        Ok(session) => session,
+        Err(error) => panic!("{error}"),
+    };
+    let (record, report) = session.record();
+    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
+    record
+}
+
+fn series<'r>(record: &'r Record, column: &str) -> &'r [f64] {
+    let (output, component) = column.split_once('.').expect("output.component");
+    record.column(output, component).unwrap_or_else(|| panic!("no column {column}"))
+}
+
+fn last(record: &Record, column: &str) -> f64 {
+    *series(record, column).last().expect("a record")
+}
+
+fn problems(text: &str) -> String {
+    match Model::from_text("contact.toml", text).session(&[]) {
+        Err(SessionError::Model(report)) => report.render(false),
+        Err(error) => panic!("{error}"),
+        Ok(_) => panic!("a bad model is accepted"),
+    }
+}
+
+const DROP: &str = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[ground]
+shape = { kind = "plane" }
+[bodies.ball]
+mass = 1
+inertia = { sphere = 0.1 }
+shape = { sphere = 0.1 }
+position = [0, 0, 1.1]
+[contacts.floor]
+base = "ground"
+tip = "ball"
+stiffness = 1e7
+exponent = 1.5
+restitution = 0.5
+[outputs.energy]
+kind = "energy"
+[outputs.floor]
+kind = "contact_force"
+of = "floor"
+[analysis]
+kind = "dynamics"
+end = 0.46
+"#;
+
+/// The velocity after an impact is that before times the restitution, whatever the velocity and the exponent.
+#[test]
+fn impacts_have_the_given_restitution() {
+    for (index, restitution) in [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.2, 0.05].into_iter().enumerate() {
+        let height = [0.3, 1.0, 5.0][index % 3];
+        let exponent = [1.0, 1.5, 2.0][index / 4];
+        let stiffness = [3e6, 1e8, 1e11][index / 4];
+        let end = (2.0_f64 * height / 9.81).sqrt() + 0.006;
+        let set = [
+            ("bodies.ball.position", format!("[0, 0, {}]", height + 0.1)),
+            ("contacts.floor.restitution", restitution.to_string()),
+            ("contacts.floor.exponent", exponent.to_string()),
+            ("contacts.floor.stiffness", stiffness.to_string()),
+            ("analysis.end", end.to_string()),
+        ];
+        let record = run(DROP, &set.each_ref().map(|(path, value)| (*path, value.as_str())));
+        assert!(last(&record, "floor.gap") > 0.0 || restitution < 0.1, "{restitution}: still in contact");
+        // Above the floor.
+        let energy = last(&record, "energy.total") - 0.1 * 9.81;
+        let found = (energy / (9.81 * height)).max(0.0).sqrt();
+        assert!((found - restitution).abs() < 0.01, "{restitution} at {height} m: {found}");
+    }
+}
+
+/// Hertz's theory for a ball of steel that rests on a plane of steel.
+#[test]
+fn a_ball_of_steel_rests_at_the_depth_of_hertz() {
+    let text = DROP
+        .replace(
+            "stiffness = 1e7\nexponent = 1.5\nrestitution = 0.5",
+            "material = \"steel\"\ndissipation = 1e5",
+        )
+        .replace("1.1]", "0.0999999]")
+        .replace("[ground]", "[materials.steel]\nE = 210e9\nnu = 0.3\ndensity = 7800\n[ground]");
+    let record = run(&text, &[("analysis.end", "0.5")]);
+    let stiffness = 4.0 / 3.0 * 210e9 / (2.0 * (1.0 - 0.3 * 0.3)) * 0.1_f64.sqrt();
+    let depth = (9.81 / stiffness).powf(2.0 / 3.0);
+    let found = -last(&record, "floor.gap");
+    assert!((found - depth).abs() < 1e-3 * depth, "{found} {depth}");
+    assert!((last(&record, "floor.normal") - 9.81).abs() < 1e-3, "{}", last(&record, "floor.normal"));
+}
+
+/// A ball and a block on a slope, which start in the penetration of rest.
+fn slope(friction: f64, end: f64) -> String {
+    let angle = 0.3_f64;
+    let (sine, cosine) = angle.sin_cos();
+    let at = |height: f64, y: f64, count: f64| {
+        let height = height - 9.81 * cosine / (1e6 * count);
+        format!("position = [{}, {y}, {}]", height * sine, height * cosine)
+    };
+    format!(
+        r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[ground]
+shape = {{ kind = "plane", normal = [{sine}, 0, {cosine}] }}
+[bodies.ball]
+mass = 1
+inertia = {{ sphere = 0.1 }}
+shape = {{ sphere = 0.1 }}
+{}
+[bodies.block]
+mass = 1
+inertia = {{ box = [0.2, 0.2, 0.1] }}
+shape = {{ box = [0.2, 0.2, 0.1] }}
+{}
+rotation = [0, {angle}, 0]
+[contacts.ball]
+base = "ground"
+tip = "ball"
+stiffness = 1e6
+dissipation = 10
+friction = {friction}
+[contacts.block]
+base = "ground"
+tip = "block"
+stiffness = 1e6
+dissipation = 10
+friction = {friction}
+[outputs.ball]
+kind = "displacement"
+of = "ball"
+[outputs.block]
+kind = "displacement"
+of = "block"
+[outputs.force]
+kind = "contact_force"
+of = "block"
+[outputs.energy]
+kind = "energy"
+[analysis]
+kind = "dynamics"
+end = {end}
+"#,
+        at(0.1, 0.0, 1.0),
+        at(0.05, 1.0, 4.0)
+    )
+}
+
+#[test]
+fn balls_roll_and_blocks_slide_down_a_slope() {
+    let record = run(&slope(0.2, 1.0), &[]);
+    let (sine, cosine) = 0.3_f64.sin_cos();
+    let path = |name: &str| last(&record, &format!("{name}.u1")).hypot(last(&record, &format!("{name}.u3")));
+    let rolled = 0.5 * 9.81 * sine * 5.0 / 7.0;
+    assert!((path("ball") - rolled).abs() < 1e-3 * rolled, "{} {rolled}", path("ball"));
+    let slid = 0.5 * 9.81 * (sine - 0.2 * cosine);
+    // While its friction grows over the first 1e-5 m it gains 5 mm/s.
+    assert!((0.0..5e-3).contains(&(path("block") - slid)), "{} {slid}", path("block"));
+    // What is lost is the work of sliding friction.
+    let energy = series(&record, "energy.total");
+    let lost = energy[0] - energy[energy.len() - 1];
+    let work = 0.2 * 9.81 * cosine * path("block");
+    assert!((lost - work).abs() < 2e-3 * work, "{lost} {work}");
+}
+
+/// A block at rest stays at rest for an hour, to 1e-9 m after it has settled.
+#[test]
+fn a_block_that_sticks_does_not_creep() {
+    let text = slope(0.5, 3600.0);
+    let (before, after) =
+        (text.find("[bodies.ball]").expect("there"), text.find("[bodies.block]").expect("there"));
+    let text = format!("{}{}", &text[..before], &text[after..]);
+    let (before, after) =
+        (text.find("[contacts.ball]").expect("there"), text.find("[contacts.block]").expect("there"));
+    let text = format!("{}{}", &text[..before], &text[after..])
+        .replace("[outputs.ball]\nkind = \"displacement\"\nof = \"ball\"\n", "");
+    let record = run(&text, &[]);
+    let (times, places) = (&record.times, series(&record, "block.u1"));
+    let settled = times.iter().position(|&time| time > 1.0).expect("later");
+    let moved = (places[places.len() - 1] - places[settled]).abs();
+    assert!(moved < 1e-9 && places.iter().all(|place| place.abs() < 1e-4), "{moved} m");
+    let friction = 9.81 * 0.3_f64.sin();
+    assert!((last(&record, "force.friction") - friction).abs() < 1e-6 * friction);
+}
+
+/// Balls in a row pass the velocity on; what flies past a ball is deflected however long the run is.
+#[test]
+fn balls_collide_in_runs_of_any_length() {
+    let ball = |name: &str, x: f64, v: f64| {
+        format!(
+            "[point_masses.{name}]\nmass = 1\nposition = [{x}, 0, 0]\nvelocity = [{v}, 0, 0]\nshape = {{ sphere = 0.1 }}\n\
+             [outputs.{name}]\nkind = \"velocity\"\nof = \"{name}\"\n"
+        )
+    };
+    let contact = |base: &str, tip: &str| {
+        format!(
+            "[contacts.{base}_{tip}]\nbase = \"{base}\"\ntip = \"{tip}\"\nstiffness = 1e6\nexponent = 1.5\n"
+        )
+    };
+    let row = format!(
+        "lissom = 1\n{}{}{}{}{}[analysis]\nkind = \"dynamics\"\nend = 50\n",
+        ball("a", -5.0, 1.0),
+        ball("b", 0.0, 0.0),
+        ball("c", 0.21, 0.0),
+        contact("a", "b"),
+        contact("b", "c")
+    );
+    let record = run(&row, &[]);
+    for (name, wanted) in [("a.v1", 0.0), ("b.v1", 0.0), ("c.v1", 1.0)] {
+        assert!((last(&record, name) - wanted).abs() < 1e-6, "{name} {}", last(&record, name));
+    }
+    let past = "lissom = 1\n[ground]\nshape = { sphere = 0.2 }\n[point_masses.b]\nmass = 1\nposition = [-5, 0.1, 0]\n\
+                velocity = [1, 0, 0]\nshape = { sphere = 0.1 }\n[contacts.c]\nbase = \"ground\"\ntip = \"b\"\nstiffness = 100\n\
+                [outputs.b]\nkind = \"velocity\"\nof = \"b\"\n[analysis]\nkind = \"dynamics\"\nend = 100\n";
+    for end in ["10", "100", "1000"] {
+        let record = run(past, &[("analysis.end", end)]);
+        // Of a spring between the centres that only pushes, at 1e-10.
+        assert!((last(&record, "b.v1") + 0.365_736_67).abs() < 1e-6, "{end}: {}", last(&record, "b.v1"));
+    }
+}
+
+/// A ball in a bore with clearance swings as a pendulum of the length of the clearance.
+#[test]
+fn a_pin_swings_in_its_bore() {
+    let text = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[ground]
+shape = { kind = "tube", radius = 0.4, inner_radius = 0.3, length = 1, axis = "y" }
+[point_masses.pin]
+mass = 1
+position = [0.002, 0, -0.24999]
+plane = "zx"
+shape = { sphere = 0.05 }
+[contacts.bore]
+base = "ground"
+tip = "pin"
+stiffness = 1e6
+[outputs.pin]
+kind = "position"
+of = "pin"
+[analysis]
+kind = "dynamics"
+end = 1
+"#;
+    let quarter = 0.5 * std::f64::consts::PI * (0.25_f64 / 9.81).sqrt();
+    let record = run(text, &[("analysis.end", &(5.0 * quarter).to_string())]);
+    // After five quarters of a period it passes the lowest position.
+    assert!(last(&record, "pin.x").abs() < 2e-5, "{}", last(&record, "pin.x"));
+}
+
+/// In statics a part sinks in until the contact carries it, and it vibrates on the stiffness of the contact.
+#[test]
+fn statics_and_modes_know_contacts() {
+    let text = DROP.replace("exponent = 1.5\nrestitution = 0.5\n", "").replace(
+        "1.1]",
+        "0.0999]\n[joints.guide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"ball\"\naxis = \"z\"",
+    );
+    let record = run(&text.replace("kind = \"dynamics\"\nend = 0.46", "kind = \"statics\""), &[]);
+    assert!((last(&record, "floor.gap") + 9.81e-7).abs() < 1e-12, "{}", last(&record, "floor.gap"));
+    let request =
+        ModeRequest { count: Some(1), about: Some(OperatingPoint::Static), shift: None, no_plots: true };
+    let report = modes(&Model::from_text("contact.toml", &text), &[], &request);
+    let frequency = report.unwrap_or_else(|error| panic!("{error}")).modes[0].frequency;
+    let wanted = 1e7_f64.sqrt() / std::f64::consts::TAU;
+    assert!((frequency - wanted).abs() < 1e-9 * wanted, "{frequency} {wanted}");
+}
+
+/// A box that tumbles and a rod lose energy in every impact until they are at rest.
+#[test]
+fn what_tumbles_loses_energy_until_it_rests() {
+    let body = |name: &str, shape: &str, y: f64| {
+        format!(
+            "[bodies.{name}]\nmass = 1\ninertia = [0.002, 0.0025, 0.003]\nshape = {shape}\nposition = [0, {y}, 0.4]\n\
+             rotation = [0.5, 0.4, 0.1]\nvelocity = [0.5, 0, 0]\n[contacts.{name}]\nbase = \"{name}\"\ntip = \"ground\"\n\
+             stiffness = 1e5\nrestitution = 0.3\nfriction = 0.5\n[outputs.{name}]\nkind = \"contact_force\"\nof = \"{name}\"\n"
+        )
+    };
+    let text = format!(
+        "lissom = 1\ngravity = [0, 0, -9.81]\n[ground]\nshape = {{ kind = \"plane\" }}\n{}{}[outputs.energy]\nkind = \"energy\"\n\
+         [analysis]\nkind = \"dynamics\"\nend = 2\n",
+        body("die", "{ box = [0.1, 0.1, 0.1] }", 0.0),
+        body("rod", "{ kind = \"capsule\", radius = 0.03, length = 0.2, axis = \"x\" }", 1.0)
+    );
+    let record = run(&text, &[]);
+    let energy = series(&record, "energy.total");
+    let largest = energy.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert!(largest < energy[0] * (1.0 + 1e-5), "{largest} {}", energy[0]);
+    assert!((last(&record, "die.normal") - 9.81).abs() < 1e-3, "{}", last(&record, "die.normal"));
+    // On the base, the force is opposite to that on the tip, the ground.
+    assert!((last(&record, "die.f3") + 9.81).abs() < 1e-3, "{}", last(&record, "die.f3"));
+}
+
+#[test]
+fn wrong_contacts_are_rejected_with_a_remedy() {
+    for (old, new, message) in [
+        ("shape = { sphere = 0.1 }\n", "", "`ball` has no solid that could touch"),
+        ("[ground]\nshape = { kind = \"plane\" }\n", "", "the ground has no solid that could touch"),
+        ("stiffness = 1e7\n", "", "has neither `stiffness` nor `material`"),
+        ("exponent = 1.5", "exponent = 0.5", "`exponent` of contact `floor` is below 1"),
+        ("restitution = 0.5", "restitution = 0.5\ndissipation = 1", "both `restitution` and `dissipation`"),
+        (
+            "restitution = 0.5",
+            "friction = 0.5\nstatic_friction = 0.3",
+            "`static_friction` of contact `floor` is below",
+        ),
+        ("tip = \"ball\"", "tip = \"ground\"", "connects a node to itself"),
+        ("{ kind = \"plane\" }", "{ box = [1, 1, 1] }", ""),
+    ] {
+        let text = DROP.replace(old, new);
+        assert_ne!(text, DROP, "{old}");
+        if message.is_empty() {
+            let text = text.replace("{ sphere = 0.1 }\npos", "{ box = [0.1, 0.1, 0.1] }\npos");
+            assert!(problems(&text).contains("a box against a box is not available"), "{}", problems(&text));
+        } else {
+            let found = problems(&text);
+            assert!(found.contains(message), "{message}: {found}");
+        }
+    }
+}
