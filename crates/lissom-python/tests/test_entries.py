@@ -16,7 +16,7 @@ import pytest
 
 import lissom
 from conftest import PENDULUM, ROOT
-from lissom.entries import Body, Entry, PointMass, analyses, joints, loads, outputs, springs
+from lissom.entries import Body, Contact, Entry, Ground, PointMass, analyses, joints, loads, outputs, springs
 from lissom.entries._entry import required
 from lissom.entries._model_tables import CLASSES, ORDER
 
@@ -166,6 +166,15 @@ def test_mistakes_are_told() -> None:
     assert "axis = [0, 0, 1]" in model.to_toml(), "what is wrong can be looked at"
     with pytest.raises(lissom.ModelError, match="analysis"):
         lissom.Model().check()
+
+
+def test_parts_touch_the_ground() -> None:
+    model = stone()
+    model.ground = Ground(shape={"kind": "plane"})
+    model.bodies["ball"] = Body(mass=1, inertia=[1, 1, 1], shape={"sphere": 0.1}, position=[0, 0, 0.2])
+    model.contacts["floor"] = Contact(base="ground", tip="ball", stiffness=1e4, restitution=0.5)
+    model.check()
+    assert '[ground]\nshape = { kind = "plane" }' in model.to_toml()
 
 
 def test_objects_are_copied_and_compared() -> None:

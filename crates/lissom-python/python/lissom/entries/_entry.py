@@ -26,6 +26,9 @@ Names = Sequence[str]
 #: A number, an expression, or a table `{"table": [[t, value], …]}`.
 Function = Union[float, str, Table]
 
+#: Tables without named entries.
+SINGLE = ("analysis", "ground", "initial")
+
 
 class Entry:
     """An entry of a model. `str` gives the TOML it means."""
@@ -116,7 +119,7 @@ def read(text: str) -> dict[str, Any]:
         classes = CLASSES.get(name)
         if classes is None:
             tables[name] = of
-        elif name in ("analysis", "initial"):
+        elif name in SINGLE:
             tables[name] = entry(classes, of)
         else:
             tables[name] = {key: entry(classes, inner) for key, inner in of.items()}
@@ -149,7 +152,7 @@ def written(tables: Mapping[str, Any]) -> str:
         elif classes is None:
             if of:
                 blocks.append([f"[{name}]", *lines(of)])
-        elif name in ("analysis", "initial"):
+        elif name in SINGLE:
             blocks.append([f"[{name}]", *lines(checked(name, name, of))])
         else:
             blocks += [[f"[{name}.{_toml.key(str(key))}]", *lines(checked(name, key, of[key]))] for key in of]
