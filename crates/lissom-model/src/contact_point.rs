@@ -10,6 +10,6 @@ pub(crate) struct ContactPoint {
     pub(crate) contact: Contact,
     /// 1 if the tip of the element is that of the contact, otherwise -1.
     pub(crate) sign: f64,
-    /// The discrete value with the velocity of the impact, and the smallest one [m/s].
-    pub(crate) velocity: Option<(DiscreteValueId, f64)>,
+    /// The discrete value with the velocity of the impact [m/s].
+    pub(crate) velocity: Option<DiscreteValueId>,
 }

@@ -46,12 +46,14 @@ const SMALL_DEPTH: f64 = 1e-6;
 pub enum Dissipation {
     /// The factor a [s/m].
     Factor(f64),
-    /// The factor is A/v with the velocity v [m/s] at which the contact began, an input that an event sets.
+    /// The factor is A/v with the velocity v at which the contact began, which an event sets.
     AtTouch {
         /// A.
         relative: f64,
-        /// v.
+        /// v [m/s].
         velocity: DiscreteValueId,
+        /// Smallest v [m/s].
+        least: f64,
     },
 }
 
@@ -280,8 +282,8 @@ impl Contact {
     fn dissipation(&self, at: &Kinematics) -> f64 {
         match self.dissipation {
             Dissipation::Factor(factor) => factor,
-            Dissipation::AtTouch { relative, velocity } => {
-                at.held.get(velocity.index()).map_or(0.0, |velocity| relative / velocity)
+            Dissipation::AtTouch { relative, velocity, least } => {
+                relative / at.held.get(velocity.index()).map_or(least, |velocity| velocity.max(least))
             }
         }
     }

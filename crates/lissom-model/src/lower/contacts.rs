@@ -10,10 +10,11 @@ use lissom_core::elements::contact::{Contact, ContactFriction, ContactMotion, Di
 use lissom_core::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Subject};
 use lissom_core::signals::event::{Direction, Event};
 use lissom_core::signals::measurement::Component;
-use lissom_core::signals::{Argument, Signal, SignalFunction};
+use lissom_core::signals::{Argument, Signal};
 use lissom_core::system::Builder;
 use lissom_motion::{Motion, Vector3};
 
+use super::straight_line::Line;
 use crate::contact_point::ContactPoint;
 use crate::document::{ContactEntry, Document, NodeReference, Restitution};
 use crate::report::Problem;
@@ -29,10 +30,10 @@ struct Meeting {
 /// Sets the velocities of impacts that begin at the start.
 pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut Kinematics) {
     for point in points {
-        let Some((held, least)) = point.velocity else { continue };
+        let Some(held) = point.velocity else { continue };
         let [gap, rate, _] = point.contact.motion(at);
         if gap <= 0.0 {
-            at.held[held.index()] = least.max(-rate);
+            at.held[held.index()] = -rate;
         }
     }
 }
@@ -85,9 +86,9 @@ pub(super) fn add(
         let (dissipation, velocity) = match entry.restitution {
             Restitution::Dissipation(factor) => (Dissipation::Factor(factor), None),
             Restitution::Coefficient(coefficient, least) => {
-                let held = builder.add_held(&format!("{own}, impact velocity"), least);
+                let held = builder.add_held(&format!("{own}, impact velocity"), 0.0);
                 let relative = relative_dissipation(coefficient);
-                (Dissipation::AtTouch { relative, velocity: held }, Some((held, least)))
+                (Dissipation::AtTouch { relative, velocity: held, least }, Some(held))
             }
         };
         let mut contribution = Contribution::to(builder.model());
@@ -102,8 +103,8 @@ pub(super) fn add(
         });
         let contact = Contact::new(frames, meeting.pair, (compliance, dissipation), friction);
         builder.add(contribution.with(contact.clone()));
-        if let Some((held, least)) = velocity {
-            touch(&own, &contact, (held, least), builder)
+        if let Some(held) = velocity {
+            touch(&own, &contact, held, builder)
                 .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
         }
         all.push(ContactPoint { contact, sign: if meeting.is_in_order { 1.0 } else { -1.0 }, velocity });
@@ -111,54 +112,26 @@ pub(super) fn add(
     Ok(all)
 }
 
-/// The velocity of an impact from the rate of the gap.
-#[derive(Clone, Copy, Debug)]
-struct ImpactVelocity(f64);
-
-impl SignalFunction for ImpactVelocity {
-    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
-        self.0.max(-arguments[0])
-    }
-
-    fn gradient(&self, _: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
-        out[0] = if -arguments[0] > self.0 { -1.0 } else { 0.0 };
-    }
-}
-
-/// The gap.
-#[derive(Clone, Copy, Debug)]
-struct Itself;
-
-impl SignalFunction for Itself {
-    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
-        arguments[0]
-    }
-
-    fn gradient(&self, _: f64, _: &[f64], _: &[f64], out: &mut [f64]) {
-        out[0] = 1.0;
-    }
-}
-
 /// The event at which an impact begins, and sets its velocity.
 fn touch(
     name: &str,
     contact: &Contact,
-    (held, least): (DiscreteValueId, f64),
+    held: DiscreteValueId,
     builder: &mut Builder,
 ) -> Result<(), lissom_core::registry::ParameterError> {
     let of = Arc::new(ContactMotion::new(contact));
-    let mut signal = |component: usize, function: Arc<dyn SignalFunction>| {
+    let mut signal = |component: usize, (text, slope): (&str, f64)| {
         let measured = builder.add_component(Component { of: of.clone(), component });
         builder.add_signal(Signal {
-            subject: Subject::new("contact", name).component(["gap", "rate"][component]),
-            text: String::new(),
-            function,
+            subject: Subject::new("contact", name).component("touch"),
+            text: text.to_owned(),
+            function: Arc::new(Line { at_zero: 0.0, slope }),
             arguments: vec![Argument::Measured(measured)],
             sampling: None,
         })
     };
-    let root = signal(0, Arc::new(Itself))?;
-    let velocity = signal(1, Arc::new(ImpactVelocity(least)))?;
+    let root = signal(0, ("gap", 1.0))?;
+    let velocity = signal(1, ("-(rate of the gap)", -1.0))?;
     let name = format!("{name}, touch");
     builder.add_event(Event {
         name,

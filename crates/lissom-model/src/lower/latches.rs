@@ -11,25 +11,9 @@ use lissom_core::signals::{Argument, Signal, SignalFunction};
 use lissom_core::system::Builder;
 
 use super::Names;
+use super::straight_line::Line;
 use crate::document::{Component, Document};
 use crate::report::Problem;
-
-/// A straight line over its argument.
-#[derive(Clone, Copy, Debug)]
-struct Line {
-    at_zero: f64,
-    slope: f64,
-}
-
-impl SignalFunction for Line {
-    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
-        self.at_zero + self.slope * arguments[0]
-    }
-
-    fn gradient(&self, _: f64, _: &[f64], _: &[f64], out: &mut [f64]) {
-        out[0] = self.slope;
-    }
-}
 
 /// Adds the latch of a joint that has one.
 pub(super) fn add(

@@ -17,6 +17,7 @@ pub mod registry;
 mod resource_limits;
 mod signals;
 mod sliders;
+mod straight_line;
 mod superelements;
 
 use std::collections::BTreeMap;
