@@ -7,6 +7,8 @@
 //! M q'' + h D q' + h² K q + s Bᵀ (λ̂ + p C) = h² F,      s C = 0,      s = m_r + d_r h + k_r h²
 //! ```
 //!
+//! Constraints of velocities, B q' = 0, are scaled by s as well, without an augmented term.
+//!
 //! Elements and joints are independent of scaling; schemes see unit steps only.
 
 use std::ops::Mul;
@@ -204,7 +206,12 @@ impl Scaled {
 
     /// The augmented term in SI.
     pub fn augmentation(&self) -> Augmentation {
-        Augmentation { weight: self.augmented / self.dynamic, radian: self.radian }
+        Augmentation {
+            weight: self.augmented / self.dynamic,
+            radian: self.radian,
+            lapse: self.h,
+            compliance: self.dynamic / self.s,
+        }
     }
 
     /// Length that represents a unit of `quantity` [m].
@@ -234,13 +241,15 @@ impl Scaled {
     }
 
     /// Factors of the derivatives in the tangent of the scaled equations, for a scheme with these weights.
-    pub fn blend<T: Mul<f64, Output = T>>(&self, weights: Weights<T>) -> Blend<T> {
+    pub fn blend<T: Copy + Mul<f64, Output = T>>(&self, weights: Weights<T>) -> Blend<T> {
         Blend {
             place: self.dynamic,
             rate: weights.velocity * (self.dynamic / self.h),
             acceleration: weights.acceleration * (self.dynamic / (self.h * self.h)),
             augmented: self.augmented,
             constraint: self.s,
+            slip: weights.velocity * self.s,
+            turning: self.s * self.h,
         }
     }
 

@@ -22,7 +22,7 @@ use super::feedback::{DrivenBatch, Feedback, Target};
 use super::state::State;
 use super::{ElementId, JointSlots, System};
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
-use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass, Impulse};
+use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass};
 use lissom_mechanics::elements::creep_force::CreepForce;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
 use lissom_mechanics::elements::initial_model::{Coordinate, InitialModel, Node};
@@ -38,7 +38,7 @@ use lissom_mechanics::kinematics::{
     NodeMotion, Quantity, Subject,
 };
 use lissom_mechanics::registry::{Function, ParameterError, Parameters};
-use lissom_mechanics::signals::{DiscreteValueId, Graph, SignalId};
+use lissom_mechanics::signals::{Graph, SignalId};
 
 /// Why a system could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -78,11 +78,10 @@ pub struct Builder {
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
     states: Vec<(CoordinateId, f64)>,
-    impulses: Vec<Impulse>,
+    /// Multipliers of constraints of velocities.
+    of_velocities: Vec<usize>,
     coordinate_masses: Vec<CoordinateMass>,
     free_coordinates: Vec<CoordinateId>,
-    /// Inputs that engage latches.
-    latches: Vec<DiscreteValueId>,
     functions: Vec<(Subject, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
@@ -118,10 +117,9 @@ impl Builder {
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
             states: Vec::new(),
-            impulses: Vec::new(),
+            of_velocities: Vec::new(),
             coordinate_masses: Vec::new(),
             free_coordinates: Vec::new(),
-            latches: Vec::new(),
             functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
@@ -223,16 +221,17 @@ impl Builder {
         mut add: impl FnMut(&mut Self, Box<dyn AnyElement>) -> ElementId,
     ) -> Option<ElementId> {
         assert!(contribution.fits(&self.model), "a contribution is added to the model that it was made for");
-        let Contribution { nodes, coordinates, inertias, states, impulses, latches, .. } = contribution;
+        let Contribution { nodes, coordinates, inertias, states, latches, .. } = contribution;
         self.model.nodes.extend(nodes);
         self.model.coordinates.extend(coordinates);
         for (node, mass) in inertias {
             self.add_inertia(node, &mass);
         }
         self.states.extend(states);
-        self.impulses.extend(impulses);
-        self.latches.extend(latches);
         self.coordinate_masses.extend(contribution.coordinate_masses);
+        for (coordinate, engaged) in latches {
+            self.add_latch(coordinate, engaged);
+        }
         let last = contribution.elements.into_iter().map(|element| add(self, element)).last();
         last.filter(|_| contribution.has_outputs)
     }
@@ -314,8 +313,9 @@ impl Builder {
             self.multipliers.push((name.to_owned(), equation));
             self.multiplier_quantities.push(joint.equation_quantity(k));
         }
-        let impulses =
-            joint.contact().map_or_else(Vec::new, |contact| self.add_rolling(name, carried, contact));
+        if let Some(contact) = joint.contact() {
+            self.add_rolling(name, carried, contact);
+        }
         if let (Some(contact), Some(law)) = (joint.rail_contact(), joint.creep()) {
             self.add_element(CreepForce::new(carried, first_multiplier, contact.clone(), law.clone()));
         }
@@ -326,7 +326,6 @@ impl Builder {
             output_frames: carried,
             coordinates: coordinates.clone(),
             first_multiplier,
-            impulses,
             joint,
         });
         Ok(coordinates)
@@ -339,6 +338,11 @@ impl Builder {
         let mut normal = Vector3::zeros();
         normal[3 - a - b] = 1.0;
         base.rotation.apply_inverse(&frame.rotation.apply(&normal)).z.abs() > 1.0 - 1e-12
+    }
+
+    /// Number of latches so far.
+    pub fn latch_count(&self) -> usize {
+        self.constraints.latches.len()
     }
 
     /// Name of a coordinate.
@@ -426,7 +430,6 @@ impl Builder {
             placed,
             coordinate_masses: self.coordinate_masses,
             free_coordinates: self.free_coordinates,
-            latches: self.latches,
             structure,
             joint_slots: JointSlots { rows: joint_rows.concat(), starts, positions },
             inertias,
@@ -469,7 +472,7 @@ impl Builder {
         layout.multiplier_count = self.multipliers.len();
         layout.multiplier_names = std::mem::take(&mut self.multipliers);
         layout.states = std::mem::take(&mut self.states);
-        layout.impulses = self.impulses.iter().map(|impulse| impulse.coordinate).collect();
+        layout.of_velocities = std::mem::take(&mut self.of_velocities);
         layout
     }
 

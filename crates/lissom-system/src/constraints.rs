@@ -1,5 +1,6 @@
 //! One interface to all constraints of a system, and the contributions of those that are not evaluated in lanes.
 
+use lissom_motion::lie_bracket_matrix;
 use lissom_solver::{Group, Pattern};
 
 use super::{StepPoint, System};
@@ -8,9 +9,13 @@ use lissom_mechanics::evaluation::scratch::with_scratch;
 use lissom_mechanics::evaluation::tangent_assembler::TangentAssembler;
 use lissom_mechanics::joints::Drive;
 use lissom_mechanics::joints::attached::AttachedJoint;
-use lissom_mechanics::joints::constraint::{Constraint, Port, Visit, ports_of, violation_rates};
+use lissom_mechanics::joints::constraint::{
+    Constraint, Level, Port, Visit, ports_of, rates, violation_rates,
+};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
+use lissom_mechanics::joints::latch::Latch;
+use lissom_mechanics::joints::no_slip::NoSlip;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{Kinematics, LOCKED, Layout, NodeId};
@@ -22,6 +27,8 @@ pub struct Constraints {
     pub drives: Vec<Drive>,
     pub couplings: Vec<Coupling>,
     pub sliders: Vec<Slider>,
+    pub wheels: Vec<NoSlip>,
+    pub latches: Vec<Latch>,
 }
 
 /// Constraints of one type.
@@ -42,12 +49,12 @@ impl<C: Constraint> Family for Vec<C> {
 
 impl Constraints {
     /// All families, enumerated only here.
-    fn families(&self) -> [&dyn Family; 4] {
-        [&self.joints, &self.drives, &self.couplings, &self.sliders]
+    fn families(&self) -> [&dyn Family; 6] {
+        [&self.joints, &self.drives, &self.couplings, &self.sliders, &self.wheels, &self.latches]
     }
 
     /// Number of constraints of each family, for comparing models.
-    pub fn counts(&self) -> [usize; 4] {
+    pub fn counts(&self) -> [usize; 6] {
         self.families().map(Family::count)
     }
 
@@ -117,7 +124,7 @@ struct Arrangement {
     /// First local unknown of each node.
     nodes: Vec<(usize, NodeId)>,
     /// Local row, local column and position in the tangent's pattern of every existing entry. Equations follow the
-    /// local unknowns, and the block of two equations is zero.
+    /// local unknowns; the block of two equations is zero, except for the diagonal of constraints that may be released.
     entries: Vec<(u32, u32, u32)>,
 }
 
@@ -165,7 +172,9 @@ impl Placed {
         for (own, unknowns) in self.arrangements.iter_mut().zip(unknowns) {
             let size = own.rows.len();
             let pairs = unknowns.iter().flat_map(|column| unknowns.iter().map(move |row| (*row, *column)));
-            let filled = pairs.filter(|((i, _), (j, _))| *i < size || *j < size);
+            let may_be_released = constraint.level() == Level::Velocity;
+            let filled =
+                pairs.filter(|((i, _), (j, _))| *i < size || *j < size || (may_be_released && i == j));
             let entry = |((i, row), (j, column)): ((usize, usize), (usize, usize))| {
                 (i as u32, j as u32, position_of(pattern, row, column) as u32)
             };
@@ -185,13 +194,36 @@ impl Arrangement {
     }
 }
 
-/// μ = λ + w c by equation.
+/// Violations of a constraint of velocities at the motion `at`; while it is released, minus its multipliers as lengths. `gradient`
+/// is zero and receives B.
+fn slips(
+    constraint: &dyn Constraint,
+    at: &Kinematics,
+    (scale, multipliers): (&Augmentation, &[f64]),
+    gradient: &mut [f64],
+    out: &mut [f64],
+) {
+    if constraint.is_released(at) {
+        out.iter_mut().zip(multipliers).for_each(|(value, mu)| *value = -scale.compliance * mu);
+        return;
+    }
+    rates(constraint, at, gradient, out);
+    out.iter_mut().for_each(|value| *value *= scale.lapse);
+}
+
+/// μ = λ + w c by equation; constraints of velocities are not augmented: they do not define coordinates without mass.
 fn multiplier(
     constraint: &dyn Constraint,
     augmentation: &Augmentation,
     (equation, multiplier, violation): (usize, f64, f64),
 ) -> f64 {
-    multiplier + augmentation.weight * augmentation.relative(constraint.quantity(equation)) * violation
+    match constraint.level() {
+        Level::Position => {
+            multiplier
+                + augmentation.weight * augmentation.relative(constraint.quantity(equation)) * violation
+        }
+        Level::Velocity => multiplier,
+    }
 }
 
 /// Violations at `point`: those at the start of the step and their change.
@@ -203,7 +235,7 @@ fn violations(constraint: &dyn Constraint, point: &Point<'_>, out: &mut [f64]) {
 }
 
 impl System {
-    /// All constraints between positions: joints first, then drives, relations and sliders.
+    /// All constraints: joints first.
     pub fn constraints(&self) -> impl Iterator<Item = &dyn Constraint> {
         self.constraints.iter()
     }
@@ -229,8 +261,16 @@ impl System {
             let (count, first) = (constraint.equations(), constraint.first_multiplier());
             with_scratch(count * (1 + arrangement.rows.len()), |scratch| {
                 let (mu, gradient) = scratch.split_at_mut(count);
-                violations(constraint, point, mu);
-                constraint.gradient(point.at, gradient);
+                match constraint.level() {
+                    Level::Position => {
+                        violations(constraint, point, mu);
+                        constraint.gradient(point.at, gradient);
+                    }
+                    Level::Velocity => {
+                        let given = (&point.augmentation, &point.multipliers[first..first + count]);
+                        slips(constraint, point.at, given, gradient, mu);
+                    }
+                }
                 let own = &mut out[self.layout.coordinate_count + first..][..count];
                 own.copy_from_slice(mu);
                 for (e, value) in mu.iter_mut().enumerate() {
@@ -270,23 +310,44 @@ impl System {
             let arrangement = &placed.arrangements[constraint.arrangement(point.at)];
             let (count, first) = (constraint.equations(), constraint.first_multiplier());
             let size = arrangement.rows.len();
-            with_scratch(size * (size + 2 * count), |scratch| {
+            let is_of_velocities = constraint.level() == Level::Velocity;
+            with_scratch(size * (size + 3 * count), |scratch| {
                 let (stiffness, gradients) = scratch.split_at_mut(size * size);
-                let (plain, charted) = gradients.split_at_mut(count * size);
+                let (plain, gradients) = gradients.split_at_mut(count * size);
+                let (charted, turning) = gradients.split_at_mut(count * size);
                 constraint.gradient(point.at, plain);
                 // The Hessian of the augmented term, w c ∂²c/∂q², is omitted, see `AttachedJoint::linearize_for`.
                 constraint.constraint_hessian(point.at, &point.multipliers[first..first + count], stiffness);
                 charted.copy_from_slice(plain);
-                if let Chart::Increments(tangents) = chart {
-                    for &(column, node) in &arrangement.nodes {
-                        for row in stiffness.chunks_exact_mut(size).chain(charted.chunks_exact_mut(size)) {
-                            tangents[node].through(&mut row[column..column + 6]);
+                if is_of_velocities {
+                    constraint.rate_derivatives(point.at, turning);
+                }
+                for &(column, node) in &arrangement.nodes {
+                    match chart {
+                        Chart::Body => {}
+                        Chart::Increments(tangents) => {
+                            let matrices = [&mut *stiffness, &mut *charted, &mut *turning];
+                            for row in matrices.into_iter().flat_map(|own| own.chunks_exact_mut(size)) {
+                                tangents[node].through(&mut row[column..column + 6]);
+                            }
                         }
+                        Chart::RelativeToDrift(start) if is_of_velocities => {
+                            // δV = δψ̂' + ad_V δψ̂.
+                            let drift = lie_bracket_matrix(&start[node].twist);
+                            for (row, by) in turning.chunks_exact_mut(size).zip(plain.chunks_exact(size)) {
+                                for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+                                    row[column + j] += by[column + i] * drift[(i, j)];
+                                }
+                            }
+                        }
+                        Chart::RelativeToDrift(_) => {}
                     }
                 }
+                let diagonal = if constraint.is_released(point.at) { -1.0 } else { 0.0 };
                 for &(i, j, position) in &arrangement.entries {
                     let (i, j) = (i as usize, j as usize);
                     let parts = match (i.checked_sub(size), j.checked_sub(size)) {
+                        (None, None) if is_of_velocities => [stiffness[i * size + j], 0.0, 0.0],
                         (None, None) => {
                             let square = |e: usize| {
                                 let weight = point.augmentation.relative(constraint.quantity(e));
@@ -295,8 +356,13 @@ impl System {
                             [stiffness[i * size + j], (0..count).map(square).sum(), 0.0]
                         }
                         (None, Some(e)) => [0.0, 0.0, plain[e * size + i]],
+                        (Some(e), None) if is_of_velocities => {
+                            let entry = e * size + j;
+                            out.add_slip_entry(position as usize, [plain[entry], turning[entry]]);
+                            continue;
+                        }
                         (Some(e), None) => [0.0, 0.0, charted[e * size + j]],
-                        (Some(_), Some(_)) => continue,
+                        (Some(_), Some(_)) => [0.0, 0.0, diagonal],
                     };
                     out.add_constraint_entry(position as usize, parts);
                 }
@@ -319,7 +385,16 @@ impl System {
                     violations: violations.split_at_mut(count).into(),
                     changes,
                 };
-                constraint.visit(&point.step, end, before, &mut visit);
+                match constraint.level() {
+                    Level::Position => constraint.visit(&point.step, end, before, &mut visit),
+                    Level::Velocity => {
+                        for (stage, at) in point.step.stages.iter().enumerate() {
+                            let given =
+                                (&point.augmentation, &point.multipliers[stage][first..first + count]);
+                            slips(constraint, at, given, visit.rows[stage], visit.violations[stage]);
+                        }
+                    }
+                }
                 for (stage, at) in point.step.stages.iter().enumerate() {
                     let (rows, mu) = (&*visit.rows[stage], &mut *visit.violations[stage]);
                     let own = &mut out[stage][self.layout.coordinate_count + first..][..count];

@@ -41,11 +41,10 @@ use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::blocks::{Batches, JointBatch};
 use lissom_mechanics::joints::constraint::{Port, ports_of};
 use lissom_mechanics::joints::coupling::Coupling;
+use lissom_mechanics::joints::latch::Latch;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
-use lissom_mechanics::kinematics::{
-    self, CoordinateId, DiscreteValueId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch,
-};
+use lissom_mechanics::kinematics::{self, CoordinateId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
@@ -56,7 +55,7 @@ pub struct System {
     pub layout: Layout,
     /// Elements by kind, then the targets of signals.
     pub batches: Vec<Arc<dyn AnyBatch>>,
-    /// Joints, drives, couplings and sliders.
+    /// All constraints.
     pub constraints: Constraints,
     /// The joints by kind, in lanes.
     pub joint_batches: Batches,
@@ -66,8 +65,6 @@ pub struct System {
     pub coordinate_masses: Vec<CoordinateMass>,
     /// Coordinates of no joint between nodes.
     pub free_coordinates: Vec<CoordinateId>,
-    /// Inputs that engage latches.
-    pub latches: Vec<DiscreteValueId>,
     /// Functions of time of loads, springs and drives, with their description.
     pub functions: Vec<(Subject, Function)>,
     /// Pattern of the tangent, and groups of unknowns that are eliminated together.
@@ -137,6 +134,11 @@ impl System {
     /// All sliders along beams.
     pub fn sliders(&self) -> &[Slider] {
         &self.constraints.sliders
+    }
+
+    /// All latches.
+    pub fn latches(&self) -> &[Latch] {
+        &self.constraints.latches
     }
 
     /// Inertia of every node that has mass.

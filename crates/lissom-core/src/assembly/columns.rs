@@ -54,7 +54,9 @@ impl<'a> Columns<'a> {
         for coordinate in layout.coordinates() {
             owners[layout.row_of_coordinate(coordinate)] = Owner::Coordinate(coordinate);
         }
-        let rows = (0..layout.multiplier_count).filter(|multiplier| !driven.contains(multiplier)).collect();
+        let is_closed =
+            |multiplier: &usize| !driven.contains(multiplier) && !layout.is_of_velocities(*multiplier);
+        let rows = (0..layout.multiplier_count).filter(is_closed).collect();
         let count = [count, of_group.as_flattened().iter().flatten().count()];
         Self { system, groups, owners, of_group, of_coordinate, rows, count }
     }

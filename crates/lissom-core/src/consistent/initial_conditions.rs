@@ -94,16 +94,6 @@ impl ConsistentInitialConditions {
                 weights[diagonal] += 1.0;
             }
         }
-        // Velocity constraints take the positions of position constraints: [M Bᵀ; B 0].
-        for (row, _) in layout.impulses() {
-            for &other in pattern.column(row) {
-                for (row, column) in [(row, other), (other, row)] {
-                    if let Some(position) = pattern.position(row, column) {
-                        weights[position] = linearization.damping[position];
-                    }
-                }
-            }
-        }
         if inertias == Inertias::OfParts {
             let coordinates = system.joints().iter().flat_map(|joint| &joint.coordinates);
             for row in coordinates.map(|&coordinate| layout.row_of_coordinate(coordinate)) {
@@ -138,7 +128,7 @@ impl ConsistentInitialConditions {
     }
 
     fn augmentation(&self) -> Augmentation {
-        Augmentation { weight: 0.0, radian: self.radian }
+        Augmentation::of_lengths(self.radian)
     }
 
     pub(crate) fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
@@ -201,6 +191,10 @@ impl ConsistentInitialConditions {
         let pattern = &system.structure().pattern;
         let count = system.layout().coordinate_count();
         for (k, violation) in constraints.iter().enumerate() {
+            // Constraints of velocities are not augmented.
+            if system.layout().is_of_velocities(k) {
+                continue;
+            }
             let column = count + k;
             let violation = self.augmentation().relative(system.layout().quantities()[column]) * violation;
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
@@ -243,13 +237,9 @@ impl ConsistentInitialConditions {
         let mut speeds = vec![0.0; layout.size()];
         gather_rates(layout, &state.kinematics, &mut speeds);
         let mut right = vec![0.0; layout.size()];
-        // -(B v + ∂c/∂t): only the rows of position and velocity constraints are kept.
+        // -(B v + ∂c/∂t): only the rows of the constraints are kept.
         self.subtract_product(system, &speeds, &mut right);
-        let slides: Vec<(usize, f64)> = layout.impulses().map(|(row, _)| (row, right[row])).collect();
         right[..count].fill(0.0);
-        for (row, slide) in slides {
-            right[row] = slide;
-        }
         for (value, impulse) in right[..count].iter_mut().zip(impulses) {
             *value += impulse;
         }
@@ -266,8 +256,6 @@ impl ConsistentInitialConditions {
                 largest = largest.max(right[row as usize].abs());
             }
         }
-        // The impulses that stopped the sliding are no forces.
-        layout.impulses().for_each(|(row, _)| right[row] = 0.0);
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
             coordinate.rate += right[row as usize];
         }
@@ -297,11 +285,8 @@ impl ConsistentInitialConditions {
     }
 
     fn factored_accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
-        let mut right = self.acceleration_with_factors(system, state)?;
+        let right = self.acceleration_with_factors(system, state)?;
         let layout = system.layout();
-        for (row, impulse) in layout.impulses() {
-            state.kinematics.coordinates[impulse].rate = std::mem::take(&mut right[row]);
-        }
         scatter_accelerations(layout, &right, &mut state.kinematics);
         state.multipliers.copy_from_slice(&right[layout.coordinate_count()..]);
         state.kinematics.show_multipliers(&state.multipliers);
@@ -350,7 +335,7 @@ impl ConsistentInitialConditions {
     }
 
     /// Jump of accelerations and multipliers, by row, at a change to the held values `held`, with the last factorisation. The rows of
-    /// first-order states contain the change of their rates, those of impulses their rates.
+    /// first-order states contain the change of their rates.
     pub(crate) fn acceleration_jump(
         &mut self,
         system: &System,
@@ -373,8 +358,7 @@ impl ConsistentInitialConditions {
         Ok(jump)
     }
 
-    /// Accelerations and multipliers by row. The rows of first-order states contain the residuals of their rates, those of impulses
-    /// their rates.
+    /// Accelerations and multipliers by row. The rows of first-order states contain the residuals of their rates.
     pub(crate) fn acceleration_at(
         &mut self,
         system: &System,
@@ -424,7 +408,6 @@ impl ConsistentInitialConditions {
         let zero = vec![0.0; layout.multiplier_count];
         let mut right = vec![0.0; layout.size()];
         system.residual(&self.point(at, &zero), &mut right);
-        self.turn_slides(system, at, &mut right);
         let mut rates = zero;
         system.begin_step(at, &mut self.starts);
         let accelerations = &mut right[layout.coordinate_count()..];
@@ -433,23 +416,6 @@ impl ConsistentInitialConditions {
             *value = -*value;
         }
         right
-    }
-
-    /// Sets the rows of velocity constraints to Ḃ v: the derivative of B v by positions, along the motion.
-    pub(crate) fn turn_slides(&self, system: &System, at: &Kinematics, rows: &mut [f64]) {
-        let layout = system.layout();
-        if layout.impulses.is_empty() {
-            return;
-        }
-        let mut speeds = vec![0.0; layout.size()];
-        gather_rates(layout, at, &mut speeds);
-        let pattern = &system.structure().pattern;
-        for (row, _) in layout.impulses() {
-            let by_place = |&column: &usize| {
-                pattern.position(row, column).map_or(0.0, |at| self.linearization.stiffness[at])
-            };
-            rows[row] = pattern.column(row).iter().map(|column| by_place(column) * speeds[*column]).sum();
-        }
     }
 
     /// Accelerations by row `delay` [s] after (or before) the state, for schemes whose history starts there: v̇ + delay v̈, with v̈ from a
@@ -482,7 +448,7 @@ impl ConsistentInitialConditions {
         }
         // Rates of states are in equilibrium already and are not extrapolated.
         let mut compared = now.clone();
-        for row in layout.rate_rows() {
+        for (row, ..) in layout.states() {
             (compared[row], difference[row]) = (0.0, 0.0);
         }
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -497,13 +463,10 @@ impl ConsistentInitialConditions {
     }
 }
 
-/// The motion of a state with accelerations and impulses of zero.
+/// The motion of a state with accelerations of zero.
 fn without_accelerations(layout: &Layout, state: &State) -> Kinematics {
     let mut at = state.kinematics.clone();
     scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
-    for (_, impulse) in layout.impulses() {
-        at.coordinates[impulse].rate = 0.0;
-    }
     at
 }
 
@@ -548,7 +511,7 @@ fn gather(
     }
 }
 
-/// Sets twists and rates; those of impulses, which are forces, to zero.
+/// Sets twists and rates.
 pub(crate) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics) {
     for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
         for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
@@ -557,9 +520,6 @@ pub(crate) fn scatter_rates(layout: &Layout, values: &[f64], at: &mut Kinematics
     }
     for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
         coordinate.rate = values[row as usize];
-    }
-    for (_, impulse) in layout.impulses() {
-        at.coordinates[impulse].rate = 0.0;
     }
 }
 

@@ -4,7 +4,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::joints::constraint::{Constraint, Port, ports_of};
+use crate::joints::constraint::{Constraint, Level, Port, ports_of};
 use crate::kinematics::{Kinematics, LOCKED, Layout, NodeId, Quantity};
 use crate::system::{System, rows_of_port};
 
@@ -55,7 +55,7 @@ fn holds_nodes(constraint: &dyn Constraint) -> bool {
 fn kept(system: &System) -> Vec<(usize, Vec<usize>)> {
     let layout = system.layout();
     let columns: Vec<Vec<usize>> = system.constraints().map(|own| columns_of(own, layout)).collect();
-    let has_equations = |own: &dyn Constraint| own.equations() > 0;
+    let has_equations = |own: &dyn Constraint| own.equations() > 0 && own.level() == Level::Position;
     let mut is_kept: Vec<bool> = system.constraints().map(has_equations).collect();
     take_ends(system, &mut is_kept);
     let mut known = vec![0_usize; layout.coordinate_count()];

@@ -17,13 +17,13 @@ const LARGE_ENOUGH: f64 = 0.1;
 pub struct Mobility {
     /// Degrees of freedom of nodes and algebraic coordinates.
     pub coordinates: usize,
-    /// Equations of joints and drives.
+    /// Equations of joints and drives between positions.
     pub constraints: usize,
     /// Independent ones among them.
     pub rank: usize,
     /// Degrees of freedom: coordinates minus independent equations.
     pub freedoms: usize,
-    /// Equations that depend linearly on earlier ones.
+    /// Equations that depend linearly on earlier ones; those between velocities depend on those between positions as well.
     pub redundant: Vec<Redundant>,
 }
 
@@ -72,15 +72,15 @@ pub fn has_loops(system: &System) -> bool {
 pub fn mobility(system: &System, state: &State) -> Mobility {
     let layout = system.layout();
     let mut result = Mobility {
-        coordinates: layout.coordinate_count() - layout.state_count() - layout.impulses.len(),
-        constraints: layout.multiplier_rows().len(),
+        coordinates: layout.coordinate_count() - layout.state_count(),
+        constraints: layout.multiplier_count - layout.of_velocities.len(),
         ..Mobility::default()
     };
     let mut reduced: Vec<Reduced> = Vec::new();
     let mut by_pivot: BTreeMap<usize, usize> = BTreeMap::new();
     // Columns of nodes precede those of joint coordinates.
     let of_nodes = layout.coordinate_count() - layout.coordinate_rows.len();
-    for (k, row) in rows(system, state).into_iter().enumerate() {
+    for (k, row) in rows(system, state) {
         match eliminate(row, k, &reduced, &by_pivot, of_nodes) {
             Ok(row) => {
                 by_pivot.insert(row.pivot, reduced.len());
@@ -102,7 +102,7 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
             }
         }
     }
-    result.rank = reduced.len();
+    result.rank = reduced.iter().filter(|row| !layout.is_of_velocities(row.multiplier)).count();
     result.freedoms = result.coordinates - result.rank;
     result
 }
@@ -129,14 +129,12 @@ fn self_stress(repeating: usize, used: Vec<(usize, f64)>, reduced: &[Reduced]) -
 
 /// Redundant direction of the joint of an equation, in words: that of its force and moment under `stress`.
 fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, f64)]) -> Option<String> {
-    let joint = system.joints().iter().find(|joint| {
-        (joint.first_multiplier..joint.first_multiplier + joint.equations()).contains(&equation)
-    })?;
+    let joint = system.joints().iter().find(|joint| joint.reacting().contains(&equation))?;
     let of = |share: f64| {
         let mut mu = Equations::default();
         for &(multiplier, value) in stress {
             if let Some(own) = multiplier.checked_sub(joint.first_multiplier)
-                && own < joint.equations()
+                && own < joint.reacting().len()
             {
                 mu[own] = share * value;
             }
@@ -212,19 +210,21 @@ fn eliminate(
     }
 }
 
-/// Rows of B by multiplier.
-fn rows(system: &System, state: &State) -> Vec<BTreeMap<usize, f64>> {
+/// Multipliers with their rows of B: first those of constraints of positions, then those of velocities that are not released.
+fn rows(system: &System, state: &State) -> Vec<(usize, BTreeMap<usize, f64>)> {
     let layout = system.layout();
     let linearization = system.linearization_at(&state.kinematics);
     let pattern = system.pattern();
-    layout
-        .multiplier_rows()
-        .map(|column| {
-            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-            range
-                .map(|position| (pattern.row_indices()[position], linearization.constraint[position]))
-                .filter(|&(row, value)| row < layout.coordinate_count() && value != 0.0)
-                .collect()
-        })
-        .collect()
+    let row = |multiplier: usize| -> BTreeMap<usize, f64> {
+        let column = layout.coordinate_count() + multiplier;
+        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        range
+            .map(|position| (pattern.row_indices()[position], linearization.constraint[position]))
+            .filter(|&(row, value)| row < layout.coordinate_count() && value != 0.0)
+            .collect()
+    };
+    let of_positions = (0..layout.multiplier_count).filter(|&own| !layout.is_of_velocities(own));
+    let of_velocities = layout.of_velocities.iter().map(|&own| (own, row(own)));
+    let acting = of_velocities.filter(|(_, row)| !row.is_empty());
+    of_positions.map(|own| (own, row(own))).chain(acting).collect()
 }

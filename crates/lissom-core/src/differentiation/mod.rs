@@ -79,7 +79,7 @@ impl Sensitivities {
         let is_known = settings.scheme.tableau.as_ref().is_none_or(Tableau::is_stiffly_accurate)
             && settings.control.is_none()
             && !base.system.has_feedback()
-            && layout.impulses().next().is_none()
+            && layout.of_velocities.is_empty()
             && !base.system.sees_multipliers();
         is_known.then(|| Self {
             numbers: Vec::new(),

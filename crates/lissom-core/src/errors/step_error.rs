@@ -411,14 +411,13 @@ fn convergence_hint(is_motion: bool) -> &'static str {
 /// What to try when elimination stops at an unknown, a coordinate or a multiplier.
 pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'static str {
     if unknown >= layout.coordinate_count() {
+        if layout.velocity_rows().any(|row| row == unknown) {
+            return "another wheel or joint prevents the same sliding: specify a small `creep`";
+        }
         return "the joint's equation is redundant with those of other joints: remove or relax one of them";
     }
     if !augmented {
         return "a coordinate without mass and stiffness requires the augmented term: set `augmented = true`";
-    }
-    if layout.impulses().next().is_some() {
-        return "it has no resistance in this position: add mass, stiffness or a joint, or start the search for an equilibrium from another \
-                position, where weight or a spring determines it; if the force of a rolling wheel is redundant, specify a small `creep`";
     }
     "it has no resistance in this position: add mass, stiffness or a joint, or start the search for an equilibrium from another position, \
      where weight or a spring determines it"

@@ -251,8 +251,6 @@ impl StepEquations<'_> {
             change = change.max(self.scaled.multiplier_factor() * size);
             largest = largest.max(reference);
         }
-        let (of_impulses, most) = self.measure_impulses();
-        (change, largest) = (change.max(of_impulses), largest.max(most));
         let Correction { size, reference } = places;
         // Without loads, for example before the arrival of the first wave or in free flight, multipliers are only round-off: of
         // strains, and of the forces that accelerate the masses.
@@ -290,22 +288,6 @@ impl StepEquations<'_> {
         let weights =
             |stage: &Stage| stage.acceleration.increments.iter().map(|weight| weight.abs()).sum::<f64>();
         self.scheme.stages.iter().map(weights).fold(round_off::OPERATIONS / f64::EPSILON, f64::max)
-    }
-
-    /// Largest correction of a force of a velocity constraint, and the largest such force [N].
-    fn measure_impulses(&self) -> (f64, f64) {
-        let layout = self.system.layout();
-        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
-        for (row, impulse) in layout.impulses() {
-            for (stage, motion) in self.work.motions.iter().enumerate().take(self.scheme.stages.len()) {
-                let increments = &self.scheme.stages[stage].velocity.increments;
-                let by_correction = increments.iter().zip(&self.work.residuals);
-                let rate: f64 = by_correction.map(|(weight, corrections)| weight * corrections[row]).sum();
-                change = change.max((rate / self.scaled.step_size()).abs());
-                largest = largest.max(motion.at.coordinates[impulse].rate.abs());
-            }
-        }
-        (change, largest)
     }
 
     /// Extends the convergence measure to first-order states: corrections relative to the increment of the state in the step, scaled

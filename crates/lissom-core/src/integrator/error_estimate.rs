@@ -121,7 +121,7 @@ impl Integrator {
         if has_switched {
             // The filter would suppress a motion that the switch has just started, such as an impact on a stiff stop.
             motion.copy_from_slice(&work.error.unfiltered);
-            system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
+            system.layout().states().for_each(|(row, ..)| motion[row] = 0.0);
             return;
         }
         inertial_part(system, end, &work.error.unfiltered, motion);

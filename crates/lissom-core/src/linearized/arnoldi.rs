@@ -172,15 +172,11 @@ impl<S: Field> Operator<S> for Inverse<'_, '_, '_, S> {
                     * self.units[row].recip();
             }
             multiply(&pattern, values, &self.room, &mut self.product);
-            for (sum, &value) in self.right[..count].iter_mut().zip(&self.product) {
+            for (sum, &value) in self.right.iter_mut().zip(&self.product) {
                 *sum -= value;
             }
         }
         self.solver.solve(&mut self.right);
-        // Forces of velocity constraints do not enter the next application, nor do multipliers.
-        for (row, _) in self.model.system.layout().impulses() {
-            self.right[row] = S::zero();
-        }
         for row in 0..count {
             let x = self.right[row] * self.units[row];
             image[row] = x;
@@ -278,13 +274,12 @@ fn find_near<'a, S: Field>(
     }
     let eigenvalues: usize = modes.iter().map(|mode| if mode.eigenvalue.im == 0.0 { 1 } else { 2 }).sum();
     let layout = model.system.layout();
-    let constraints = layout.multiplier_rows().len() + 2 * layout.impulses.len();
-    let freedoms = layout.coordinate_count().saturating_sub(constraints);
+    let freedoms = layout.coordinate_count().saturating_sub(layout.multiplier_rows().len());
     let most = match &spectrum {
         Some(spectrum) => spectrum.values.len(),
         None if freedoms == 0 || solver.has_redundant_constraints() => usize::MAX,
         // Rolling bodies have more positions than velocities.
-        None => 2 * freedoms + layout.impulses.len(),
+        None => 2 * freedoms + layout.of_velocities.len(),
     };
     if (is_empty && modes.is_empty()) || eigenvalues > most {
         return Err(ModeError::NotConverged {});

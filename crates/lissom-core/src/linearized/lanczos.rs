@@ -72,9 +72,6 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
         self.room[count..].fill(0.0);
         self.solver.solve(&mut self.room);
         image.copy_from_slice(&self.room[..count]);
-        for (row, _) in model.system.layout().impulses() {
-            image[row] = 0.0;
-        }
     }
 
     fn weigh(&mut self, vector: &[f64], weighted: &mut [f64]) {

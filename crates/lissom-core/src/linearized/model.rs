@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use super::generator::Generator;
 use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
-use super::velocity_constraints::{refuse, take_forces};
+use super::velocity_constraints::{move_to_rates, refuse};
 use super::{SLOW_RATE, rolling_axes};
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::diagnostics::diagnostics;
@@ -54,7 +54,7 @@ diagnostics! {
         }
         /// A latch, which is a constraint between velocities.
         Latched {
-            /// Name of its impulse.
+            /// Name of its coordinate.
             coordinate: String,
         } => "linear-latch" {
             subject: Subject::new("coordinate", coordinate),
@@ -133,9 +133,9 @@ impl<'a> LinearModel<'a> {
             return Err(LinearError::Sampled {});
         }
         let mut state = state.clone();
-        let is_at_rest = is_at_rest(system, &state.kinematics);
+        let is_at_rest = is_at_rest(&state.kinematics);
         let zeros = vec![0.0; system.layout().multiplier_rows().len()];
-        let mut unloaded = system.linearization_at(&state.kinematics);
+        let unloaded = system.linearization_at(&state.kinematics);
         let representative = Representative::of(system, &state.kinematics, &unloaded);
         let time = state.kinematics.time;
         let ([mut imbalance, mut released], mut unsteadiness) = ([0.0; 2], 0.0);
@@ -146,7 +146,6 @@ impl<'a> LinearModel<'a> {
             for coordinate in &mut state.kinematics.coordinates {
                 coordinate.acceleration = 0.0;
             }
-            take_forces(system, &mut unloaded, true);
             [imbalance, released] = hold(system, &mut state, &unloaded, &representative, &zeros)?;
         } else {
             let mut initial = ConsistentInitialConditions::new(system, &state, &representative, solver);
@@ -161,8 +160,8 @@ impl<'a> LinearModel<'a> {
         let chart = if is_at_rest { Chart::Body } else { Chart::RelativeToDrift(&state.kinematics.nodes) };
         system.linearize(&point, chart, &mut parts);
         parts.fold_multipliers();
-        take_forces(system, &mut parts, is_at_rest);
         if !is_at_rest {
+            move_to_rates(system, &mut parts);
             if unsteadiness > round_off::STEADY_MOTION {
                 let displaced = displacement_by_inertia(system, &state.kinematics, (&parts, &representative));
                 unsteadiness =
@@ -188,25 +187,12 @@ impl<'a> LinearModel<'a> {
         })
     }
 
-    /// The same for analyses without velocity constraints.
-    ///
-    /// # Errors
-    /// Likewise, and if the system has such constraints.
-    pub(crate) fn of_positions(
-        system: &'a System,
-        state: &State,
-        solver: &'a SolverKind,
-    ) -> Result<Self, LinearError> {
-        refuse(system)?;
-        Self::of(system, state, solver)
-    }
-
-    /// Rejects a system with velocity constraints, for analyses that consider positions only.
+    /// Rejects a moving system with constraints of velocities, for analyses that consider positions only.
     ///
     /// # Errors
     /// If there are such constraints.
     pub fn check_positions_alone(&self) -> Result<(), LinearError> {
-        refuse(self.system)
+        if self.is_at_rest { Ok(()) } else { refuse(self.system) }
     }
 
     /// The same model with matrices in axes at rest.
@@ -354,11 +340,10 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
     LinearError::Factor { time, unknown: system.layout().subject_of(unknown), pivot }
 }
 
-/// Whether all velocities are zero; rates of impulses are forces.
-fn is_at_rest(system: &System, at: &Kinematics) -> bool {
-    let is_force = |coordinate: CoordinateId| system.layout().impulses.contains(&coordinate);
+/// Whether all velocities are zero.
+fn is_at_rest(at: &Kinematics) -> bool {
     at.nodes.iter().all(|node| node.twist == Vector6::zeros())
-        && CoordinateId::enumerate(&at.coordinates).all(|(own, motion)| motion.rate == 0.0 || is_force(own))
+        && at.coordinates.iter().all(|motion| motion.rate == 0.0)
 }
 
 pub(super) fn nothing(at: &Kinematics) -> (Vec<MotionChange>, Vec<f64>) {
@@ -451,9 +436,6 @@ fn hold(
     for (row, _, magnitude) in layout.states() {
         units[row] = 1.0 / magnitude;
     }
-    for (row, _) in layout.impulses() {
-        units[row] = 0.0;
-    }
     let (still, unchanged) = nothing(&state.kinematics);
     let mut residual = vec![0.0; layout.size()];
     let mut forces = vec![0.0; count];
@@ -471,9 +453,6 @@ fn hold(
         released = 0.5 * forces.iter().zip(&residual).map(|(force, way)| force * way).sum::<f64>().abs();
         for (multiplier, change) in state.multipliers.iter_mut().zip(&residual[count..]) {
             *multiplier -= change;
-        }
-        for (row, impulse) in layout.impulses() {
-            state.kinematics.coordinates[impulse].rate -= residual[row];
         }
         let displacements = residual[..count].iter().zip(&units);
         imbalance = displacements.fold(0.0_f64, |most, (value, unit)| most.max((value * unit).abs()));
@@ -525,9 +504,6 @@ fn displacement_by_inertia(
     let mut solver = GeneralShift::<f64>::new(system, representative);
     solver.factor(parts, SLOW_RATE * rate).ok()?;
     solver.solve(&mut forces);
-    for (row, _) in layout.impulses() {
-        forces[row] = 0.0;
-    }
     let sizes = forces[..count].iter().zip(layout.quantities()).map(|(value, quantity)| match quantity {
         Quantity::Length => value.abs() / representative.length,
         Quantity::Angle | Quantity::State => value.abs(),

@@ -144,10 +144,8 @@ impl Assembly<'_> {
     /// If the assembly with fixed interfaces is a mechanism, not elastic, or not in equilibrium; if it is supported otherwise.
     pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
         refuse(self.free)?;
-        let mut model = self
-            .locked
-            .map(|system| LinearModel::of_positions(system, self.state, self.solver))
-            .transpose()?;
+        let mut model =
+            self.locked.map(|system| LinearModel::of(system, self.state, self.solver)).transpose()?;
         let multipliers = model.as_ref().map_or_else(
             || vec![0.0; self.free.layout().multiplier_rows().len()],
             |model| model.multipliers().to_vec(),

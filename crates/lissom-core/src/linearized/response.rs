@@ -91,16 +91,7 @@ impl FrequencyResponse<'_, '_> {
         for (k, value) in self.values.iter_mut().enumerate() {
             *value = s * (s * parts.mass[k] + parts.damping[k]) + parts.stiffness[k] + parts.constraint[k];
         }
-        let impulses: Vec<usize> = self.model.system.layout().impulses().map(|(row, _)| row).collect();
-        let of = |input: &Vec<f64>| {
-            let mut amplitudes = self.solve(s, input)?;
-            // The unknowns were forces, which are the rates of impulses.
-            for &row in &impulses {
-                amplitudes[row] /= s;
-            }
-            Ok(amplitudes)
-        };
-        inputs.iter().map(of).collect()
+        inputs.iter().map(|input| self.solve(s, input)).collect()
     }
 
     fn solve(&mut self, s: Complex64, input: &[f64]) -> Result<Vec<Complex64>, ResponseError> {

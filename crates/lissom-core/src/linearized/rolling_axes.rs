@@ -22,7 +22,7 @@ use crate::system::System;
 /// Spin of every node [rad/s], in its axes: zero except for rolling wheels.
 pub(super) fn spins(system: &System, at: &Kinematics) -> Vec<Vector3> {
     let mut spins = vec![Vector3::zeros(); at.nodes.len()];
-    for joint in system.joints().iter().filter(|joint| !joint.impulses.is_empty()) {
+    for joint in system.joints().iter().filter(|joint| joint.rolls()) {
         let Some(contact) = joint.joint().contact() else { continue };
         let [base, tip] = joint.frames.map(|frame| (&at.nodes[frame.node], frame.offset.rotation));
         let in_tip = |vector: Vector3| tip.0.frame.rotation.apply_inverse(&vector);

@@ -56,7 +56,7 @@ impl<'a> RealShift<'a> {
         self.saddle.forget_redundancy();
         let report = self.saddle.factor(structure, self.scaled.scale())?;
         let negative = report.negative_pivots.unwrap_or(usize::MAX);
-        let forces = layout.size() - layout.coordinate_count() + layout.impulses.len();
+        let forces = layout.size() - layout.coordinate_count();
         Ok(negative.saturating_sub(forces))
     }
 
@@ -134,6 +134,14 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
                         + blend.augmented * parts.gram[k]
                         + blend.constraint * parts.constraint[k],
                 );
+        }
+        // s B + N of constraints of velocities is scaled like the rows of other constraints.
+        let (pattern, scale) = (&self.structure.pattern, self.scaled.scale());
+        for row in self.system.layout().velocity_rows() {
+            for k in pattern.column(row).iter().filter_map(|&column| pattern.position(row, column)) {
+                self.saddle.matrices.values[k] = shift * (scale * parts.damping[k])
+                    + S::from_real(scale * (parts.stiffness[k] + parts.constraint[k]));
+            }
         }
         self.saddle.forget_redundancy();
         self.saddle.factor(&self.structure, self.scaled.scale()).map(|_| ())

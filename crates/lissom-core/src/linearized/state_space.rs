@@ -114,7 +114,7 @@ impl LinearModel<'_> {
         if self.system.sees_multipliers() {
             return Err(StateSpaceError::NormalForces {});
         }
-        if let Some((row, _)) = self.system.layout().impulses().next() {
+        if let Some(row) = self.moving_velocity_rows().next() {
             return Err(StateSpaceError::VelocityConstraint {
                 constraint: self.system.layout().subject_of(row),
             });
@@ -130,7 +130,7 @@ impl LinearModel<'_> {
         if 2 * freedoms > most || self.coordinate_count() > MAX_COORDINATES {
             return None;
         }
-        if self.system.sees_multipliers() || self.system.layout().impulses().next().is_some() {
+        if self.system.sees_multipliers() || self.moving_velocity_rows().next().is_some() {
             return None;
         }
         let reduced = self.reduced(&[]).ok()?;
@@ -143,6 +143,12 @@ impl LinearModel<'_> {
         a.columns_mut(z + x, z).scale_mut(rate);
         a.rows_mut(z + x, z).scale_mut(rate.recip());
         (states <= most).then_some(a)
+    }
+
+    /// Rows of constraints of velocities, which are not those of positions in a moving state.
+    fn moving_velocity_rows(&self) -> impl Iterator<Item = usize> {
+        let rows = self.system.layout().velocity_rows();
+        rows.filter(|_| !self.is_at_rest())
     }
 
     /// Full matrices of the rows and columns of coordinates.

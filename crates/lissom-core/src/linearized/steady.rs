@@ -249,15 +249,12 @@ impl<'a> LinearModel<'a> {
         for column in 0..count {
             for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
                 let row = pattern.row_indices()[at];
-                let parts = if row < count {
-                    [
-                        accelerations[column] * other.parts.mass[at],
-                        rates[column] * other.parts.damping[at],
-                        places[column] * other.parts.stiffness[at],
-                    ]
-                } else {
-                    [places[column] * other.parts.constraint[at], Complex64::default(), Complex64::default()]
-                };
+                let of_places = if row < count { 0.0 } else { other.parts.constraint[at] };
+                let parts = [
+                    accelerations[column] * other.parts.mass[at],
+                    rates[column] * other.parts.damping[at],
+                    places[column] * (other.parts.stiffness[at] + of_places),
+                ];
                 for part in parts {
                     right[row] += part;
                     terms[row] += part.norm();
@@ -268,8 +265,6 @@ impl<'a> LinearModel<'a> {
         let whole = size(&mode.shape);
         let mut deviation_by = |mut forces: Vec<Complex64>| {
             shifted.solve(&mut forces);
-            // Shapes do not contain the forces of constraints.
-            other.system.layout().impulses().for_each(|(row, _)| forces[row] = Complex64::default());
             size(&forces[..count]) / whole
         };
         let mut noise = Noise(5);

@@ -3,9 +3,9 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::contact::wheel_on_rail::Pose;
-use crate::elements::rolling::Rolling;
 use crate::errors::Warning;
 use crate::errors::warn;
+use crate::joints::Equations;
 use crate::joints::attached::AttachedJoint;
 use crate::kinematics::Kinematics;
 use crate::round_off;
@@ -93,7 +93,9 @@ fn on_planes(system: &System, state: &State, largest: &dyn Fn() -> f64) -> Optio
         if contact.friction.is_infinite() {
             return None;
         }
-        let wrench = Rolling::new(joint.frames, joint.impulses.clone(), contact).wrench(&state.kinematics);
+        let mut mu = Equations::default();
+        mu[..joint.reacting().len()].copy_from_slice(&state.multipliers[joint.reacting()]);
+        let wrench = joint.force_of_plane(&state.kinematics, &mu);
         let friction = wrench.fixed_rows::<3>(0).norm();
         let is_round_off = friction <= round_off::FORCE * largest();
         (friction > contact.friction * normal && !is_round_off).then_some(Warning::WheelSlides {

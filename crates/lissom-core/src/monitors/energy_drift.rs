@@ -70,7 +70,7 @@ fn nonlinearity(
         let mut resting = state.clone();
         resting.kinematics.clone_from(at);
         resting.kinematics.stop();
-        let model = LinearModel::of_positions(system, &resting, settings.solver).ok()?;
+        let model = LinearModel::of(system, &resting, settings.solver).ok()?;
         let is_undamped = model.parts().damping.iter().all(|&value| value == 0.0);
         is_undamped.then(|| model.parts().stiffness.clone())
     };
@@ -85,7 +85,9 @@ fn nonlinearity(
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let Problem { system, settings } = beginning.problem;
-    let is_free = system.drives().is_empty() && system.layout().rate_rows().next().is_none();
+    let is_free = system.drives().is_empty()
+        && system.layout().states.is_empty()
+        && system.layout().of_velocities.is_empty();
     let is_adaptive = settings.scheme.dynamic && settings.control.is_some();
     (is_free && is_adaptive).then(|| Box::<EnergyDrift>::default() as Box<dyn Monitor>)
 }

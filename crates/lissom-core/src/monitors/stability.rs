@@ -30,7 +30,7 @@ pub(crate) fn unstable_directions(Problem { system, settings }: Problem<'_>, sta
     if settings.scheme.dynamic {
         return None;
     }
-    LinearModel::of_positions(system, state, settings.solver).ok()?.unstable_directions()
+    LinearModel::of(system, state, settings.solver).ok()?.unstable_directions()
 }
 
 impl Monitor for Stability {

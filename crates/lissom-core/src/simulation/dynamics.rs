@@ -221,7 +221,9 @@ fn event_detector(system: &System, state: &State, settings: &Settings) -> EventD
 
 /// Rejects equations that contain rates, which statics does not support.
 fn refuse_rates(system: &System) -> Result<(), InitialError> {
-    let of_row = system.layout().rate_rows().next().map(|row| system.layout().subject_of(row));
+    let layout = system.layout();
+    let mut rows = layout.states().map(|(row, ..)| row).chain(layout.velocity_rows());
+    let of_row = rows.next().map(|row| layout.subject_of(row));
     let of_creep = || system.sees_multipliers().then(|| Subject::nameless("the creep of a wheel on a rail"));
     of_row.or_else(of_creep).map_or(Ok(()), |state| Err(InitialError::StateInStatics { state }))
 }

@@ -23,7 +23,7 @@ pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind
     for node in &mut still.kinematics.nodes {
         node.twist.fill(0.0);
     }
-    let Ok(model) = LinearModel::of_positions(system, &still, solver) else { return 0.0 };
+    let Ok(model) = LinearModel::of(system, &still, solver) else { return 0.0 };
     if model.imbalance() > round_off::EQUILIBRIUM
         || !model.multipliers().iter().all(|value| value.is_finite())
     {
@@ -64,7 +64,7 @@ fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<Su
     for coordinate in &mut still.kinematics.coordinates {
         coordinate.rate = 0.0;
     }
-    LinearModel::of_positions(system, &still, solver).ok()?.free_motion()
+    LinearModel::of(system, &still, solver).ok()?.free_motion()
 }
 
 /// Moves the positions of `state` into equilibrium, in one load step or, if that has no solution, by relaxation. Warns if it is unstable,

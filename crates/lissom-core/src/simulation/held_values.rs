@@ -5,8 +5,8 @@
 
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
 use crate::diagnostics::diagnostics;
-use crate::elements::latch::holds;
 use crate::errors::InitialError;
+use crate::joints::latch::{Latch, holds};
 use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
@@ -136,18 +136,20 @@ impl Simulation {
 
     /// Whether a latch that was free engages with the held values of `at`.
     fn engages(&self, at: &Kinematics) -> bool {
-        let is_new = |input: &DiscreteValueId| {
-            holds(at.held[input.index()]) && !holds(self.state.kinematics.held[input.index()])
+        let is_new = |latch: &Latch| {
+            let [now, before] = [at, &self.state.kinematics].map(|at| holds(at.held[latch.engaged.index()]));
+            now && !before
         };
-        self.system.latches.iter().any(is_new)
+        self.system.latches().iter().any(is_new)
     }
 
     /// Whether a latch engages or disengages with the held values of `at`.
     fn switches_latch(&self, at: &Kinematics) -> bool {
-        let is_other = |input: &DiscreteValueId| {
-            holds(at.held[input.index()]) != holds(self.state.kinematics.held[input.index()])
+        let is_other = |latch: &Latch| {
+            let [now, before] = [at, &self.state.kinematics].map(|at| holds(at.held[latch.engaged.index()]));
+            now != before
         };
-        self.system.latches.iter().any(is_other)
+        self.system.latches().iter().any(is_other)
     }
 
     /// Changes to the held values of `at`, which is otherwise the present state: accelerations, multipliers and the rates of states

@@ -225,7 +225,7 @@ impl Configuration {
             },
             multipliers: &self.multipliers,
             violations: &self.violations,
-            augmentation: Augmentation { weight: augmentation, radian: 0.75 },
+            augmentation: Augmentation { weight: augmentation, ..Augmentation::of_lengths(0.75) },
         }
     }
 

@@ -53,8 +53,12 @@ pub(crate) fn check(name: &str, system: &System, mut here: Configuration) {
         let found = [0, 1, 2].map(by);
         for row in 0..layout.size() {
             let at = |values: &[f64]| pattern.position(row, column).map_or(0.0, |p| values[p]);
-            let place = at(&linearization.stiffness) + at(&linearization.constraint);
-            let exact = [place, at(&linearization.damping), at(&linearization.mass)];
+            let gradient = at(&linearization.constraint);
+            // B v, where a violation lapses in one second.
+            let by_rate = layout.velocity_rows().any(|own| own == row);
+            let [place, rate] = if by_rate { [0.0, gradient] } else { [gradient, 0.0] };
+            let place = at(&linearization.stiffness) + place;
+            let exact = [place, at(&linearization.damping) + rate, at(&linearization.mass)];
             for (what, (exact, found)) in ["stiffness", "damping", "mass"]
                 .into_iter()
                 .zip(exact.into_iter().zip(found.iter().map(|f| f[row])))

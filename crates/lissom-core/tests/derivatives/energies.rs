@@ -112,7 +112,9 @@ fn springs_report_the_motion_that_their_forces_work_on() {
         let (system, state, element) = with_spring(kind, true, &mut random);
         let mut here = Configuration::random(&system, &state, 0.3, &mut random);
         here.multipliers.fill(0.0);
-        let motion = |at: &Kinematics| element.and_then(|element| system.spring_motion(element, at));
+        // Latches are constraints.
+        let Some(element) = element else { continue };
+        let motion = |at: &Kinematics| system.spring_motion(element, at);
         let reported = motion(&here.at);
         assert_eq!(reported.is_some(), !WITHOUT_MOTION.contains(&kind.name), "{}: {reported:?}", kind.name);
         let Some([value, rate, force]) = reported else { continue };

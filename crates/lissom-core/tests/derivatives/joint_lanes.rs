@@ -82,14 +82,10 @@ fn many_joints_at_a_time_are_as_one_by_one() {
             let mut random = Random::new((100 * round + seed) as u64 + 60);
             let (system, state) = many(kind, &mut random);
             let mut here = Configuration::random(&system, &state, size, &mut random);
-            // Constraints between velocities are no equations of the joint.
-            let impulses: Vec<CoordinateId> =
-                system.joints().iter().flat_map(|joint| joint.impulses.iter().copied()).collect();
-            for &impulse in &impulses {
-                here.at.coordinates[impulse].rate = 0.0;
-            }
-            let slides: Vec<usize> =
-                impulses.iter().map(|&impulse| system.layout().row_of_coordinate(impulse)).collect();
+            // Constraints of velocities are no equations of the joint.
+            let layout = system.layout();
+            layout.of_velocities.iter().for_each(|&multiplier| here.multipliers[multiplier] = 0.0);
+            let slides: Vec<usize> = layout.velocity_rows().collect();
             let mut point = here.point(0.7);
             let wanted = one_by_one(&system, &point);
             let mut found = vec![f64::NAN; wanted.len()];
@@ -108,7 +104,10 @@ fn many_joints_at_a_time_are_as_one_by_one() {
             assert_eq!(found, known, "{}", kind.name);
             let mut violations = vec![f64::NAN; state.multipliers.len()];
             system.stage_violations(&point, &mut violations);
-            assert_eq!(violations, known[system.layout().multiplier_rows()], "{}", kind.name);
+            for (multiplier, violation) in violations.iter().enumerate() {
+                let row = layout.multiplier_rows().start + multiplier;
+                assert!(slides.contains(&row) || *violation == known[row], "{}", kind.name);
+            }
         }
     }
 }

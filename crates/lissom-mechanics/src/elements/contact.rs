@@ -22,11 +22,11 @@ use lissom_motion::{
 use nalgebra::SMatrix;
 
 use super::force_law::Response;
-use super::frame_pair::{FramePair, RelativeMotion};
 use super::{Element, Energy, Tangents, add_block};
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::{Gap, Pair};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
+use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw, scaled, sum};
 use crate::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
@@ -431,7 +431,9 @@ impl Element for Contact {
             both
         };
         let [by_place, by_rate] = [full(&wrench_by[0], &by.arm), full(&wrench_by[1], &Matrix3x6::zeros())];
-        self.frames.add_derivatives(&touch.motion, &-touch.wrench(), (&-by_place, &-by_rate), out);
+        let size = out.size();
+        self.frames.add_stiffness(&touch.motion, (&-touch.wrench(), &-by_place), (size, &mut out.stiffness));
+        self.frames.add_damping(&touch.motion, &-by_rate, (size, &mut out.damping));
         let Some(friction) = &self.friction else { return };
         let columns = self.frames.columns(&touch.motion);
         let yielding = friction.yielding(&touch.bristles, &touch.sliding);

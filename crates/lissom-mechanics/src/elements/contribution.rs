@@ -8,17 +8,6 @@ use super::initial_model::{Coordinate, InitialModel, Node};
 use crate::evaluation::batch::AnyElement;
 use crate::kinematics::{CoordinateId, DiscreteValueId, Freedoms, NodeId, NodeMotion, Quantity};
 
-/// A coordinate whose rate is the force of a velocity constraint.
-#[derive(Clone, Debug)]
-pub struct Impulse {
-    /// The coordinate.
-    pub coordinate: CoordinateId,
-    /// Nodes whose velocities are constrained: they are eliminated before it.
-    pub nodes: Vec<NodeId>,
-    /// Coordinates whose velocities are constrained.
-    pub coordinates: Vec<CoordinateId>,
-}
-
 /// A mass matrix on coordinates, contained in the equations of one of their elements.
 #[derive(Clone, Debug)]
 pub struct CoordinateMass {
@@ -41,10 +30,8 @@ pub struct Contribution {
     pub inertias: Vec<(NodeId, Matrix6)>,
     /// First-order states with their usual magnitude.
     pub states: Vec<(CoordinateId, f64)>,
-    /// New velocity constraints.
-    pub impulses: Vec<Impulse>,
-    /// Inputs that engage latches.
-    pub latches: Vec<DiscreteValueId>,
+    /// New latches: coordinates, and the inputs that engage them.
+    pub latches: Vec<(CoordinateId, DiscreteValueId)>,
     /// Mass matrices of coordinates within its elements.
     pub coordinate_masses: Vec<CoordinateMass>,
     /// New elements.
@@ -63,7 +50,6 @@ impl Contribution {
             coordinates: Vec::new(),
             inertias: Vec::new(),
             states: Vec::new(),
-            impulses: Vec::new(),
             latches: Vec::new(),
             coordinate_masses: Vec::new(),
             elements: Vec::new(),
@@ -105,18 +91,6 @@ impl Contribution {
         let state = self.add_coordinate(name, value, Quantity::State);
         self.states.push((state, magnitude));
         state
-    }
-
-    /// Adds the impulse of a velocity constraint on these nodes and coordinates.
-    pub fn add_impulse(
-        &mut self,
-        name: String,
-        nodes: Vec<NodeId>,
-        coordinates: Vec<CoordinateId>,
-    ) -> CoordinateId {
-        let coordinate = self.add_coordinate(name, 0.0, Quantity::State);
-        self.impulses.push(Impulse { coordinate, nodes, coordinates });
-        coordinate
     }
 
     /// The same for an entry without outputs of its own.

@@ -4,12 +4,12 @@
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use nalgebra::{SMatrix, SVector};
 
-use super::frame_pair::{FramePair, RelativeMotion};
 use super::{Element, Energy, Tangents};
 use crate::contact::CreepLaw;
 use crate::contact::creep_law::Creep;
 use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::dual::{Dual, Number};
+use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
@@ -101,7 +101,9 @@ impl CreepForce {
         let by_place =
             Matrix6::from_fn(|i, j| wrench[i].by[j]) - by_rate * lie_bracket_matrix(&motion.carried);
         let values = Vector6::from_fn(|i, _| wrench[i].value);
-        self.frames.add_derivatives(&motion, &values, (&by_place, &by_rate), out);
+        let size = out.size();
+        self.frames.add_stiffness(&motion, (&values, &by_place), (size, &mut out.stiffness));
+        self.frames.add_damping(&motion, &by_rate, (size, &mut out.damping));
         let mut column = [0.0; 12];
         self.frames.add_wrench(&motion, &Vector6::from_fn(|i, _| -wrench[i].by[12]), &mut column);
         out.add_by_multiplier(&column);

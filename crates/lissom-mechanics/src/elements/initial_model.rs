@@ -42,7 +42,7 @@ indexed_by! {
 pub struct InitialModel {
     /// Nodes; the ground is the first.
     pub nodes: Vec<Node>,
-    /// Coordinates of joints, states and impulses.
+    /// Coordinates of joints, states.
     pub coordinates: Vec<Coordinate>,
     /// Gravity.
     pub gravity: Gravity,

@@ -12,7 +12,6 @@ pub(crate) mod coordinate_spring;
 pub mod creep_force;
 pub mod force;
 pub(crate) mod force_law;
-mod frame_pair;
 pub mod friction;
 pub mod gyrostat;
 pub mod inertia;
@@ -39,5 +38,5 @@ pub use initial_model::InitialModel;
 pub use kind::{Attached, Attachment, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 
-pub(crate) use crate::evaluation::element::add_block;
 pub use crate::evaluation::element::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
+pub(crate) use crate::kinematics::local_derivatives::add_block;

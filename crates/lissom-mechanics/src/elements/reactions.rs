@@ -1,15 +1,18 @@
-//! Reactions of joints between nodes, with their derivatives: the forces of the constraint, and those of the elements that prevent
-//! a wheel from sliding or oppose its creep.
+//! Reactions of joints between nodes, with their derivatives: the forces of the constraint, and those that prevent a wheel from
+//! sliding or oppose its creep.
 
 use lissom_motion::{Vector3, Vector6, screw};
 use nalgebra::SVector;
 
 use super::creep_force::{CreepForce, contact_derivatives};
-use super::rolling::Rolling;
+use super::rolling::RollingCreep;
 use super::{Element, Tangents};
+use crate::contact::wheel_on_plane::DIRECTIONS;
 use crate::contact::wheel_on_rail::{Pose, RailContactValues};
+use crate::joints::Constraint;
 use crate::joints::attached::{AttachedJoint, ported};
 use crate::joints::derivatives::TIP;
+use crate::joints::no_slip::NoSlip;
 use crate::joints::{Equations, Gradient, MAX_EQUATIONS};
 use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CarriedFrame, Kinematics, split};
@@ -50,16 +53,33 @@ impl AttachedJoint {
         Some(CreepForce::new(self.frames, self.first_multiplier, contact.clone(), law.clone()))
     }
 
+    /// Wrench that prevents a wheel from sliding or opposes its creep, on the tip's joint frame [N, N m].
+    pub fn force_of_plane(&self, at: &Kinematics, mu: &Equations) -> Vector6 {
+        match self.no_slip() {
+            Some(no_slip) => no_slip.wrench(at, &mu[self.equations()..]),
+            None => self.plane_creep().map_or_else(Vector6::zeros, |creep| creep.wrench(at)),
+        }
+    }
+
+    fn no_slip(&self) -> Option<NoSlip> {
+        let contact = self.joint.contact().filter(|_| self.rolls())?;
+        let first = self.first_multiplier + self.equations();
+        Some(NoSlip::new(self.name.clone(), self.frames, contact, first))
+    }
+
+    fn plane_creep(&self) -> Option<RollingCreep> {
+        let contact = self.joint.contact().filter(|_| !self.rolls())?;
+        Some(RollingCreep::new(self.frames, contact))
+    }
+
     /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
-    /// multipliers `mu` at the configuration `at`.
+    /// multipliers `mu` at the configuration `at`: those of its equations, then those that prevent sliding.
     pub fn reaction(&self, at: &Kinematics, mu: &Equations) -> Vector6 {
         let (relative, own) = self.evaluate_absolute(at);
         let mut gradient = Gradient::zeros();
         self.joint.gradient(&relative, &own, &mut gradient);
         let mut wrench = -gradient.relative.tr_mul(&SVector::<f64, MAX_EQUATIONS>::from_column_slice(mu));
-        if let Some(contact) = self.joint.contact() {
-            wrench += Rolling::new(self.frames, self.impulses.clone(), contact).wrench(at);
-        }
+        wrench += self.force_of_plane(at, mu);
         if let Some(creep) = self.creep_force() {
             wrench += creep.wrench(at, -mu[0]);
         }
@@ -69,8 +89,7 @@ impl AttachedJoint {
         screw(&rotation.apply(&force), &rotation.apply(&moment))
     }
 
-    /// Derivatives of [`reaction`](Self::reaction), in inertial axes or in those of a frame; after the coordinates follow the
-    /// impulses.
+    /// Derivatives of [`reaction`](Self::reaction), in inertial axes or in those of a frame.
     ///
     /// ```text
     /// reaction a = -ρ w,   ρ = R_axesᵀ R_tip,   δa = -ρ (δw + θ_tip × w) - θ_axes × a
@@ -84,10 +103,9 @@ impl AttachedJoint {
         axes: Option<CarriedFrame>,
     ) -> LocalDerivatives<6> {
         let [base, tip] = self.frames;
-        let coordinates = [&self.coordinates[..], &self.impulses[..]].concat();
         let nodes: Vec<_> = [base, tip].into_iter().chain(axes).map(|frame| frame.node).collect();
         let first = 6 * nodes.len();
-        let mut out = LocalDerivatives::zero(nodes, coordinates, self.equations());
+        let mut out = LocalDerivatives::zero(nodes, self.coordinates.clone(), self.reacting().len());
         // On the tip, in the axes of its node.
         let configuration = self.evaluate_absolute(at);
         let forces = self.force_derivatives(&configuration, mu);
@@ -96,17 +114,27 @@ impl AttachedJoint {
             out.by_place[slot] += Vector6::from_fn(|i, _| forces[(TIP + i, column)]);
         }
         let gradient = self.gradient_at(&configuration);
-        for (equation, column) in out.by_multiplier.iter_mut().enumerate() {
+        for (equation, column) in out.by_multiplier.iter_mut().take(self.equations()).enumerate() {
             *column += Vector6::from_fn(|i, _| gradient[(equation, TIP + i)]);
         }
-        if let Some(contact) = self.joint.contact() {
-            let rolling = Rolling::new(self.frames, self.impulses.clone(), contact);
-            let size = 12 + self.impulses.len();
-            let mut tangents = Tangents::new(size);
-            rolling.linearize(at, &mut tangents);
-            for (column, slot) in (0..size).zip((0..12).chain(first + self.coordinates.len()..)) {
-                out.by_place[slot] += Vector6::from_fn(|i, _| tangents.stiffness[(6 + i) * size + column]);
-                out.by_rate[slot] += Vector6::from_fn(|i, _| tangents.damping[(6 + i) * size + column]);
+        if let Some(no_slip) = self.no_slip() {
+            let mut stiffness = [0.0; 12 * 12];
+            no_slip.constraint_hessian(at, &mu[self.equations()..], &mut stiffness);
+            for column in 0..12 {
+                out.by_place[column] += Vector6::from_fn(|i, _| stiffness[(6 + i) * 12 + column]);
+            }
+            let mut rows = [0.0; DIRECTIONS * 12];
+            no_slip.gradient(at, &mut rows);
+            for (column, row) in out.by_multiplier[self.equations()..].iter_mut().zip(rows.chunks_exact(12)) {
+                *column += Vector6::from_column_slice(&row[6..]);
+            }
+        }
+        if let Some(creep) = self.plane_creep() {
+            let mut tangents = Tangents::new(12);
+            creep.linearize(at, &mut tangents);
+            for column in 0..12 {
+                out.by_place[column] += Vector6::from_fn(|i, _| tangents.stiffness[(6 + i) * 12 + column]);
+                out.by_rate[column] += Vector6::from_fn(|i, _| tangents.damping[(6 + i) * 12 + column]);
             }
         }
         if let Some(creep) = self.creep_force() {

@@ -1,31 +1,25 @@
-//! Rolling without sliding: a velocity constraint with its forces.
+//! Creep of a rolling wheel: the plane opposes sliding by forces proportional to the sliding velocity.
 //!
 //! Legend: (R, x) tip's joint frame in the base's, V twists in the frames' own axes, A = Ad((R, x)⁻¹), η variation of the tip's
-//! frame relative to the base's, b_k see `contact::wheel_on_plane`, Λ_k impulses: coordinates without mass whose rates are the
-//! forces of the plane that prevent sliding.
+//! frame relative to the base's, b_k see `contact::wheel_on_plane`, c creep.
 //!
 //! ```text
-//! rows of the tip's frame Σ Λ̇_k b_k,   of the base's -Aᵀ Σ Λ̇_k b_k,   of Λ_k:  b_k·(V_tip - A V_base) = 0
+//! f_k = b_k·(V_tip - A V_base)/c,      forces on the tip's frame Σ f_k b_k,   on the base's -Aᵀ Σ f_k b_k
 //! ```
 //!
-//! A velocity constraint is not the derivative of a position constraint, and so it has no multiplier. With impulses for
-//! coordinates the derivative with respect to velocities is symmetric, [0 Bᵀ; B 0], and the equation holds at every stage
-//! of a scheme: the forces do no work there. With a linear creep law of coefficient c there are no impulses, but forces in
-//! place of Λ̇_k, b_k·(V_tip - A V_base)/c.
+//! Without creep the wheel does not slide, see `joints::no_slip`.
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
-use super::frame_pair::{FramePair, RelativeMotion};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
-use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId};
+use crate::joints::frame_pair::{FramePair, RelativeMotion};
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
-/// A wheel on a plane.
+/// A wheel that creeps on a plane.
 #[derive(Clone, Debug)]
-pub struct Rolling {
+pub struct RollingCreep {
     frames: FramePair,
-    /// None with creep.
-    impulses: Vec<CoordinateId>,
     contact: Contact,
 }
 
@@ -44,48 +38,37 @@ impl Rolled {
     }
 }
 
-impl Rolling {
-    /// Between a joint's frames; `impulses` are empty if the contact creeps.
-    pub fn new(frames: [CarriedFrame; 2], impulses: Vec<CoordinateId>, contact: Contact) -> Self {
-        Self { frames: FramePair::new(frames), impulses, contact }
+impl RollingCreep {
+    /// Between a joint's frames.
+    pub fn new(frames: [CarriedFrame; 2], contact: Contact) -> Self {
+        Self { frames: FramePair::new(frames), contact }
     }
 
     fn rolled(&self, at: &Kinematics) -> Rolled {
         let motion = self.frames.motion(at);
         let rows = self.contact.rows(&motion.rotation, 0.0);
-        let forces = match self.impulses[..] {
-            [first, second] => [first, second].map(|impulse| at.coordinates[impulse].rate),
-            _ => rows.map(|row| row.dot(&motion.twist) / self.contact.creep),
-        };
+        let forces = rows.map(|row| row.dot(&motion.twist) / self.contact.creep);
         Rolled { motion, rows, forces }
     }
 
-    /// Wrench of the plane on the tip in the tip's joint frame, which prevents sliding [N, N m].
+    /// Wrench of the plane on the tip in the tip's joint frame, which opposes sliding [N, N m].
     pub fn wrench(&self, at: &Kinematics) -> Vector6 {
         -self.rolled(at).wrench()
     }
 }
 
-impl Element for Rolling {
+impl Element for RollingCreep {
     fn nodes(&self) -> &[NodeId] {
         &self.frames.nodes
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.impulses
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let of = self.rolled(at);
         self.frames.add_wrench(&of.motion, &of.wrench(), out);
-        for (k, row) in of.rows.iter().enumerate().take(self.impulses.len()) {
-            out[12 + k] += row.dot(&of.motion.twist);
-        }
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let of = self.rolled(at);
-        let wrench = of.wrench();
         let (mut by_place, turns) = self.contact.derivatives(
             &of.motion.rotation,
             (0.0, &Vector6::zeros()),
@@ -94,26 +77,15 @@ impl Element for Rolling {
         );
         // δ(b_k·η̇) with δη̇ = -ad(A V_base) η.
         let bracket = lie_bracket_matrix(&of.motion.carried);
-        let slides = [0, 1].map(|k| turns[k] - bracket.tr_mul(&of.rows[k]));
         let mut by_rate = Matrix6::zeros();
-        if self.impulses.is_empty() {
-            for (row, slide) in of.rows.iter().zip(&slides) {
-                by_place += row * slide.transpose() / self.contact.creep;
-                by_rate += row * row.transpose() / self.contact.creep;
-            }
+        for (row, turn) in of.rows.iter().zip(&turns) {
+            let slide = turn - bracket.tr_mul(row);
+            by_place += row * slide.transpose() / self.contact.creep;
+            by_rate += row * row.transpose() / self.contact.creep;
         }
-        self.frames.add_derivatives(&of.motion, &wrench, (&by_place, &by_rate), out);
-        let columns = self.frames.columns(&of.motion);
         let size = out.size();
-        for (j, columns) in columns.iter().enumerate() {
-            for k in 0..self.impulses.len() {
-                let by_place = slides[k].transpose() * columns;
-                let by_rate = of.rows[k].transpose() * columns;
-                add_block(&mut out.stiffness, size, (12 + k, 6 * j), &by_place);
-                add_block(&mut out.damping, size, (12 + k, 6 * j), &by_rate);
-                add_block(&mut out.damping, size, (6 * j, 12 + k), &by_rate.transpose());
-            }
-        }
+        self.frames.add_stiffness(&of.motion, (&of.wrench(), &by_place), (size, &mut out.stiffness));
+        self.frames.add_damping(&of.motion, &by_rate, (size, &mut out.damping));
     }
 
     fn energy(&self, _: &Kinematics) -> Energy {

@@ -14,12 +14,12 @@ use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_mat
 
 use super::contribution::Contribution;
 use super::force_law::Response;
-use super::frame_pair::{FramePair, RelativeMotion};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
+use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId, Switch};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
@@ -281,7 +281,9 @@ impl Element for RollingContact {
                 by_rate += slope * rows[k] * rows[l].transpose();
             }
         }
-        self.frames.add_derivatives(motion, &touch.wrench, (&by_place, &by_rate), out);
+        let size = out.size();
+        self.frames.add_stiffness(motion, (&touch.wrench, &by_place), (size, &mut out.stiffness));
+        self.frames.add_damping(motion, &by_rate, (size, &mut out.damping));
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {

@@ -145,20 +145,6 @@ impl LinearLimit {
     pub const ALL: [Self; 5] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment, Self::LeftOut];
 }
 
-/// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
-pub(crate) fn add_block<const R: usize, const C: usize>(
-    matrix: &mut [f64],
-    size: usize,
-    (row, column): (usize, usize),
-    block: &nalgebra::SMatrix<f64, R, C>,
-) {
-    for i in 0..R {
-        for j in 0..C {
-            matrix[(row + i) * size + column + j] += block[(i, j)];
-        }
-    }
-}
-
 /// An element. SI in, SI out.
 pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Nodes it acts on, in local order.

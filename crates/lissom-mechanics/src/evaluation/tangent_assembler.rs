@@ -22,6 +22,10 @@ pub struct Blend<T> {
     pub augmented: f64,
     /// Of B and Bᵀ, and of derivatives of elements' forces with respect to multipliers.
     pub constraint: f64,
+    /// Of B in the rows of constraints of velocities.
+    pub slip: T,
+    /// Of ∂(B v)/∂ position there.
+    pub turning: f64,
 }
 
 /// A tangent under assembly.
@@ -102,6 +106,18 @@ impl TangentAssembler<'_> {
         }
     }
 
+    /// Adds B and ∂(B v)/∂ position at one position in a row of a constraint of velocities.
+    pub fn add_slip_entry(&mut self, position: usize, [gradient, turning]: [f64; 2]) {
+        match self {
+            Self::Separate(out) => {
+                out.constraint[position] += gradient;
+                out.stiffness[position] += turning;
+            }
+            Self::Real(sum) => sum.add_slip_entry(position, [gradient, turning]),
+            Self::Complex(sum) => sum.add_slip_entry(position, [gradient, turning]),
+        }
+    }
+
     /// Adds stiffness, BᵀWB and constraint at one position.
     pub fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
         match self {
@@ -117,6 +133,11 @@ impl TangentAssembler<'_> {
 }
 
 impl<T: Scalar> Sum<'_, T> {
+    fn add_slip_entry(&mut self, position: usize, [gradient, turning]: [f64; 2]) {
+        let Blend { slip, turning: by_place, .. } = self.blend;
+        self.values[position] += slip * T::from_real(gradient) + T::from_real(by_place * turning);
+    }
+
     fn clear(&mut self) {
         self.values.fill(T::zero());
         self.stiffness.fill(0.0);

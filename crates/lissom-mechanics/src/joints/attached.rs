@@ -6,6 +6,8 @@
 //! wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
 //! ```
 
+use std::ops::Range;
+
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
@@ -15,6 +17,7 @@ use super::{
     AnyJoint, ConstraintHessian, Equations, Gradient, JointCoordinates, MAX_COORDINATES, MAX_EQUATIONS,
     Relative,
 };
+use crate::contact::wheel_on_plane::DIRECTIONS;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
 use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, Quantity, split};
 
@@ -37,8 +40,6 @@ pub struct AttachedJoint {
     pub coordinates: Vec<CoordinateId>,
     /// Position of its first multiplier among all multipliers.
     pub first_multiplier: usize,
-    /// Coordinates whose rates are the forces that prevent sliding, for rolling joints.
-    pub impulses: Vec<CoordinateId>,
     /// Its kind with parameters.
     pub joint: Box<dyn AnyJoint>,
 }
@@ -53,7 +54,6 @@ impl AttachedJoint {
             output_frames: self.output_frames,
             coordinates: self.coordinates.clone(),
             first_multiplier: self.first_multiplier,
-            impulses: self.impulses.clone(),
             joint,
         }
     }
@@ -62,6 +62,17 @@ impl AttachedJoint {
     #[inline]
     pub fn equations(&self) -> usize {
         self.joint.equations().len()
+    }
+
+    /// Multipliers of its reaction among all: those of its equations, then those that prevent a wheel from sliding.
+    pub fn reacting(&self) -> Range<usize> {
+        let slip = if self.rolls() { DIRECTIONS } else { 0 };
+        self.first_multiplier..self.first_multiplier + self.equations() + slip
+    }
+
+    /// Whether it is a wheel that does not slide.
+    pub fn rolls(&self) -> bool {
+        self.joint.contact().is_some_and(|contact| contact.creep == 0.0)
     }
 
     /// The joint's equations.

@@ -1,10 +1,11 @@
-//! One interface to position constraints of all types: joints between two nodes, drives and relations of coordinates,
-//! sliders along beams.
+//! One interface to constraints of all types: joints between two nodes, drives and relations of coordinates, sliders along
+//! beams; rolling and latches, whose equations are between velocities.
 //!
 //! Legend: q positions of the local unknowns, v their rates, c violations, μ multipliers.
 //!
 //! ```text
-//! c(q, t) = 0,      ċ = B v + ∂c/∂t,      c̈ = B v̇ + (result of `acceleration`),      forces Bᵀ μ
+//! positions:    c(q, t) = 0,    ċ = B v + ∂c/∂t,    c̈ = B v̇ + (result of `acceleration`),    forces Bᵀ μ
+//! velocities:   B(q) v = 0,     derivative B v̇ + (result of `acceleration`),                forces Bᵀ μ
 //! ```
 //!
 //! Local unknowns are those of the constraint's ports, in their order: six body variations of a node, or one
@@ -56,6 +57,15 @@ impl Port {
     }
 }
 
+/// What the equations of a constraint relate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Positions. Velocities and accelerations follow.
+    Position,
+    /// Velocities only: there are no positions that violate the constraint.
+    Velocity,
+}
+
 /// A constraint at both stages of a step whose violations are integrated, see `step_stages`.
 #[derive(Debug)]
 pub struct Visit<'a> {
@@ -67,10 +77,20 @@ pub struct Visit<'a> {
     pub changes: &'a mut [f64],
 }
 
-/// Equations between the positions of nodes and coordinates, with their position among all multipliers.
+/// Equations between the positions or the velocities of nodes and coordinates, with their position among all multipliers.
 pub trait Constraint: Send + Sync + std::fmt::Debug {
     /// Name in the model.
     fn name(&self) -> &str;
+
+    /// What its equations relate.
+    fn level(&self) -> Level {
+        Level::Position
+    }
+
+    /// Whether it admits every motion at present: its gradient is zero, and so are its multipliers.
+    fn is_released(&self, _at: &Kinematics) -> bool {
+        false
+    }
 
     /// Position of its first multiplier among all.
     fn first_multiplier(&self) -> usize;
@@ -109,7 +129,7 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
         ports.filter_map(node).collect()
     }
 
-    /// Violations, evaluated from absolute positions [m, rad].
+    /// Violations, evaluated from absolute positions [m, rad]; zero for constraints of velocities.
     fn violation(&self, at: &Kinematics, out: &mut [f64]);
 
     /// Changes of the violations since the start of a step, without cancellation [m, rad]; the time interval `elapsed`
@@ -121,6 +141,9 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
 
     /// Derivatives of Bᵀ μ at constant multipliers, local unknowns by local unknowns; `out` is zero.
     fn constraint_hessian(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]);
+
+    /// ∂(B v)/∂q of a constraint of velocities, by equation and local unknown; `out` is zero. Default: B is constant.
+    fn rate_derivatives(&self, _at: &Kinematics, _out: &mut [f64]) {}
 
     /// ∂c/∂t by equation; `out` is zero. Default: no equation depends explicitly on time.
     fn time_derivative(&self, _at: &Kinematics, _out: &mut [f64]) {}
@@ -187,7 +210,24 @@ pub trait Constraint: Send + Sync + std::fmt::Debug {
     }
 }
 
-/// Rates ċ and accelerations c̈ of a constraint's violations for the motion `at`; `gradient` is zero and receives B.
+/// B v of a constraint; `gradient` is zero and receives B.
+pub fn rates<C: Constraint + ?Sized>(constraint: &C, at: &Kinematics, gradient: &mut [f64], out: &mut [f64]) {
+    out.fill(0.0);
+    constraint.gradient(at, gradient);
+    let (size, arrangement) = (constraint.size(), constraint.arrangement(at));
+    let mut first = 0;
+    for port in (0..constraint.ports()).map(|index| constraint.port(arrangement, index)) {
+        let rates = port.rates(at);
+        for (value, row) in out.iter_mut().zip(gradient.chunks_exact(size)) {
+            let own = row[first..first + port.width()].iter().zip(rates);
+            *value += own.map(|(by, rate)| by * rate).sum::<f64>();
+        }
+        first += port.width();
+    }
+}
+
+/// Rates ċ and accelerations c̈ of a constraint's violations for the motion `at`, of a constraint of velocities B v and its
+/// derivative; `gradient` is zero and receives B.
 pub fn violation_rates<C: Constraint + ?Sized>(
     constraint: &C,
     at: &Kinematics,

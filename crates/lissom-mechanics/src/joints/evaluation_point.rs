@@ -36,19 +36,28 @@ pub struct Point<'a> {
     pub augmentation: Augmentation,
 }
 
-/// Forces from violations in the augmented Lagrangian term.
+/// Forces from violations in the augmented Lagrangian term, and the units in which constraints of velocities are violated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Augmentation {
     /// Force per violation of a length [N/m].
     pub weight: f64,
     /// The length that represents a radian: the weight of an angle's violation contains its square [m].
     pub radian: f64,
+    /// Time in which a violated constraint of velocities displaces its parts by its violation [s].
+    pub lapse: f64,
+    /// Violation per force of a constraint that is released [m/N].
+    pub compliance: f64,
 }
 
 impl Augmentation {
     /// No forces.
     pub fn none() -> Self {
-        Self { weight: 0.0, radian: 1.0 }
+        Self::of_lengths(1.0)
+    }
+
+    /// No forces, if a radian is represented by the length `radian` [m].
+    pub fn of_lengths(radian: f64) -> Self {
+        Self { weight: 0.0, radian, lapse: 1.0, compliance: 1.0 }
     }
 
     /// Weight of an equation's violation relative to that of a length: 1 or [m²].

@@ -65,8 +65,8 @@ pub struct Layout {
     pub quantities: Vec<Quantity>,
     /// Coordinate and magnitude of every first-order state.
     pub states: Vec<(CoordinateId, f64)>,
-    /// Coordinates whose rates are forces of velocity constraints.
-    pub impulses: Vec<CoordinateId>,
+    /// Multipliers of constraints of velocities, in ascending order.
+    pub of_velocities: Vec<usize>,
 }
 
 impl Layout {
@@ -161,14 +161,14 @@ impl Layout {
             .map(|&(coordinate, magnitude)| (self.row_of_coordinate(coordinate), coordinate, magnitude))
     }
 
-    /// Row and coordinate of every impulse, whose rate is the force of a velocity constraint.
-    pub fn impulses(&self) -> impl Iterator<Item = (usize, CoordinateId)> + '_ {
-        self.impulses.iter().map(|&coordinate| (self.row_of_coordinate(coordinate), coordinate))
+    /// Whether a multiplier belongs to a constraint of velocities.
+    pub fn is_of_velocities(&self, multiplier: usize) -> bool {
+        self.of_velocities.binary_search(&multiplier).is_ok()
     }
 
-    /// Rows of states and impulses: their equations are for rates, not for positions.
-    pub fn rate_rows(&self) -> impl Iterator<Item = usize> + '_ {
-        self.states().map(|(row, ..)| row).chain(self.impulses().map(|(row, _)| row))
+    /// Rows of the multipliers of constraints of velocities.
+    pub fn velocity_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        self.of_velocities.iter().map(|multiplier| self.coordinate_count + multiplier)
     }
 
     /// Joint and equation of a multiplier.
@@ -210,7 +210,6 @@ impl Layout {
         for (coordinate, &r) in CoordinateId::enumerate(&self.coordinate_rows) {
             if r as usize == row {
                 let what = match self.quantities[row] {
-                    Quantity::State if self.impulses.contains(&coordinate) => "force of",
                     Quantity::State => "state",
                     Quantity::Length | Quantity::Angle => "coordinate",
                 };

@@ -1,4 +1,4 @@
-//! Derivatives of several numbers with respect to nodes, coordinates and multipliers.
+//! Derivatives of several numbers with respect to nodes, coordinates and multipliers, and local matrices.
 
 use nalgebra::SVector;
 
@@ -31,5 +31,19 @@ impl<const N: usize> LocalDerivatives<N> {
     pub(crate) fn each(&mut self, change: impl Fn(&mut SVector<f64, N>)) {
         let columns = self.by_place.iter_mut().chain(&mut self.by_rate).chain(&mut self.by_multiplier);
         columns.for_each(change);
+    }
+}
+
+/// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
+pub(crate) fn add_block<const R: usize, const C: usize>(
+    matrix: &mut [f64],
+    size: usize,
+    (row, column): (usize, usize),
+    block: &nalgebra::SMatrix<f64, R, C>,
+) {
+    for i in 0..R {
+        for j in 0..C {
+            matrix[(row + i) * size + column + j] += block[(i, j)];
+        }
     }
 }

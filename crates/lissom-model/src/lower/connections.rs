@@ -340,6 +340,7 @@ fn element(
     let with_inputs = with_inputs(kind, parameters, component, names)?;
     let parameters = with_inputs.as_ref().unwrap_or(parameters);
     let fault = |error| parameter_problem(component, &error);
+    let latches = builder.latch_count();
     let element = match &component.signal {
         None => builder.add_of_kind(kind, attached, parameters).map_err(fault)?,
         Some((key, formula)) => {
@@ -349,6 +350,9 @@ fn element(
             builder.add_driven(signal, load)
         }
     };
+    if builder.latch_count() > latches {
+        names.latches.insert(component.name.value.clone(), latches);
+    }
     let is_spring = SPRINGS.iter().any(|spring| spring.name == kind.name);
     names.powers.extend(element.map(|element| (component.name.value.clone(), element)));
     names.actuators.extend(coordinate.filter(|_| !is_spring).map(|coordinate| (coordinate, element)));

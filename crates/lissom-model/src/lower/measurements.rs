@@ -173,6 +173,13 @@ pub(super) fn bind(
             continue;
         };
         let (OutputSource::Spring(name) | OutputSource::Actor(name)) = &output.source else { continue };
+        if names.latches.contains_key(&name.value) {
+            let message = format!(
+                "{reader} cannot be read: `{owner}` is of a latch, whose force follows from the solution of a step"
+            );
+            problems.push(Problem::error(place, message).label("here").help("add `sample` to the signal"));
+            continue;
+        }
         let spring = names.springs.get(&name.value);
         let element = match of {
             Of::Spring => spring.map(|&(element, elongation)| (element, components_of(elongation))),

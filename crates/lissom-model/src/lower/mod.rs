@@ -119,6 +119,8 @@ pub struct Names {
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
     /// Springs that have an elongation, and whether it is a length or an angle.
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
+    /// Index of each latch among the springs.
+    pub latches: BTreeMap<String, usize>,
     /// Springs, loads and joints' friction, whose power can be determined.
     pub powers: BTreeMap<String, ElementId>,
     /// Points of each contact.
@@ -326,6 +328,7 @@ impl Names {
             deformations: &self.deformations,
             coordinates: &self.coordinates,
             springs: &self.springs,
+            latches: &self.latches,
             powers: &self.powers,
             contacts: &self.contacts,
             signals: &self.signals,

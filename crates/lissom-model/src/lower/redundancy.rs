@@ -23,7 +23,8 @@ pub(super) fn not_unique(
     let mut columns = Vec::new();
     let (mut repeated, mut joint) = (Vec::new(), None);
     let is_asked = channels.iter().any(|channel| channel.kind == OutputKind::Reaction);
-    if !is_asked || !has_loops(system) {
+    let may_repeat = has_loops(system) || !system.layout().of_velocities.is_empty();
+    if !is_asked || !may_repeat {
         return (columns, None);
     }
     let values = |multipliers: &[(usize, f64)]| {

@@ -158,6 +158,7 @@ pub(crate) struct Resolver<'a> {
     pub(crate) deformations: &'a BTreeMap<String, Deformed>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
+    pub(crate) latches: &'a BTreeMap<String, usize>,
     /// Springs, loads and joints' friction.
     pub(crate) powers: &'a BTreeMap<String, ElementId>,
     /// Points of each contact.

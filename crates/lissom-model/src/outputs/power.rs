@@ -3,6 +3,7 @@
 use std::slice::from_ref;
 use std::sync::Arc;
 
+use lissom_core::kinematics::CoordinateId;
 use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::Argument;
 use lissom_core::signals::measurement::Measurement;
@@ -30,13 +31,16 @@ pub(super) enum Actor {
     Element(ElementId),
     /// By its position among the drives.
     Drive(usize),
+    /// By its position among the latches.
+    Latch(usize),
 }
 
 /// The spring, load, drive or friction of a joint of this name.
 pub(super) fn actor(name: &Located<String>, system: &System, names: &Resolver<'_>) -> Result<Actor, Problem> {
     let drive = system.drives().iter().position(|drive| drive.name == name.value);
     let own = names.powers.get(&name.value).map(|&element| Actor::Element(element));
-    own.or(drive.map(Actor::Drive)).ok_or_else(|| {
+    let latch = names.latches.get(&name.value).map(|&index| Actor::Latch(index));
+    own.or(drive.map(Actor::Drive)).or(latch).ok_or_else(|| {
         Problem::error(name.span, format!("`{}` has no power to record", name.value)).help(
             "name a spring, a load, a drive of a joint's coordinate, or a joint with friction; other joints neither give nor take",
         )
@@ -45,7 +49,8 @@ pub(super) fn actor(name: &Located<String>, system: &System, names: &Resolver<'_
 
 fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found {
     Ok(match actor(name_of(output)?, system, subjects.names)? {
-        Actor::Drive(index) => Arc::new(OfDrive(index)),
+        Actor::Drive(index) => Arc::new(OfConstraint::drive(index)),
+        Actor::Latch(index) => Arc::new(OfConstraint::latch(index)),
         Actor::Element(element) => match system.element_quantity(element, Of::Power) {
             Some(measured) => Arc::new(Measured(measured)),
             None => Arc::new(OfElement(element)),
@@ -81,24 +86,44 @@ impl OutputQuantity for OfElement {
     }
 }
 
-/// Power of a drive: minus its multiplier times the rate.
-struct OfDrive(usize);
+/// Power of a drive or a latch: minus its multiplier times the rate of its coordinate.
+struct OfConstraint {
+    /// Coordinate and multiplier.
+    of: fn(&System, usize) -> (CoordinateId, usize),
+    index: usize,
+}
 
-impl OutputQuantity for OfDrive {
+impl OfConstraint {
+    fn drive(index: usize) -> Self {
+        let of = |system: &System, index: usize| {
+            let drive = &system.drives()[index];
+            (drive.prescribed.coordinate, drive.multiplier)
+        };
+        Self { of, index }
+    }
+
+    fn latch(index: usize) -> Self {
+        let of = |system: &System, index: usize| {
+            let latch = &system.latches()[index];
+            (latch.coordinate, latch.multiplier)
+        };
+        Self { of, index }
+    }
+}
+
+impl OutputQuantity for OfConstraint {
     fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
-        let drive = &at.system.drives()[self.0];
-        let rate = at.motion().coordinates[drive.prescribed.coordinate].rate;
-        out.push(-at.state.multipliers[drive.multiplier] * rate);
+        let (coordinate, multiplier) = (self.of)(at.system, self.index);
+        out.push(-at.state.multipliers[multiplier] * at.motion().coordinates[coordinate].rate);
     }
 
     fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
-        let drive = &at.system.drives()[self.0];
-        let coordinate = drive.prescribed.coordinate;
+        let (coordinate, multiplier) = (self.of)(at.system, self.index);
         let row = at.system.layout().row_of_coordinate(coordinate);
         let mut own = OutputDerivatives::default();
         let rate = at.motion().coordinates[coordinate].rate;
-        add(&mut own.by_multiplier, multiplier_row(at.system, drive.multiplier), -rate);
-        add(&mut own.by_rate, row, -at.state.multipliers[drive.multiplier]);
+        add(&mut own.by_multiplier, multiplier_row(at.system, multiplier), -rate);
+        add(&mut own.by_rate, row, -at.state.multipliers[multiplier]);
         Some(vec![own])
     }
 }

@@ -58,11 +58,10 @@ fn effort(quantity: Quantity) -> OutputComponent {
     }
 }
 
-/// A joint's own of the state's multipliers.
+/// Those of the state's multipliers on which a joint's reaction depends.
 pub(super) fn multipliers(joint: &AttachedJoint, state: &State) -> Equations {
     let mut mu = Equations::default();
-    let first = joint.first_multiplier;
-    mu[..joint.equations()].copy_from_slice(&state.multipliers[first..first + joint.equations()]);
+    mu[..joint.reacting().len()].copy_from_slice(&state.multipliers[joint.reacting()]);
     mu
 }
 

@@ -4,12 +4,14 @@ use std::slice::from_ref;
 use std::sync::Arc;
 
 use lissom_core::kinematics::{CoordinateId, Quantity};
+use lissom_core::linearized::OutputDerivatives;
 use lissom_core::signals::measurement::Measurement;
 use lissom_core::system::System;
 use lissom_core::system::element_quantity::Of;
 
+use super::derivatives::{add, multiplier_row};
 use super::frames::name_of;
-use super::{Build, Found, NamesAndUnits, OutputQuantity, Subjects};
+use super::{Build, Evaluation, Found, NamesAndUnits, OutputQuantity, Subjects};
 use crate::document::{Declaration, Feature, Output, OutputComponent, Subject};
 use crate::report::Problem;
 
@@ -31,6 +33,9 @@ struct Spring {
 
 fn quantity(output: &Output, system: &System, subjects: &Subjects<'_>) -> Found {
     let name = name_of(output)?;
+    if let Some(&index) = subjects.names.latches.get(&name.value) {
+        return Ok(Arc::new(OfLatch { index, elongation: system.latches()[index].quantity }));
+    }
     let known = subjects.names.springs.get(&name.value);
     let known = known.filter(|(element, _)| system.spring_motion(*element, subjects.start).is_some());
     let spring = known.and_then(|&(element, elongation)| {
@@ -51,10 +56,42 @@ pub(crate) fn components_of(elongation: Quantity) -> &'static [OutputComponent] 
     }
 }
 
+/// Names and units for an elongation of this quantity.
+fn named(elongation: Quantity) -> NamesAndUnits {
+    components_of(elongation).iter().map(|&(word, unit)| (word.to_owned(), unit)).collect()
+}
+
+/// The coordinate of a latch with its rate, and the force of the latch: its multiplier.
+struct OfLatch {
+    index: usize,
+    elongation: Quantity,
+}
+
+impl OutputQuantity for OfLatch {
+    fn components(&self, _: &dyn Fn(CoordinateId) -> Quantity) -> Option<NamesAndUnits> {
+        Some(named(self.elongation))
+    }
+
+    fn append_values(&self, at: &Evaluation<'_>, out: &mut Vec<f64>) {
+        let latch = &at.system.latches()[self.index];
+        let motion = at.motion().coordinates[latch.coordinate];
+        out.extend([motion.value, motion.rate, at.state.multipliers[latch.multiplier]]);
+    }
+
+    fn derivatives(&self, at: &Evaluation<'_>, _: f64) -> Option<Vec<OutputDerivatives>> {
+        let latch = &at.system.latches()[self.index];
+        let row = at.system.layout().row_of_coordinate(latch.coordinate);
+        let mut all: [OutputDerivatives; 3] = Default::default();
+        add(&mut all[0].by_place, row, 1.0);
+        add(&mut all[1].by_rate, row, 1.0);
+        add(&mut all[2].by_multiplier, multiplier_row(at.system, latch.multiplier), 1.0);
+        Some(all.into())
+    }
+}
+
 impl OutputQuantity for Spring {
     fn components(&self, _: &dyn Fn(CoordinateId) -> Quantity) -> Option<NamesAndUnits> {
-        let words = components_of(self.elongation).iter();
-        Some(words.map(|&(word, unit)| (word.to_owned(), unit)).collect())
+        Some(named(self.elongation))
     }
 
     fn measurements(&self) -> &[Arc<dyn Measurement>] {

@@ -40,6 +40,8 @@ impl Accumulated for Work {
         let work = match self.of {
             Actor::Element(element) => step.work_of_element(element),
             Actor::Drive(drive) => step.work_of_drive(drive),
+            // It moves nothing while it is engaged.
+            Actor::Latch(_) => 0.0,
         };
         before + work
     }

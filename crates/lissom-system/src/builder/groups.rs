@@ -4,7 +4,6 @@ use lissom_solver::Group;
 
 use super::Builder;
 use crate::constraints::group_of;
-use lissom_mechanics::elements::contribution::Impulse;
 use lissom_mechanics::evaluation::scatter_map::free_rows;
 use lissom_mechanics::kinematics::Layout;
 
@@ -27,11 +26,6 @@ impl Builder {
                 .iter()
                 .map(|&row| Group { unknowns: vec![row as usize], hosts: Vec::new() }),
         );
-        for Impulse { coordinate, nodes, coordinates } in &self.impulses {
-            let nodes = nodes.iter().filter_map(|&node| of_node[node.index()]);
-            groups[first_coordinate + coordinate.index()].hosts =
-                nodes.chain(coordinates.iter().map(|own| first_coordinate + own.index())).collect();
-        }
         let hosts = (&of_node[..], first_coordinate);
         groups.extend(self.constraints.iter().map(|constraint| group_of(constraint, layout, hosts)));
         groups

@@ -1,29 +1,39 @@
-//! Rolling joints: impulses, and the element with the velocity constraint.
+//! Rolling joints: the constraint that prevents sliding, or the element that opposes it.
 
 use super::Builder;
 use lissom_mechanics::contact::wheel_on_plane::Contact;
 use lissom_mechanics::elements::contribution::Contribution;
-use lissom_mechanics::elements::rolling::Rolling;
-use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId};
+use lissom_mechanics::elements::rolling::RollingCreep;
+use lissom_mechanics::joints::latch::Latch;
+use lissom_mechanics::joints::no_slip::{self, NoSlip};
+use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Quantity};
 
 impl Builder {
-    /// Adds the element that prevents sliding of a contact, and impulses if it does not creep.
-    pub(super) fn add_rolling(
-        &mut self,
-        joint: &str,
-        frames: [CarriedFrame; 2],
-        contact: Contact,
-    ) -> Vec<CoordinateId> {
-        let directions: &[&str] = if contact.creep > 0.0 { &[] } else { &["first", "second"] };
-        let mut contribution = Contribution::to(&self.model);
-        let impulses: Vec<CoordinateId> = directions
-            .iter()
-            .map(|direction| {
-                let name = format!("{joint}, rolling along the {direction} axis");
-                contribution.add_impulse(name, frames.map(|frame| frame.node).to_vec(), Vec::new())
-            })
-            .collect();
-        self.add(contribution.with(Rolling::new(frames, impulses.clone(), contact)));
-        impulses
+    /// Adds what prevents or opposes sliding of a contact, after the joint's own multipliers.
+    pub(super) fn add_rolling(&mut self, joint: &str, frames: [CarriedFrame; 2], contact: Contact) {
+        if contact.creep > 0.0 {
+            self.add(Contribution::of(&self.model, RollingCreep::new(frames, contact)));
+            return;
+        }
+        let first = self.multipliers.len();
+        self.constraints.wheels.push(NoSlip::new(joint.to_owned(), frames, contact, first));
+        for equation in no_slip::EQUATIONS {
+            self.add_velocity_multiplier(joint, equation, Quantity::Length);
+        }
+    }
+
+    /// Adds a latch on a coordinate.
+    pub(super) fn add_latch(&mut self, coordinate: CoordinateId, engaged: DiscreteValueId) {
+        let (name, quantity) =
+            (self.coordinate_name(coordinate).to_owned(), self.coordinate_quantity(coordinate));
+        let multiplier = self.multipliers.len();
+        self.add_velocity_multiplier(&name, "latched", quantity);
+        self.constraints.latches.push(Latch { name, coordinate, quantity, engaged, multiplier });
+    }
+
+    fn add_velocity_multiplier(&mut self, name: &str, equation: &'static str, quantity: Quantity) {
+        self.of_velocities.push(self.multipliers.len());
+        self.multipliers.push((name.to_owned(), equation));
+        self.multiplier_quantities.push(quantity);
     }
 }

@@ -66,9 +66,9 @@ impl RecoveryMatrix {
     ) -> Self {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let count = layout.coordinate_count();
-        let augmentation = Augmentation { weight: 0.0, radian: representative.length };
+        let augmentation = Augmentation::of_lengths(representative.length);
         let mut is_of_rates = vec![false; layout.size()];
-        layout.rate_rows().for_each(|row| is_of_rates[row] = true);
+        layout.states().for_each(|(row, ..)| is_of_rates[row] = true);
         let is_motion = |row: usize| row < count && !is_of_rates[row];
         let mut made = Self {
             saddle: Self::saddle(system, kind),
@@ -79,7 +79,12 @@ impl RecoveryMatrix {
             scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             augmentation,
-            weights: layout.quantities()[count..].iter().map(|own| augmentation.relative(*own)).collect(),
+            // Constraints of velocities are not augmented.
+            weights: layout.quantities()[count..]
+                .iter()
+                .enumerate()
+                .map(|(k, own)| if layout.is_of_velocities(k) { 0.0 } else { augmentation.relative(*own) })
+                .collect(),
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             zero: vec![0.0; layout.multiplier_count],
@@ -137,8 +142,15 @@ impl RecoveryMatrix {
         let mut values = std::mem::take(&mut self.saddle.matrices.values);
         let mut scratch = self.scratch.take().unwrap_or_default();
         values.fill(0.0);
-        let blend =
-            Blend { place: 0.0, rate: 0.0, acceleration: 1.0, augmented: self.scale, constraint: self.scale };
+        let blend = Blend {
+            place: 0.0,
+            rate: 0.0,
+            acceleration: 1.0,
+            augmented: self.scale,
+            constraint: self.scale,
+            slip: self.scale,
+            turning: 0.0,
+        };
         let mut out = TangentAssembler::Real(Sum { blend, values: &mut values, stiffness: &mut [] });
         system.linearize_elements(false, at, &mut scratch, &mut out);
         let point = self.point(at, &self.zero);
@@ -150,16 +162,6 @@ impl RecoveryMatrix {
                 let derivatives = stiff.damping[own.clone()].iter().zip(&stiff.stiffness[own.clone()]);
                 for (value, (damping, stiffness)) in values[own].iter_mut().zip(derivatives) {
                     *value += time * (damping + time * stiffness);
-                }
-            }
-            // Velocity constraints take the positions of position constraints: [M Bᵀ; B 0].
-            for (row, _) in layout.impulses() {
-                for &other in pattern.column(row) {
-                    for (row, column) in [(row, other), (other, row)] {
-                        if let Some(position) = pattern.position(row, column) {
-                            values[position] = stiff.damping[position];
-                        }
-                    }
                 }
             }
         }
@@ -224,33 +226,6 @@ impl RecoveryMatrix {
         }
     }
 
-    /// Subtracts B x in the rows of velocity constraints.
-    pub(super) fn subtract_slides(&self, system: &System, x: &[f64], out: &mut [f64]) {
-        self.each_slide(system, |stiff, position| stiff.damping[position], x, out);
-    }
-
-    /// Subtracts Ḃ v in the rows of velocity constraints: the derivative of B v by positions, along the motion.
-    pub(super) fn subtract_turning_slides(&self, system: &System, speeds: &[f64], out: &mut [f64]) {
-        self.each_slide(system, |stiff, position| stiff.stiffness[position], speeds, out);
-    }
-
-    fn each_slide(
-        &self,
-        system: &System,
-        entry: impl Fn(&Linearization, usize) -> f64,
-        x: &[f64],
-        out: &mut [f64],
-    ) {
-        let (Some(stiff), pattern) = (&self.stiff, &system.structure().pattern) else { return };
-        for (row, _) in system.layout().impulses() {
-            for &column in pattern.column(row) {
-                if let Some(position) = pattern.position(row, column) {
-                    out[row] -= entry(stiff, position) * x[column];
-                }
-            }
-        }
-    }
-
     /// Rates and accelerations of the constraints' violations at the motion `at`, at the positions of the matrix.
     pub(super) fn violation_rates(&self, system: &System, at: &Kinematics, out: [&mut [f64]; 2]) {
         system.violation_rates(at, &self.starts, out);
@@ -265,7 +240,7 @@ impl RecoveryMatrix {
 
     /// Sets the rows of equations of rates to zero.
     pub(super) fn clear_rates(&self, layout: &Layout, out: &mut [f64]) {
-        if layout.state_count() > 0 || !layout.impulses.is_empty() {
+        if layout.state_count() > 0 {
             out.iter_mut().zip(&self.is_of_rates).filter(|(_, is)| **is).for_each(|(value, _)| *value = 0.0);
         }
     }

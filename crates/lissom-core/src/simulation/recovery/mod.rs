@@ -165,10 +165,6 @@ impl Recovery {
             // Springs and dampers are recorded with velocities that are not filtered.
             forces.twist = rates.twist;
         }
-        for (_, impulse) in system.layout().impulses() {
-            let force = forces.kinematics.coordinates[impulse].rate;
-            rates.kinematics.coordinates[impulse].rate = force;
-        }
         let coordinates = rates.kinematics.coordinates.iter_mut().zip(&mut forces.kinematics.coordinates);
         for (rates, forces) in coordinates {
             rates.acceleration = forces.acceleration;
@@ -187,13 +183,12 @@ impl Recovery {
         Some(())
     }
 
-    /// Residuals of the constraint rates, -(G v + ∂g/∂t), by row: of position and of velocity constraints.
+    /// Residuals of the constraint rates, -(G v + ∂g/∂t), by row.
     fn find_lacking_velocities(&mut self, system: &System) {
         let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
         let layout = system.layout();
         work.lacking.fill(0.0);
         gather_rates(layout, &rates.kinematics, &mut work.speeds);
-        matrix.subtract_slides(system, &work.speeds, &mut work.lacking);
         let [found, accelerations] = &mut work.violation_rates;
         matrix.violation_rates(system, &rates.kinematics, [found, accelerations]);
         for (lacking, rate) in work.lacking[layout.coordinate_count()..].iter_mut().zip(found) {
@@ -270,9 +265,6 @@ impl Recovery {
                 }
             }
             matrix.solve(system, right);
-            for (row, impulse) in layout.impulses() {
-                forces.kinematics.coordinates[impulse].rate += std::mem::take(&mut right[row]);
-            }
             layout.states().for_each(|(row, ..)| right[row] = 0.0);
             let (motions, multipliers) = right.split_at(count);
             change.iter_mut().zip(motions).for_each(|(change, further)| *change += further);
@@ -314,8 +306,6 @@ impl Recovery {
         work.accelerations[layout.coordinate_count()..].fill(0.0);
         gather_rates(layout, &forces.kinematics, &mut work.speeds);
         work.lacking.fill(0.0);
-        matrix.subtract_slides(system, &work.accelerations, &mut work.lacking);
-        matrix.subtract_turning_slides(system, &work.speeds, &mut work.lacking);
         let [rates, found] = &mut work.violation_rates;
         matrix.violation_rates(system, &forces.kinematics, [rates, found]);
         for (lacking, acceleration) in work.lacking[layout.coordinate_count()..].iter_mut().zip(found) {
@@ -403,13 +393,10 @@ fn hold_sides(system: &System, switches: &mut Vec<Switch>, at: &mut Kinematics) 
     }
 }
 
-/// Adds changes to the velocities, except forces of velocity constraints.
+/// Adds changes to the velocities.
 fn add_rates(layout: &Layout, changes: &[f64], at: &mut Kinematics) {
     for (coordinate, &row) in at.coordinates.iter_mut().zip(&layout.coordinate_rows) {
         coordinate.rate += changes[row as usize];
-    }
-    for (row, impulse) in layout.impulses() {
-        at.coordinates[impulse].rate -= changes[row];
     }
     for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
         for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
@@ -418,10 +405,9 @@ fn add_rates(layout: &Layout, changes: &[f64], at: &mut Kinematics) {
     }
 }
 
-/// Keeps the accelerations of first-order states and impulses.
+/// Keeps the accelerations of first-order states.
 fn keep_rates(layout: &Layout, at: &Kinematics, accelerations: &mut [f64]) {
-    let coordinates = layout.states().map(|(row, coordinate, _)| (row, coordinate));
-    for (row, coordinate) in coordinates.chain(layout.impulses()) {
+    for (row, coordinate, _) in layout.states() {
         accelerations[row] = at.coordinates[coordinate].acceleration;
     }
 }

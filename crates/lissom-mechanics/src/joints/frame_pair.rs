@@ -9,35 +9,35 @@
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, rotation_part, skew, translation_part};
 
-use super::{Tangents, add_block};
+use crate::kinematics::local_derivatives::add_block;
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
 /// Base's and tip's frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FramePair {
-    pub(super) nodes: [NodeId; 2],
+pub(crate) struct FramePair {
+    pub(crate) nodes: [NodeId; 2],
     frames: [CarriedFrame; 2],
 }
 
 /// Relative motion of the two frames.
-pub(super) struct RelativeMotion {
+pub(crate) struct RelativeMotion {
     /// A.
     to_tip: Matrix6,
-    pub(super) rotation: Matrix3,
+    pub(crate) rotation: Matrix3,
     /// x [m].
-    pub(super) position: Vector3,
+    pub(crate) position: Vector3,
     /// V_tip - A V_base.
-    pub(super) twist: Vector6,
+    pub(crate) twist: Vector6,
     /// A V_base.
-    pub(super) carried: Vector6,
+    pub(crate) carried: Vector6,
 }
 
 impl FramePair {
-    pub(super) fn new(frames: [CarriedFrame; 2]) -> Self {
+    pub(crate) fn new(frames: [CarriedFrame; 2]) -> Self {
         Self { nodes: frames.map(|frame| frame.node), frames }
     }
 
-    pub(super) fn motion(&self, at: &Kinematics) -> RelativeMotion {
+    pub(crate) fn motion(&self, at: &Kinematics) -> RelativeMotion {
         let [base, tip] = self.frames.map(|frame| at.nodes[frame.node].frame * frame.offset);
         let twists = self.frames.map(|frame| frame.offset.adjoint_inverse_times(&at.nodes[frame.node].twist));
         let relative = tip.relative_to(&base);
@@ -53,7 +53,7 @@ impl FramePair {
     }
 
     /// From the axes of the base's frame to global ones.
-    pub(super) fn base_rotation(&self, at: &Kinematics) -> Matrix3 {
+    pub(crate) fn base_rotation(&self, at: &Kinematics) -> Matrix3 {
         (at.nodes[self.nodes[0]].frame.rotation * self.frames[0].offset.rotation).matrix()
     }
 
@@ -63,13 +63,13 @@ impl FramePair {
     }
 
     /// Derivatives of η with respect to variations of base and tip.
-    pub(super) fn columns(&self, motion: &RelativeMotion) -> [Matrix6; 2] {
+    pub(crate) fn columns(&self, motion: &RelativeMotion) -> [Matrix6; 2] {
         let carry = self.carry();
         [-motion.to_tip * carry[0], carry[1]]
     }
 
     /// Adds the forces on both nodes from a wrench on the tip's frame and the opposite one on the base's.
-    pub(super) fn add_wrench(&self, motion: &RelativeMotion, wrench: &Vector6, out: &mut [f64]) {
+    pub(crate) fn add_wrench(&self, motion: &RelativeMotion, wrench: &Vector6, out: &mut [f64]) {
         let carry = self.carry();
         let on = [carry[0].tr_mul(&-motion.to_tip.tr_mul(wrench)), carry[1].tr_mul(wrench)];
         for (out, value) in out.iter_mut().zip(on.iter().flat_map(|wrench| wrench.iter())) {
@@ -77,13 +77,13 @@ impl FramePair {
         }
     }
 
-    /// Adds their derivatives, from those of the wrench with respect to η, and to η̇ at fixed twists of the nodes.
-    pub(super) fn add_derivatives(
+    /// Adds their derivatives with respect to variations of the nodes, from those of the wrench with respect to η, to a local
+    /// matrix with rows of `size`.
+    pub(crate) fn add_stiffness(
         &self,
         motion: &RelativeMotion,
-        wrench: &Vector6,
-        (by_place, by_rate): (&Matrix6, &Matrix6),
-        out: &mut Tangents,
+        (wrench, by_place): (&Vector6, &Matrix6),
+        (size, out): (usize, &mut [f64]),
     ) {
         // ad(η)ᵀ w as a matrix on η.
         let mut coadjoint = Matrix6::zeros();
@@ -92,16 +92,28 @@ impl FramePair {
         coadjoint.fixed_view_mut::<3, 3>(3, 0).copy_from(&force);
         coadjoint.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
         let (carry, columns) = (self.carry(), self.columns(motion));
-        let place_rows = [
+        let rows_of = [
             carry[0].transpose() * motion.to_tip.transpose() * (coadjoint - by_place),
             carry[1].transpose() * by_place,
         ];
-        let size = out.size();
-        for j in 0..2 {
-            for (i, rows) in place_rows.iter().enumerate() {
-                let by_rate = columns[i].transpose() * by_rate * columns[j];
-                add_block(&mut out.stiffness, size, (6 * i, 6 * j), &(rows * columns[j]));
-                add_block(&mut out.damping, size, (6 * i, 6 * j), &by_rate);
+        for (j, column) in columns.iter().enumerate() {
+            for (i, rows) in rows_of.iter().enumerate() {
+                add_block(out, size, (6 * i, 6 * j), &(rows * column));
+            }
+        }
+    }
+
+    /// Adds their derivatives with respect to twists of the nodes, from those of the wrench with respect to η̇, likewise.
+    pub(crate) fn add_damping(
+        &self,
+        motion: &RelativeMotion,
+        by_rate: &Matrix6,
+        (size, out): (usize, &mut [f64]),
+    ) {
+        let columns = self.columns(motion);
+        for (i, row) in columns.iter().enumerate() {
+            for (j, column) in columns.iter().enumerate() {
+                add_block(out, size, (6 * i, 6 * j), &(row.transpose() * by_rate * column));
             }
         }
     }
