@@ -2,22 +2,23 @@
 
 use lissom_core::consistent::mobility;
 use lissom_core::joints::constraint::{Constraint, Port};
-use lissom_core::joints::{Build, JointKind, KINDS};
-use lissom_core::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED};
+use lissom_core::joints::{JointKind, KINDS};
+use lissom_core::kinematics::{GROUND, Kinematics, LOCKED};
+use lissom_core::ports::Ports;
 use lissom_core::registry::{Parameters, Value};
-use lissom_core::system::{Builder, Placement, State, System};
+use lissom_core::system::{Builder, JointAttachment, Placement, State, System};
 use lissom_motion::{Motion, Vector6};
 
 use super::configuration::{Configuration, Random, difference, sample_parameters};
-use super::{Line, add, two_bodies};
+use super::ports::joint_attachment;
+use super::two_bodies;
 
 /// A scene with a constraint of this kind, and what it acts on.
 struct Scene {
     builder: Builder,
-    placement: Placement,
     parameters: Parameters,
     random: Random,
-    line: Option<Line>,
+    attachment: JointAttachment,
 }
 
 impl Scene {
@@ -37,8 +38,9 @@ impl Scene {
         {
             parameters.insert("wheel_axis", Value::Vector(normal.cross(&random.vector())));
         }
-        let line = add(&mut builder, kind, &placement, &parameters, &mut random);
-        Self { builder, placement, parameters, random, line }
+        let attachment = joint_attachment(&mut builder, kind, &placement, &mut random);
+        builder.add_joint_of_kind("constraint", kind, attachment.clone(), &parameters).expect("valid");
+        Self { builder, parameters, random, attachment }
     }
 
     fn build(self) -> (System, State, Random) {
@@ -185,7 +187,7 @@ fn every_kind_is_numbered_and_named() {
 #[test]
 fn every_kind_that_is_there_twice_repeats_itself() {
     for (seed, kind) in KINDS.iter().enumerate() {
-        if matches!(kind.build, Build::Free(_)) {
+        if kind.ports == Ports::NONE {
             continue;
         }
         let (system, state, _) = Scene::of(kind, seed as u64 + 300).build();
@@ -194,7 +196,8 @@ fn every_kind_that_is_there_twice_repeats_itself() {
         assert_eq!(alone.redundant, [], "{}: alone", kind.name);
 
         let mut scene = Scene::of(kind, seed as u64 + 300);
-        repeat(kind, &mut scene);
+        let Scene { builder, parameters, attachment, .. } = &mut scene;
+        builder.add_joint_of_kind("again", kind, attachment.clone(), parameters).expect("valid");
         let (system, state, _) = scene.build();
         let twice = mobility::mobility(&system, &state);
         assert!(mobility::has_loops(&system), "{}: twice", kind.name);
@@ -203,26 +206,5 @@ fn every_kind_that_is_there_twice_repeats_itself() {
         let taken = twice.coordinates - alone.coordinates;
         assert_eq!(twice.redundant.len(), added - taken, "{}: twice", kind.name);
         assert!(!twice.redundant.is_empty(), "{}: twice", kind.name);
-    }
-}
-
-/// Adds the constraint of a scene once more.
-fn repeat(kind: &JointKind, scene: &mut Scene) {
-    let Scene { builder, placement, parameters, line, .. } = scene;
-    match kind.build {
-        Build::Relative(..) => {
-            builder.add_joint("again", kind, placement, parameters).expect("valid");
-        }
-        Build::Motion => {
-            builder.add_motion("again", placement, parameters).expect("valid");
-        }
-        Build::Coordinate(..) => {
-            builder.add_drive("again", kind, CoordinateId::new(0), parameters).expect("valid");
-        }
-        Build::Coupling(..) => {
-            builder.add_coupling("again", kind, &[0, 1].map(CoordinateId::new), parameters).expect("valid");
-        }
-        Build::AlongBeams => line.as_ref().expect("there").add_slider(builder, "again", placement.nodes[1]),
-        Build::Free(_) => {}
     }
 }

@@ -10,9 +10,10 @@
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId, Quantity};
+use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId};
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -32,7 +33,7 @@ pub const AXIAL: ElementKind = ElementKind {
     summary: "Locks a joint's relative displacement at its current value while an input is set: latches and releases.",
     sample: "engaged = \"my_input\"",
     parameters: PARAMETERS,
-    attachment: Attachment::Coordinate(Quantity::Length),
+    ports: Ports::DISPLACEMENT,
     build,
 };
 
@@ -40,7 +41,7 @@ pub const AXIAL: ElementKind = ElementKind {
 pub const TORSIONAL: ElementKind = ElementKind {
     name: "torsional_latch",
     summary: "Locks a joint's relative rotation at its current value while an input is set: latches and releases.",
-    attachment: Attachment::Coordinate(Quantity::Angle),
+    ports: Ports::ROTATION,
     ..AXIAL
 };
 

@@ -36,7 +36,7 @@ pub mod superelement;
 
 pub use contribution::Contribution;
 pub use initial_model::InitialModel;
-pub use kind::{Attached, Attachment, ElementKind};
+pub use kind::{Attached, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 
 pub(crate) use crate::evaluation::element::add_block;
