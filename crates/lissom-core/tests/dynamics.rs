@@ -238,7 +238,7 @@ fn cantilever_rolls_up_to_a_circle() {
     let parameters = Parameters::new()
         .with("vector", Value::Vector(moment))
         .with("scale", Value::Function(std::sync::Arc::new(Ramp)));
-    builder.add_of_kind(load, Attached::OneNode(end, Vector3::zeros()), &parameters).expect("valid");
+    builder.add_of_kind(load, Attached::to_nodes([(end, Vector3::zeros())]), &parameters).expect("valid");
     let steps = 10;
     let mut simulation = simulation(builder.build(0.0).expect("valid"), statics::statics(), 0.1);
     run(&mut simulation, steps);

@@ -12,6 +12,7 @@ pub mod joints;
 pub mod kinematics;
 pub mod law;
 pub mod number;
+pub mod ports;
 pub mod registry;
 pub mod relation;
 pub mod round_off;

@@ -3,6 +3,7 @@
 
 use std::borrow::Cow;
 
+use lissom_core::ports::{PortDeclaration, PortType};
 use lissom_core::registry::{ModelAxis, Parameter, ParameterType};
 
 /// Shape of the value of a key.
@@ -413,4 +414,22 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
     };
     let Parameter { name, required, unit, summary, .. } = *parameter;
     Key { name, holds, required, unit, summary }
+}
+
+/// The key of a port; none if it has no key of its own.
+pub(crate) fn of_port(port: &PortDeclaration) -> Option<Key> {
+    let holds = match port.holds {
+        PortType::Node { .. } => Shape::Node,
+        PortType::Location { .. } => Shape::Place,
+        PortType::Direction(None) => Shape::Direction,
+        PortType::Direction(Some(axis)) => Shape::DirectionOr(axis),
+        PortType::Locations => Shape::Places,
+        PortType::Coordinate(_) | PortType::OnlyCoordinate(_) => Shape::Name("joints"),
+        PortType::Coordinates => Shape::Coordinates,
+        PortType::NamedCoordinates => return None,
+        PortType::Beams => Shape::Names,
+    };
+    let unit = if matches!(holds, Shape::Place | Shape::Places) { "m" } else { "" };
+    let PortDeclaration { key: name, required, summary, .. } = *port;
+    Some(Key { name, holds, required, unit, summary })
 }

@@ -261,7 +261,7 @@ mod tests {
             summary: "Turns about an axis.",
             sample: "axis = [0, 0, 1]",
             parameters: &[],
-            acts_on: crate::registry::ActsOn::TwoNodes(crate::registry::FrameRule::Axis),
+            ports: lissom_core::ports::Ports::AXIS,
         };
         const SCHEME: ChoiceEntry =
             ChoiceEntry { name: "radau-iia", summary: "Third order.", parameters: &[], tolerance: None };

@@ -85,11 +85,11 @@ fn an_included_part_has_names_parameters_and_a_place_of_its_own() {
     assert!((position(&document, "left.rod") - Vector3::new(1.0, 2.0, 0.0)).norm() < 1e-15);
     assert_eq!(position(&document, "right.rod"), Vector3::new(0.0, 0.0, -0.5));
     assert!((document.points["left.end"] - Vector3::new(1.0, 2.0, -3.0)).norm() < 1e-14);
-    let Attachment::TwoNodes { base, tip, at, axis, .. } = &document.joints[0].attachment else { panic!() };
-    assert_eq!(base.value, NodeReference::Body("frame".to_owned()));
-    assert_eq!(tip.value, NodeReference::Body("left.rod".to_owned()));
-    assert!((at - Vector3::new(1.0, 2.0, 3.0)).norm() < 1e-15);
-    assert!((axis.unwrap().value + Vector3::x()).norm() < 1e-15, "{axis:?}");
+    let Attachment { nodes, axes, .. } = &document.joints[0].attachment;
+    assert_eq!(nodes[0].node.value, NodeReference::Body("frame".to_owned()));
+    assert_eq!(nodes[1].node.value, NodeReference::Body("left.rod".to_owned()));
+    assert!((nodes[0].at.unwrap() - Vector3::new(1.0, 2.0, 3.0)).norm() < 1e-15);
+    assert!((axes[0].value + Vector3::x()).norm() < 1e-15, "{axes:?}");
     // The force turns with the part, and its size names the part's own joint and signal.
     let push = document.loads[0].parameters.vector("vector").unwrap();
     assert!((push - Vector3::y()).norm() < 1e-15, "{push}");
@@ -114,10 +114,10 @@ fn arrays_count_and_names_are_numbered() {
     assert_eq!(position(&document, "link4.rod"), Vector3::new(3.5, 0.0, 0.0));
     let hinge = &document.joints[2];
     assert_eq!(hinge.name.value, "pin3.hinge");
-    let Attachment::TwoNodes { base, tip, at, .. } = &hinge.attachment else { panic!() };
-    assert_eq!(base.value, NodeReference::Body("link3.rod".to_owned()));
-    assert_eq!(tip.value, NodeReference::Body("link4.rod".to_owned()));
-    assert_eq!(*at, Vector3::new(3.0, 0.0, 0.0));
+    let nodes = &hinge.attachment.nodes;
+    assert_eq!(nodes[0].node.value, NodeReference::Body("link3.rod".to_owned()));
+    assert_eq!(nodes[1].node.value, NodeReference::Body("link4.rod".to_owned()));
+    assert_eq!(nodes[0].at, Some(Vector3::new(3.0, 0.0, 0.0)));
     let names: Vec<&str> = document.bodies.iter().map(|body| body.name.value.as_str()).collect();
     assert_eq!(names, ["link1.rod", "link2.rod", "link3.rod", "link4.rod"], "in the order of the array");
 }
@@ -153,9 +153,9 @@ fn axes_that_are_not_given_are_those_of_the_part() {
         "[parts.a]\nrotation = [0, 0, \"pi/2\"]\n[parts.a.bodies.b]\nmass = 1\ninertia = [1, 1, 1]\n\
          [parts.a.joints.slide]\nkind = \"generic\"\nbase = \"ground\"\ntip = \"b\"\nlocked = [\"x\", \"rx\"]\n",
     );
-    let Attachment::TwoNodes { axis, second_axis, .. } = &document.joints[0].attachment else { panic!() };
-    assert!((axis.unwrap().value - Vector3::y()).norm() < 1e-15);
-    assert!((second_axis.unwrap().value + Vector3::x()).norm() < 1e-15);
+    let axes = &document.joints[0].attachment.axes;
+    assert!((axes[0].value - Vector3::y()).norm() < 1e-15);
+    assert!((axes[1].value + Vector3::x()).norm() < 1e-15);
 }
 
 #[test]
@@ -224,9 +224,9 @@ fn places_are_relative_to_the_part_that_in_names() {
     near(document.bodies[1].velocity.unwrap().value, [0.0, 1.0, 0.0]);
     near(document.points["hand"], [0.0, 2.0, 0.0]);
     near(document.points["wrist"], [1.0, 2.0, 0.0]);
-    let Attachment::TwoNodes { at, axis, .. } = &document.joints[0].attachment else { panic!() };
-    near(*at, [1.5, 2.0, 0.0]);
-    near(axis.unwrap().value, [0.0, -1.0, 0.0]);
+    let Attachment { nodes, axes, .. } = &document.joints[0].attachment;
+    near(nodes[0].at.unwrap(), [1.5, 2.0, 0.0]);
+    near(axes[0].value, [0.0, -1.0, 0.0]);
     near(position(&document, "gripper.jaw"), [0.0, 1.9, 0.0]);
     let around = "bodies.a = { in = \"b\", mass = 1, inertia = [1, 1, 1] }\nbodies.b = { in = \"a\", mass = 1, inertia = [1, 1, 1] }\n";
     assert!(reported(around, &[], &[]).contains("relative to itself, in a circle"));

@@ -4,6 +4,7 @@
 mod coupling;
 mod drawn;
 mod groups;
+mod joint;
 mod motion;
 mod rolling;
 mod signals;
@@ -16,6 +17,7 @@ use lissom_solver::{Pattern, Structure};
 
 pub use self::drawn::PlaceOnTip;
 use self::drawn::{joint_rotation, start_values};
+pub use self::joint::{BeamChain, JointAttachment};
 use super::constraints::{Constraints, Placed};
 use super::element_quantity::ElementQuantity;
 use super::feedback::{DrivenBatch, Feedback, Target};
@@ -262,10 +264,10 @@ impl Builder {
         (placement, on_tip): (&Placement, Option<&PlaceOnTip>),
         parameters: &Parameters,
     ) -> Result<Vec<CoordinateId>, ParameterError> {
-        let Build::Relative(frames, build) = kind.build else {
+        let Build::Relative(build) = kind.build else {
             return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
         };
-        let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
+        let base = Motion::new(joint_rotation(kind.ports, placement)?, placement.at);
         let tip = placement.at_tip.unwrap_or(self.model.nodes[placement.nodes[1]].motion.frame.position);
         let span = base.inverse_transform_point(&tip);
         let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };

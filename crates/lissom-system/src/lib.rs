@@ -13,7 +13,7 @@ mod step_stages;
 
 use std::sync::Arc;
 
-pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
+pub use builder::{BeamChain, BuildError, Builder, JointAttachment, PlaceOnTip, Placement};
 pub use lissom_mechanics::evaluation::batch::ElementId;
 pub use lissom_mechanics::evaluation::batch::{Mass, Owner};
 pub use lissom_mechanics::evaluation::threads::Threads;

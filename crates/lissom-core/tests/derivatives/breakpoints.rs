@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
-use lissom_core::joints::{self, Build};
+use lissom_core::elements::{LOADS, SPRINGS};
+use lissom_core::joints;
 use lissom_core::registry::{Parameter, ParameterType, Parameters, TimeFunction, Value};
 use lissom_core::system::{Builder, Placement};
 use lissom_motion::Vector3;
 
 use crate::derivatives::configuration::{Random, sample_parameters};
-use crate::derivatives::{joint_with, two_bodies, two_coordinates};
+use crate::derivatives::ports::{attached, joint_attachment};
+use crate::derivatives::two_bodies;
 use lissom_core::kinematics::NodeId;
 
 /// Smooth except at given instants.
@@ -55,24 +56,7 @@ fn loads_and_springs_report_the_kinks_of_their_functions() {
         let mut random = Random::new(5);
         for (parameter, parameters) in each_broken(kind.parameters, &mut random) {
             let (mut builder, nodes) = two_bodies(&mut random);
-            let attached = match kind.attachment {
-                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
-                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
-                Attachment::Places => {
-                    let drums = two_coordinates(&mut builder);
-                    Attached::Places(nodes.map(|node| (node, random.vector())).to_vec(), drums)
-                }
-                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
-                Attachment::Coordinate(wanted) => {
-                    let joint = builder.add_joint(
-                        "joint",
-                        joint_with(wanted),
-                        &placement(nodes, &mut random),
-                        &Parameters::new(),
-                    );
-                    Attached::Coordinate(joint.expect("valid")[0])
-                }
-            };
+            let attached = attached(&mut builder, kind, nodes, &mut random);
             builder.add_of_kind(kind, attached, &parameters).expect("valid");
             assert_breakpoints(builder, kind.name, parameter);
             count += 1;
@@ -89,17 +73,8 @@ fn drives_report_the_kinks_of_their_functions() {
         for (parameter, parameters) in each_broken(kind.parameters, &mut random) {
             let (mut builder, nodes) = two_bodies(&mut random);
             let placement = placement(nodes, &mut random);
-            match kind.build {
-                Build::Coordinate(wanted, _) => {
-                    let joint =
-                        builder.add_joint("joint", joint_with(wanted), &placement, &Parameters::new());
-                    builder.add_drive("drive", kind, joint.expect("valid")[0], &parameters).expect("valid");
-                }
-                Build::Motion => {
-                    builder.add_motion("motion", &placement, &parameters).expect("valid");
-                }
-                _ => continue,
-            }
+            let attachment = joint_attachment(&mut builder, kind, &placement, &mut random);
+            builder.add_joint_of_kind("drive", kind, attachment, &parameters).expect("valid");
             assert_breakpoints(builder, kind.name, parameter);
             count += 1;
         }

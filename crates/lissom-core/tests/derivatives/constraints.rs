@@ -4,28 +4,29 @@ use lissom_core::consistent::mobility;
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::joints::attached::AttachedJoint;
 use lissom_core::joints::constraint::{Constraint, Level, Port, rates, violation_rates};
-use lissom_core::joints::{Build, Equations, JointKind, KINDS};
-use lissom_core::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, NodeId};
+use lissom_core::joints::{Equations, JointKind, KINDS};
+use lissom_core::kinematics::{GROUND, Kinematics, LOCKED, NodeId};
 use lissom_core::linearized::LinearModel;
 use lissom_core::newton::Limits;
+use lissom_core::ports::Ports;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::scaling::ScalingChoice;
 use lissom_core::schemes::radau_iia;
 use lissom_core::settings::Settings;
 use lissom_core::simulation::Simulation;
-use lissom_core::system::{Builder, Placement, State, System};
+use lissom_core::system::{Builder, JointAttachment, Placement, State, System};
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 
 use super::configuration::{Configuration, Random, difference, sample_parameters};
-use super::{Line, add, two_bodies};
+use super::ports::joint_attachment;
+use super::two_bodies;
 
 /// A scene with a constraint of this kind, and what it acts on.
 struct Scene {
     builder: Builder,
-    placement: Placement,
     parameters: Parameters,
     random: Random,
-    line: Option<Line>,
+    attachment: JointAttachment,
 }
 
 impl Scene {
@@ -45,8 +46,9 @@ impl Scene {
         {
             parameters.insert("wheel_axis", Value::Vector(normal.cross(&random.vector())));
         }
-        let line = add(&mut builder, kind, &placement, &parameters, &mut random);
-        Self { builder, placement, parameters, random, line }
+        let attachment = joint_attachment(&mut builder, kind, &placement, &mut random);
+        builder.add_joint_of_kind("constraint", kind, attachment.clone(), &parameters).expect("valid");
+        Self { builder, parameters, random, attachment }
     }
 
     fn build(self) -> (System, State, Random) {
@@ -229,7 +231,7 @@ fn every_kind_is_numbered_and_named() {
 #[test]
 fn every_kind_that_is_there_twice_repeats_itself() {
     for (seed, kind) in KINDS.iter().enumerate() {
-        if matches!(kind.build, Build::Free(_)) {
+        if kind.ports == Ports::NONE {
             continue;
         }
         let (system, state, _) = Scene::of(kind, seed as u64 + 300).build();
@@ -239,7 +241,8 @@ fn every_kind_that_is_there_twice_repeats_itself() {
         assert_eq!(alone.redundant, [], "{}: alone", kind.name);
 
         let mut scene = Scene::of(kind, seed as u64 + 300);
-        repeat(kind, &mut scene);
+        let Scene { builder, parameters, attachment, .. } = &mut scene;
+        builder.add_joint_of_kind("again", kind, attachment.clone(), parameters).expect("valid");
         let (system, state, _) = scene.build();
         let twice = mobility::mobility(&system, &state);
         assert!(mobility::has_loops(&system), "{}: twice", kind.name);
@@ -251,34 +254,13 @@ fn every_kind_that_is_there_twice_repeats_itself() {
     }
 }
 
-/// Adds the constraint of a scene once more.
-fn repeat(kind: &JointKind, scene: &mut Scene) {
-    let Scene { builder, placement, parameters, line, .. } = scene;
-    match kind.build {
-        Build::Relative(..) => {
-            builder.add_joint("again", kind, placement, parameters).expect("valid");
-        }
-        Build::Motion => {
-            builder.add_motion("again", placement, parameters).expect("valid");
-        }
-        Build::Coordinate(..) => {
-            builder.add_drive("again", kind, CoordinateId::new(0), parameters).expect("valid");
-        }
-        Build::Coupling(..) => {
-            builder.add_coupling("again", kind, &[0, 1].map(CoordinateId::new), parameters).expect("valid");
-        }
-        Build::AlongBeams => line.as_ref().expect("there").add_slider(builder, "again", placement.nodes[1]),
-        Build::Free(_) => {}
-    }
-}
-
 /// The queries of the analyses, for every kind between bodies with mass: initial velocities and accelerations satisfy the derivatives of
 /// the equations, steps satisfy the equations and what they leave of velocities, the state at rest has a linear model, and
 /// derivatives of reactions are those of differences.
 #[test]
 fn every_kind_starts_moves_and_has_a_linear_model() {
     // Generalised coordinates have no mass of their own.
-    for (seed, kind) in KINDS.iter().enumerate().filter(|(_, kind)| !matches!(kind.build, Build::Free(_))) {
+    for (seed, kind) in KINDS.iter().enumerate().filter(|(_, kind)| kind.ports != Ports::NONE) {
         let mut scene = Scene::of(kind, seed as u64 + 300);
         for node in NodeId::first(scene.builder.model().nodes.len()).skip(1) {
             let inertia =

@@ -1,18 +1,19 @@
 //! Every registered spring: its forces at rest are the gradient of its energy, and the motion that it reports belongs to them. What
 //! springs and loads report has exact gradients.
 
-use lissom_core::elements::{Attached, Attachment, ElementKind, LOADS, SPRINGS};
+use lissom_core::elements::{ElementKind, LOADS, SPRINGS};
 use lissom_core::kinematics::{Kinematics, LOCKED, Quantity};
-use lissom_core::registry::{ParameterType, Parameters, Value};
+use lissom_core::registry::{ParameterType, Value};
 use lissom_core::system::element_quantity::Of;
-use lissom_core::system::{ElementId, Placement, State, System};
+use lissom_core::system::{ElementId, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
 use crate::derivatives::configuration::{
     Configuration, Random, Unknown, difference, sample_parameters, unknown,
 };
-use crate::derivatives::{joint_with, two_bodies, two_coordinates};
+use crate::derivatives::ports::{attached, two_coordinates};
+use crate::derivatives::two_bodies;
 
 /// It holds what moves, and stores nothing.
 const STORES_NOTHING: [&str; 2] = ["axial_latch", "torsional_latch"];
@@ -43,23 +44,8 @@ fn with_spring(
         // So that it is pressed.
         parameters.insert("radius", Value::Number(3.0));
     }
-    let attached = match kind.attachment {
-        Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
-        Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
-        Attachment::Places => {
-            let order = [nodes[0], nodes[1], builder.ground(), nodes[1]];
-            let drums = two_coordinates(&mut builder);
-            Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
-        }
-        Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
-        Attachment::Coordinate(wanted) => {
-            two_coordinates(&mut builder);
-            let (at, axis) = (random.vector(), Some(random.vector()));
-            let placement = Placement { nodes, at, at_tip: None, axis, second_axis: None };
-            let joint = builder.add_joint("joint", joint_with(wanted), &placement, &Parameters::new());
-            Attached::Coordinate(joint.expect("valid")[0])
-        }
-    };
+    two_coordinates(&mut builder);
+    let attached = attached(&mut builder, kind, nodes, random);
     let element = builder.add_of_kind(kind, attached, &parameters).expect("valid");
     let (system, state) = builder.build(0.0).expect("valid");
     (system, state, element)

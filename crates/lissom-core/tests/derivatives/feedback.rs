@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::elements::{Attached, LOADS, SPRINGS};
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity, SignalId, Subject};
 use lissom_core::registry::{Constant, ParameterType, Value};
 use lissom_core::signals::coordinate::{self, Coordinate};
@@ -13,8 +13,8 @@ use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation};
 
 use super::configuration::{Configuration, Random, sample_parameters};
-use super::{check, joint_with, two_bodies, two_coordinates};
-use lissom_core::system::Placement;
+use super::ports::{attached, coordinate};
+use super::{check, two_bodies};
 
 /// Σ sin(k + argument k), times the cosine of time.
 #[derive(Debug)]
@@ -41,18 +41,6 @@ fn signal(arguments: Vec<Argument>, sampling: Option<Sampling>) -> Signal {
         arguments,
         sampling,
     }
-}
-
-fn joint(builder: &mut Builder, nodes: [NodeId; 2], wanted: Quantity, random: &mut Random) -> CoordinateId {
-    let placement = Placement {
-        nodes,
-        at: random.vector(),
-        at_tip: None,
-        axis: Some(random.vector()),
-        second_axis: None,
-    };
-    let parameters = sample_parameters(&[], false, random);
-    builder.add_joint("joint", joint_with(wanted), &placement, &parameters).expect("valid")[0]
 }
 
 /// Quantities of frames that signals depend on.
@@ -101,21 +89,11 @@ fn sizes_that_are_signals() {
         for flag in [false, true] {
             let mut random = Random::new(seed as u64 + 70);
             let (mut builder, nodes) = two_bodies(&mut random);
-            let wanted = match kind.attachment {
-                Attachment::Coordinate(wanted) => wanted,
-                _ => Quantity::Angle,
-            };
-            let own = joint(&mut builder, nodes, wanted, &mut random);
-            let attached = match kind.attachment {
-                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
-                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
-                Attachment::Places => {
-                    let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
-                    let drums = two_coordinates(&mut builder);
-                    Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
-                }
-                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
-                Attachment::Coordinate(_) => Attached::Coordinate(own),
+            let wanted = kind.ports.quantity();
+            let own = coordinate(&mut builder, nodes, wanted.unwrap_or(Quantity::Angle), &mut random);
+            let attached = match wanted {
+                Some(_) => Attached::to_coordinates([own]),
+                None => attached(&mut builder, kind, nodes, &mut random),
             };
             let last = graph(&mut builder, nodes, own, &mut random);
             let parameters = sample_parameters(kind.parameters, flag, &mut random)
@@ -138,19 +116,7 @@ fn loads_are_in_proportion_to_their_size() {
         let forces = |factor: f64| {
             let mut random = Random::new(seed as u64 + 90);
             let (mut builder, nodes) = two_bodies(&mut random);
-            let attached = match kind.attachment {
-                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
-                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
-                Attachment::Places => {
-                    let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
-                    let drums = two_coordinates(&mut builder);
-                    Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
-                }
-                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
-                Attachment::Coordinate(wanted) => {
-                    Attached::Coordinate(joint(&mut builder, nodes, wanted, &mut random))
-                }
-            };
+            let attached = attached(&mut builder, kind, nodes, &mut random);
             let parameters =
                 sample_parameters(kind.parameters, false, &mut random).with(size.name, Value::Number(factor));
             builder.add_of_kind(kind, attached, &parameters).expect("valid");

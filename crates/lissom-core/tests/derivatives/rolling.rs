@@ -38,7 +38,7 @@ fn wheels_that_yield_and_slip() {
             parameters.insert("friction_coefficient", Value::Number(0.7));
             parameters.insert("slip_velocity", Value::Number(3.0));
         }
-        let attached = Attached::TwoNodes([base, tip], [Vector3::zeros(); 2]);
+        let attached = Attached::to_nodes([base, tip].map(|node| (node, Vector3::zeros())));
         builder.add_of_kind(kind, attached, &parameters).expect("valid");
         let (system, state) = builder.build(0.0).expect("valid");
         check("rolling_contact", &system, &state, 0.1, &mut random);

@@ -20,9 +20,10 @@ use lissom_motion::{
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
+use crate::ports::Ports;
 use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.
@@ -56,7 +57,7 @@ pub const KIND: ElementKind = ElementKind {
             "Second axis at the start, global axes, made perpendicular to the first; default global y.",
         ),
     ],
-    attachment: Attachment::TwoNodes,
+    ports: Ports::TWO_LOCATIONS,
     build,
 };
 

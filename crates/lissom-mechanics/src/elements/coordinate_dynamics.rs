@@ -11,9 +11,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::contribution::{Contribution, CoordinateMass};
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use crate::ports::{PortDeclaration, PortType, Ports};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
 
@@ -53,7 +54,13 @@ pub const KIND: ElementKind = ElementKind {
             "Values of the coordinates without force of `stiffness`; default zeros.",
         ),
     ],
-    attachment: Attachment::Coordinates,
+    ports: Ports(&[PortDeclaration::required(
+        "coordinates",
+        PortType::Coordinates,
+        "coordinates on which it acts, such as \"arm.angle\", in the order of its matrices; the name of a joint stands for all its coordinates",
+    )
+    .listed("coordinates: joint coordinates on which it acts, in the order of its matrices")
+    .sample("coordinates = [\"my_hinge.angle\", \"my_slide.displacement\"]")]),
     build,
 };
 
@@ -74,8 +81,11 @@ fn build(
     attached: Attached,
     parameters: &Parameters,
 ) -> Result<Contribution, ParameterError> {
-    let coordinates = attached.coordinates()?;
+    let coordinates = attached.coordinates;
     let count = coordinates.len();
+    if count == 0 {
+        return Err(ParameterError::new("coordinates", "must list coordinates of joints"));
+    }
     if count > MAX_COORDINATES {
         let problem =
             format!("names {count} coordinates; an entry has at most {MAX_COORDINATES}: use several entries");

@@ -4,11 +4,12 @@
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, PRELOAD_FORCE, PRELOAD_MOMENT, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
 use crate::law::VisitLaw;
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -54,7 +55,7 @@ pub(crate) const TORSIONAL: ElementKind = ElementKind {
         PRELOAD_MOMENT,
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Angle),
+    ports: Ports::ROTATION,
     build: |model, attached, parameters| {
         add(model, attached, parameters, Quantity::Angle, ["angle", "moment", "damper_moment"])
     },
@@ -97,7 +98,7 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
         PRELOAD_FORCE,
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Length),
+    ports: Ports::DISPLACEMENT,
     build: |model, attached, parameters| {
         add(model, attached, parameters, Quantity::Length, ["displacement", "force", "damper_force"])
     },

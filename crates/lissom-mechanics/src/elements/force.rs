@@ -4,9 +4,10 @@ use lissom_motion::{Vector3, skew};
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
+use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.
@@ -15,7 +16,7 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Force on a point, of fixed direction or rotating with the node, scaled by a function of time.",
     sample: "vector = [0.0, 0.0, 1.0]\nscale = \"10*sin(t)\"",
     parameters: LOAD_PARAMETERS,
-    attachment: Attachment::OneNode,
+    ports: Ports::ONE_NODE,
     build,
 };
 

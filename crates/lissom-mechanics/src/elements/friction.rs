@@ -10,9 +10,10 @@
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -58,7 +59,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
         ),
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Angle),
+    ports: Ports::ROTATION,
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Angle),
 };
 
@@ -101,7 +102,7 @@ pub const AXIAL: ElementKind = ElementKind {
         ),
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Length),
+    ports: Ports::DISPLACEMENT,
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length),
 };
 

@@ -13,9 +13,10 @@ use lissom_motion::{Vector3, rotation_part, skew};
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.
@@ -38,7 +39,7 @@ pub const KIND: ElementKind = ElementKind {
         ),
         Parameter::required("spin", ParameterType::Number, "rad/s", "Rate of spin relative to the body."),
     ],
-    attachment: Attachment::OneNode,
+    ports: Ports::ONE_NODE,
     build,
 };
 

@@ -2,9 +2,10 @@
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Function, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry of the torque on a rotation.
@@ -21,7 +22,7 @@ pub(crate) const TORQUE: ElementKind = ElementKind {
         ),
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Angle),
+    ports: Ports::ROTATION,
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Angle, "torque"),
 };
 
@@ -39,7 +40,7 @@ pub(crate) const FORCE: ElementKind = ElementKind {
         ),
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Length),
+    ports: Ports::DISPLACEMENT,
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length, "force"),
 };
 

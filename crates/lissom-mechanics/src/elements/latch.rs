@@ -2,8 +2,8 @@
 
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
-use crate::kinematics::Quantity;
+use super::kind::{Attached, ElementKind};
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 
 const PARAMETERS: &[Parameter] = &[
@@ -22,7 +22,7 @@ pub const AXIAL: ElementKind = ElementKind {
     summary: "Locks a joint's relative displacement at its current value while an input is set: latches and releases.",
     sample: "engaged = \"my_input\"",
     parameters: PARAMETERS,
-    attachment: Attachment::Coordinate(Quantity::Length),
+    ports: Ports::DISPLACEMENT,
     build,
 };
 
@@ -30,7 +30,7 @@ pub const AXIAL: ElementKind = ElementKind {
 pub const TORSIONAL: ElementKind = ElementKind {
     name: "torsional_latch",
     summary: "Locks a joint's relative rotation at its current value while an input is set: latches and releases.",
-    attachment: Attachment::Coordinate(Quantity::Angle),
+    ports: Ports::ROTATION,
     ..AXIAL
 };
 

@@ -35,7 +35,7 @@ pub mod superelement;
 
 pub use contribution::Contribution;
 pub use initial_model::InitialModel;
-pub use kind::{Attached, Attachment, ElementKind};
+pub use kind::{Attached, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 
 pub use crate::evaluation::element::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};

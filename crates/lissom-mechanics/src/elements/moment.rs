@@ -5,9 +5,10 @@ use lissom_motion::skew;
 use super::contribution::Contribution;
 use super::force::{DirectedLoad, LOAD_PARAMETERS};
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
+use crate::ports::Ports;
 use crate::registry::{ParameterError, Parameters};
 
 /// Registry entry.
@@ -16,7 +17,7 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Moment on a node, of fixed direction or rotating with the node, scaled by a function of time.",
     sample: "vector = [0.0, 0.0, 1.0]\nfollower = true",
     parameters: LOAD_PARAMETERS,
-    attachment: Attachment::OneNode,
+    ports: Ports::ONE_NODE,
     build,
 };
 

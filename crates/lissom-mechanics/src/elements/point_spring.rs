@@ -10,7 +10,7 @@ use nalgebra::{RowVector6, SMatrix};
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, PRELOAD_FORCE, Response, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::law_of_distance::{self, LawOfDistance};
 use super::{Element, Energy, Tangents, add_block};
 use crate::evaluation::switch_states::SwitchStates;
@@ -18,6 +18,7 @@ use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
 use crate::law::VisitLaw;
 use crate::number::Written;
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -57,7 +58,7 @@ pub(crate) const KIND: ElementKind = ElementKind {
         ),
         PRELOAD_FORCE,
     ],
-    attachment: Attachment::TwoNodes,
+    ports: Ports::TWO_LOCATIONS,
     build,
 };
 

@@ -15,12 +15,13 @@ use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_mat
 use super::contribution::Contribution;
 use super::force_law::Response;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId, Switch};
+use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -79,7 +80,7 @@ pub const KIND: ElementKind = ElementKind {
             "Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`.",
         ),
     ],
-    attachment: Attachment::TwoNodes,
+    ports: Ports::TWO_LOCATIONS,
     build,
 };
 

@@ -15,13 +15,14 @@ use nalgebra::SMatrix;
 use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response};
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::point_spring::Point;
 use super::{Element, Energy, Tangents, add_block};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, MAX_NODES, NodeId, Switch};
 use crate::law::VisitLaw;
+use crate::ports::{PortDeclaration, PortType, Ports};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
 use crate::signals::measurement::Gradient;
 
@@ -74,7 +75,21 @@ pub const KIND: ElementKind = ElementKind {
             "Length of rope paid out by each of `drums` per rad or m of its coordinate; negative if it winds the rope up.",
         ),
     ],
-    attachment: Attachment::Places,
+    ports: Ports(&[
+        PortDeclaration::required(
+            "along",
+            PortType::Locations,
+            "points over which it passes, from one end to the other",
+        )
+        .listed("along: the points over which it passes, each with `on` and `at`")
+        .sample("along = [{ on = \"ground\", at = [0.0, 0.0, 3.0] }, { on = \"my_body\" }]"),
+        PortDeclaration::optional(
+            "drums",
+            PortType::Coordinates,
+            "coordinates of joints that pay it out, such as \"drum.angle\"; the name of a joint stands for all its coordinates",
+        )
+        .listed("drums: coordinates that pay it out"),
+    ]),
     build,
 };
 
@@ -121,7 +136,7 @@ fn build(
     attached: Attached,
     parameters: &Parameters,
 ) -> Result<Contribution, ParameterError> {
-    let (along, winding) = attached.places()?;
+    let Attached { nodes: along, coordinates: winding } = attached;
     let points: Vec<Vector3> =
         along.iter().map(|(node, place)| model.frame(*node).transform_point(place)).collect();
     let fault = |problem: &str| Err(ParameterError::new("along", problem));

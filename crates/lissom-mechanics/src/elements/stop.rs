@@ -4,11 +4,12 @@
 use super::contribution::Contribution;
 use super::force_law::Response;
 use super::initial_model::InitialModel;
-use super::kind::{Attached, Attachment, ElementKind};
+use super::kind::{Attached, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::contact::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -46,7 +47,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
         Parameter::optional("impact_velocity", ParameterType::Positive, "rad/s", "Rate of that impact."),
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Angle),
+    ports: Ports::ROTATION,
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Angle),
 };
 
@@ -79,7 +80,7 @@ pub const AXIAL: ElementKind = ElementKind {
         Parameter::optional("impact_velocity", ParameterType::Positive, "m/s", "Velocity of that impact."),
         COORDINATE,
     ],
-    attachment: Attachment::Coordinate(Quantity::Length),
+    ports: Ports::DISPLACEMENT,
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length),
 };
 

@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use super::coupling::{Relation, RelationPoint};
-use super::kind::{Build, Coupled, JointKind};
+use super::kind::{Build, JointKind};
 use crate::law::{Interval, scaled, sum};
+use crate::ports::Ports;
 use crate::registry::{
     Function, OTHER_COORDINATE, Parameter, ParameterError, ParameterType, WHICH_COORDINATE,
 };
@@ -24,7 +25,8 @@ pub const KIND: JointKind = JointKind {
         WHICH_COORDINATE,
         OTHER_COORDINATE,
     ],
-    build: Build::Coupling(Coupled::Two, |parameters, _| {
+    ports: Ports::TWO_COORDINATES,
+    build: Build::Coupling(|parameters, _| {
         let profile = parameters.function("profile")?;
         if let Some(kink) = profile.first_kink() {
             let at = if kink.is_nan() { String::new() } else { format!(" at x = {kink:.6}") };

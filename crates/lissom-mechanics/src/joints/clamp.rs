@@ -3,13 +3,14 @@
 
 use lissom_motion::{Real, Screw, Vector3};
 
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, coincident, coincident_gradient, coincident_hessian};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS, MAX_COORDINATES,
     MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -17,7 +18,8 @@ pub const KIND: JointKind = JointKind {
     summary: "Locks all six relative degrees of freedom.",
     sample: "",
     parameters: &[],
-    build: Build::Relative(Frames::Point, |_, _| Ok(Box::new(Clamp))),
+    ports: Ports::POINT,
+    build: Build::Relative(|_, _| Ok(Box::new(Clamp))),
 };
 
 /// No relative motion.

@@ -7,7 +7,7 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_gradient, coincident_hessian, coincident_wrench,
 };
@@ -16,6 +16,7 @@ use super::{
     Branch, ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
 /// Registry entry.
@@ -29,7 +30,8 @@ pub const KIND: JointKind = JointKind {
         "",
         "Direction of the tip's shaft at the start, global axes; default: `axis`, the direction of the base's shaft.",
     )],
-    build: Build::Relative(Frames::Axis, |parameters, geometry| {
+    ports: Ports::AXIS,
+    build: Build::Relative(|parameters, geometry| {
         let shaft = geometry.axes.apply(&Vector3::z());
         let tip = parameters.vector_or("tip_axis", shaft)?;
         let tip = geometry.axes.apply_inverse(&tip).normalize();

@@ -5,13 +5,14 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, coincident_gradient, coincident_hessian, elementary, on_third_axis};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START};
 
 /// Index of the displacement among the coordinates, after the rotation.
@@ -23,7 +24,8 @@ pub const KIND: JointKind = JointKind {
     summary: "The tip slides along an axis and rotates about it; rotation and displacement are coordinates.",
     sample: "axis = [1.0, 0.0, 0.0]",
     parameters: &[ANGLE_AT_START, DISPLACEMENT_AT_START],
-    build: Build::Relative(Frames::Axis, |parameters, _| {
+    ports: Ports::AXIS,
+    build: Build::Relative(|parameters, _| {
         Ok(Box::new(Cylindrical {
             angle: parameters.number_or("angle", 0.0)?,
             displacement: parameters.number_or("displacement", 0.0)?,

@@ -3,12 +3,13 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::ParameterError;
 
 /// Registry entry.
@@ -17,7 +18,8 @@ pub const KIND: JointKind = JointKind {
     summary: "Keeps the distance of two points constant: a massless rod with spherical joints at its ends.",
     sample: "",
     parameters: &[],
-    build: Build::Relative(Frames::Span, |_, geometry| {
+    ports: Ports::TWO_LOCATIONS,
+    build: Build::Relative(|_, geometry| {
         let length = geometry.span.norm();
         if length == 0.0 {
             return Err(ParameterError::new(

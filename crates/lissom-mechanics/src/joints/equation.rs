@@ -1,6 +1,7 @@
 //! Equation: an arbitrary expression of joints' coordinates and of time vanishes, c = f(q, t).
 
-use super::kind::{Build, Coupled, JointKind};
+use super::kind::{Build, JointKind};
+use crate::ports::{PortDeclaration, PortType, Ports};
 use crate::registry::{Parameter, ParameterType};
 
 /// Registry entry.
@@ -14,5 +15,11 @@ pub const KIND: JointKind = JointKind {
         "",
         "The expression that is zero, of coordinates such as `arm.angle` and `slide.displacement`, and of `t`.",
     )],
-    build: Build::Coupling(Coupled::Named, |parameters, _| parameters.relation("equation")),
+    ports: Ports(&[PortDeclaration::required(
+        "",
+        PortType::NamedCoordinates,
+        "coordinates that its expression names",
+    )
+    .listed("the coordinates that its expression names")]),
+    build: Build::Coupling(|parameters, _| parameters.relation("equation")),
 };

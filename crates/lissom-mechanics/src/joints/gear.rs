@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::coupling::{Relation, RelationPoint};
-use super::kind::{Build, Coupled, JointKind};
+use super::kind::{Build, JointKind};
+use crate::ports::Ports;
 use crate::registry::{OTHER_COORDINATE, Parameter, ParameterType, WHICH_COORDINATE};
 
 /// Registry entry.
@@ -21,7 +22,8 @@ pub const KIND: JointKind = JointKind {
         WHICH_COORDINATE,
         OTHER_COORDINATE,
     ],
-    build: Build::Coupling(Coupled::Two, |parameters, start| {
+    ports: Ports::TWO_COORDINATES,
+    build: Build::Coupling(|parameters, start| {
         let ratio = parameters.number("ratio")?;
         let [first, other] = [0, 1].map(|k| start.get(k).copied().unwrap_or(0.0));
         Ok(Arc::new(Gear { ratio, offset: other - ratio * first }))

@@ -4,6 +4,7 @@
 use super::Coordinate;
 use super::kind::{Build, JointKind};
 use crate::kinematics::Quantity;
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.
@@ -31,6 +32,7 @@ pub const KIND: JointKind = JointKind {
             "Whether they are rotations [rad]; default false: displacements [m].",
         ),
     ],
+    ports: Ports::NONE,
     build: Build::Free(read),
 };
 

@@ -14,12 +14,13 @@ use lissom_motion::{Real, Screw, Triple, Vector3};
 use super::base_axes::{
     component_gradient, cosine_gradient, cosine_hessian, force_hessian, force_wrench, row,
 };
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     AnyJoint, ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
 /// What may be locked: translations along the joint frame's axes, and rotations about them.
@@ -36,7 +37,8 @@ pub const KIND: JointKind = JointKind {
         "",
         "Locked motions: x along `axis`, y along `second_axis`, z perpendicular to both; rx, ry, rz about them.",
     )],
-    build: Build::Relative(Frames::GivenOrGlobalAxes, |parameters, _| {
+    ports: Ports::AXES_OF_MODEL,
+    build: Build::Relative(|parameters, _| {
         let words = parameters.words("locked")?;
         if words.is_empty() {
             return Err(ParameterError::new("locked", "is empty: the joint would have no effect"));

@@ -6,26 +6,9 @@ use lissom_motion::{Rotation, Vector3};
 
 use super::AnyJoint;
 use super::generalized_coordinates::FreeCoordinate;
-use crate::kinematics::Quantity;
+use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
 use crate::relation::Relation;
-
-/// Initial arrangement of the joint frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Frames {
-    /// Both at one point; their orientation is arbitrary.
-    Point,
-    /// Both at one point, third axis along `axis`.
-    Axis,
-    /// Both at one point, first axis along `axis`, second along `second_axis`.
-    TwoAxes,
-    /// The same; along the inertial axes if none is given.
-    GivenOrGlobalAxes,
-    /// One at the base's point, one at the tip node; third axis along `axis`.
-    SpanWithAxis,
-    /// One at the base's point, one at the tip node; their orientation is arbitrary.
-    Span,
-}
 
 /// Initial position of the tip's joint frame relative to the base's joint frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,22 +30,13 @@ pub type MakeRelation = fn(&Parameters, &[f64]) -> Result<Arc<dyn Relation>, Par
 /// Builds coordinates that are not between nodes.
 pub type MakeFree = fn(&Parameters) -> Result<Vec<FreeCoordinate>, ParameterError>;
 
-/// The coordinates of a relation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coupled {
-    /// One of a joint, and one of another joint.
-    Two,
-    /// Those in its expression.
-    Named,
-}
-
 /// Construction of a joint.
 #[derive(Clone, Copy, Debug)]
 pub enum Build {
     /// Between two nodes.
-    Relative(Frames, MakeJoint),
-    /// Prescribes an algebraic coordinate of another joint, of this quantity, as a function of time.
-    Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
+    Relative(MakeJoint),
+    /// Prescribes an algebraic coordinate of another joint as a function of time.
+    Coordinate(fn(&Parameters) -> Result<Function, ParameterError>),
     /// Prescribes the whole motion of a node relative to another.
     Motion,
     /// Constrains a point of the tip to slide along beams.
@@ -70,7 +44,7 @@ pub enum Build {
     /// Has coordinates of its own, not between nodes.
     Free(MakeFree),
     /// Relates algebraic coordinates of other joints.
-    Coupling(Coupled, MakeRelation),
+    Coupling(MakeRelation),
 }
 
 /// A kind of joint, as used by the model file and the tests.
@@ -82,8 +56,10 @@ pub struct JointKind {
     pub summary: &'static str,
     /// A minimal model-file entry of its own parameters.
     pub sample: &'static str,
-    /// Parameters beyond base, tip, at and the axes.
+    /// Parameters in addition to its ports.
     pub parameters: &'static [Parameter],
+    /// Its ports.
+    pub ports: Ports,
     /// Its construction.
     pub build: Build,
 }

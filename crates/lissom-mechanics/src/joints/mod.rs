@@ -59,7 +59,7 @@ pub mod wheel_on_rail;
 pub use any_joint::AnyJoint;
 pub use constraint::Constraint;
 pub use drive::Drive;
-pub use kind::{Build, Coupled, Frames, Geometry, JointKind, MakeFree, MakeJoint, MakeRelation};
+pub use kind::{Build, Geometry, JointKind, MakeFree, MakeJoint, MakeRelation};
 pub use kinds::KINDS;
 
 use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3};

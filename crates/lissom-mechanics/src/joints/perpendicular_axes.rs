@@ -1,7 +1,8 @@
 //! Perpendicular axes: an axis of the base and one of the tip remain at a right angle, -R_12 = 0.
 
 use super::generic::locking;
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
+use crate::ports::Ports;
 
 /// Registry entry: the generic joint that locks only the rotation about the third axis.
 pub const KIND: JointKind = JointKind {
@@ -9,5 +10,6 @@ pub const KIND: JointKind = JointKind {
     summary: "Keeps `axis`, fixed in the base, perpendicular to `second_axis`, fixed in the tip.",
     sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 1.0, 0.0]",
     parameters: &[],
-    build: Build::Relative(Frames::TwoAxes, |_, _| Ok(locking([false, false, false, false, false, true]))),
+    ports: Ports::TWO_AXES,
+    build: Build::Relative(|_, _| Ok(locking([false, false, false, false, false, true]))),
 };

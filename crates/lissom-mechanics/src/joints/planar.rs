@@ -5,13 +5,14 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::base_axes::{component_gradient, force_hessian, force_wrench};
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, elementary};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::ANGLE_AT_START;
 
 /// Registry entry.
@@ -20,7 +21,8 @@ pub const KIND: JointKind = JointKind {
     summary: "The tip translates in the plane perpendicular to `axis` and rotates about it; the rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
     parameters: &[ANGLE_AT_START],
-    build: Build::Relative(Frames::Axis, |parameters, _| {
+    ports: Ports::AXIS,
+    build: Build::Relative(|parameters, _| {
         Ok(Box::new(Planar { angle: parameters.number_or("angle", 0.0)? }))
     }),
 };

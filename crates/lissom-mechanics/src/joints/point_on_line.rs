@@ -5,13 +5,14 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::base_axes::{component_gradient, force_hessian, force_wrench};
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::POINT_EQUATIONS;
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::DISPLACEMENT_AT_START;
 
 /// Registry entry.
@@ -20,7 +21,8 @@ pub const KIND: JointKind = JointKind {
     summary: "The tip's point slides along a line fixed in the base; the tip rotates freely; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
     parameters: &[DISPLACEMENT_AT_START],
-    build: Build::Relative(Frames::Axis, |parameters, _| {
+    ports: Ports::AXIS,
+    build: Build::Relative(|parameters, _| {
         Ok(Box::new(PointOnLine { displacement: parameters.number_or("displacement", 0.0)? }))
     }),
 };

@@ -1,7 +1,7 @@
 //! Prescribed relative displacement: a joint's displacement is a function of time; the multiplier is the drive's force.
 
 use super::kind::{Build, JointKind};
-use crate::kinematics::Quantity;
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterType};
 
 /// Registry entry.
@@ -18,5 +18,6 @@ pub const KIND: JointKind = JointKind {
         ),
         COORDINATE,
     ],
-    build: Build::Coordinate(Quantity::Length, |parameters| parameters.function("displacement")),
+    ports: Ports::DISPLACEMENT,
+    build: Build::Coordinate(|parameters| parameters.function("displacement")),
 };

@@ -11,6 +11,7 @@
 
 use super::kind::{Build, JointKind};
 use crate::kinematics::Quantity;
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterType};
 
 /// The components, in the order of their joints.
@@ -36,6 +37,7 @@ pub const KIND: JointKind = JointKind {
         rotation("ry", "Rotation about `second_axis` after its rotation by `rx`."),
         rotation("rz", "Rotation about the third axis after its rotations by `rx` and `ry`."),
     ],
+    ports: Ports::AXES_OF_MODEL,
     build: Build::Motion,
 };
 

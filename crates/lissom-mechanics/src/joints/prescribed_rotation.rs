@@ -1,7 +1,7 @@
 //! Prescribed relative rotation: a joint's angle is a function of time; the multiplier is the drive's moment.
 
 use super::kind::{Build, JointKind};
-use crate::kinematics::Quantity;
+use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterType};
 
 /// Registry entry.
@@ -18,5 +18,6 @@ pub const KIND: JointKind = JointKind {
         ),
         COORDINATE,
     ],
-    build: Build::Coordinate(Quantity::Angle, |parameters| parameters.function("rotation")),
+    ports: Ports::ROTATION,
+    build: Build::Coordinate(|parameters| parameters.function("rotation")),
 };

@@ -15,13 +15,14 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
 use super::base_axes::row;
-use super::kind::{Build, Frames, Geometry, JointKind};
+use super::kind::{Build, Geometry, JointKind};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
 use crate::contact::wheel_on_plane::{Contact, upright};
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
 
@@ -64,7 +65,8 @@ pub const KIND: JointKind = JointKind {
             constrain each other.",
         ),
     ],
-    build: Build::Relative(Frames::SpanWithAxis, |parameters, geometry| {
+    ports: Ports::ARM,
+    build: Build::Relative(|parameters, geometry| {
         Ok(Box::new(Rolling { contact: contact(parameters, geometry)?, centre: geometry.span }))
     }),
 };

@@ -7,13 +7,14 @@ use std::f64::consts::TAU;
 use lissom_motion::{Motion, Real, Rotation, Screw as Wrench, Vector3};
 
 use super::clamp::EQUATIONS;
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, coincident_gradient, coincident_hessian, elementary, on_third_axis};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::{ANGLE_AT_START, Parameter, ParameterType};
 
 /// Registry entry.
@@ -30,7 +31,8 @@ pub const KIND: JointKind = JointKind {
         ),
         ANGLE_AT_START,
     ],
-    build: Build::Relative(Frames::Axis, |parameters, _| {
+    ports: Ports::AXIS,
+    build: Build::Relative(|parameters, _| {
         Ok(Box::new(Screw {
             pitch: parameters.number("lead")? / TAU,
             angle: parameters.number_or("angle", 0.0)?,

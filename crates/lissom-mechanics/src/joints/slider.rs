@@ -22,6 +22,7 @@ use super::kind::{Build, JointKind};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::local_derivatives::LocalDerivatives;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, NodeMotion, Quantity};
+use crate::ports::{PortDeclaration, PortType, Ports};
 use crate::registry::{Parameter, ParameterType};
 
 /// Registry entry.
@@ -35,6 +36,22 @@ pub const KIND: JointKind = JointKind {
         "",
         "Rotation of the tip: \"free\" (default); with the line's \"tangent\", about which it rotates freely; or with the beam's \"section\", as on a spline shaft.",
     )],
+    ports: Ports(&[
+        PortDeclaration::required(
+            "beams",
+            PortType::Beams,
+            "beams along which it slides; each starts at the end of the previous one",
+        )
+        .sample("beams = [\"my_beam\"]"),
+        PortDeclaration::required("tip", PortType::Node { moves: false }, "the node that slides")
+            .sample("tip = \"my_body\""),
+        PortDeclaration::optional(
+            "at",
+            PortType::Location { of: &["tip"], default: &["tip"] },
+            "location on the beam at the start; default: the tip node's position",
+        )
+        .listed("at (default: the tip's position)"),
+    ]),
     build: Build::AlongBeams,
 };
 

@@ -3,7 +3,7 @@
 
 use lissom_motion::{Real, Screw, Triple, Vector3};
 
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{
     POINT_EQUATIONS, coincident, coincident_change, coincident_gradient, coincident_hessian,
     coincident_wrench,
@@ -13,6 +13,7 @@ use super::{
     ConstraintHessian, EquationCount, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -20,7 +21,8 @@ pub const KIND: JointKind = JointKind {
     summary: "The tip rotates freely about a common point of both nodes.",
     sample: "",
     parameters: &[],
-    build: Build::Relative(Frames::Point, |_, _| Ok(Box::new(Spherical))),
+    ports: Ports::POINT,
+    build: Build::Relative(|_, _| Ok(Box::new(Spherical))),
 };
 
 /// A shared point.

@@ -4,13 +4,14 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, EquationCount, Equations, Gradient, Joint, JointCoordinates,
     MAX_CONSTANTS, MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
 /// Registry entry.
@@ -24,7 +25,8 @@ pub const KIND: JointKind = JointKind {
         "rad",
         "Value of the link's angle at the start; default 0.",
     )],
-    build: Build::Relative(Frames::SpanWithAxis, |parameters, geometry| {
+    ports: Ports::ARM,
+    build: Build::Relative(|parameters, geometry| {
         let angle = parameters.number_or("angle", 0.0)?;
         let arm = elementary(2, angle).tr_mul(&geometry.span);
         if arm.x.hypot(arm.y) == 0.0 {

@@ -5,13 +5,14 @@
 use lissom_motion::{Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
-use super::kind::{Build, Frames, JointKind};
+use super::kind::{Build, JointKind};
 use super::primitives::{JointRotation, coincident, coincident_gradient, coincident_hessian};
 use super::relative_increment::{CoordinateIncrement, RelativeIncrement};
 use super::{
     ConstraintHessian, Coordinate, Equations, Gradient, Joint, JointCoordinates, MAX_CONSTANTS,
     MAX_COORDINATES, MAX_EQUATIONS, Relative,
 };
+use crate::ports::Ports;
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -19,7 +20,8 @@ pub const KIND: JointKind = JointKind {
     summary: "Two nodes share a point; two perpendicular axes, one fixed in each; both rotations are coordinates.",
     sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 1.0, 0.0]",
     parameters: &[],
-    build: Build::Relative(Frames::TwoAxes, |_, _| Ok(Box::new(Universal))),
+    ports: Ports::TWO_AXES,
+    build: Build::Relative(|_, _| Ok(Box::new(Universal))),
 };
 
 /// A shared point and a cross.

@@ -12,7 +12,7 @@ use nalgebra::SVector;
 
 use super::attached::AttachedJoint;
 use super::blocks::Batches;
-use super::kind::{Build, Frames, Geometry, JointKind};
+use super::kind::{Build, Geometry, JointKind};
 use super::{
     AnyJoint, ConstraintHessian, Coordinate, Equations, Gradient, JointCoordinates, MAX_COORDINATES, Relative,
 };
@@ -21,6 +21,7 @@ use crate::contact::profile::{RailProfile, WheelProfile};
 use crate::contact::wheel_on_plane::Contact;
 use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::kinematics::Quantity;
+use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
 
@@ -144,7 +145,8 @@ pub const KIND: JointKind = JointKind {
             "Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`.",
         ),
     ],
-    build: Build::Relative(Frames::TwoAxes, |parameters, geometry| {
+    ports: Ports::TWO_AXES,
+    build: Build::Relative(|parameters, geometry| {
         let (contact, spin_sign) = contact_of(parameters, geometry)?;
         let creep = creep_of(parameters, geometry, &contact, spin_sign)?;
         let pose = start_pose(geometry);

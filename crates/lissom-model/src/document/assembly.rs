@@ -1,12 +1,12 @@
 //! Approximate positions of parts: the table `[assembly]`, and the positions of joints on their tips.
 
+use lissom_core::ports::Ports;
 use lissom_motion::Vector3;
 
 use super::initial::parts;
 use crate::context::Context;
 use crate::keys::{Key, Shape, optional};
 use crate::reader::Reader;
-use crate::registry::FrameRule;
 use crate::report::{Located, Problem, Span};
 
 /// Gap that counts as closed, relative to the size of the model.
@@ -52,20 +52,23 @@ pub(super) fn keys() -> Vec<Key> {
     ]
 }
 
-/// Keys of joints whose positions on both nodes differ.
-pub(super) fn keys_on_tip(rule: FrameRule) -> Vec<Key> {
+/// Keys of joints with one location, whose positions on both nodes differ; none for others.
+pub(super) fn keys_on_tip(ports: Ports) -> Vec<Key> {
+    if !ports.have_one_location() {
+        return Vec::new();
+    }
     let mut keys = vec![optional(
         "at_tip",
         Shape::Place,
         "m",
         "location on the tip in its approximate position, if different from `at`; requires [assembly]",
     )];
-    if rule != FrameRule::None {
+    if ports.directions() > 0 {
         let words =
             "direction of `axis` on the tip in its approximate position, if different; requires `at_tip`";
         keys.push(optional("axis_at_tip", Shape::Direction, "", words));
     }
-    if matches!(rule, FrameRule::TwoAxes | FrameRule::GivenOrGlobal) {
+    if ports.directions() > 1 {
         let words =
             "direction of `second_axis` on the tip in its approximate position; requires `axis_at_tip`";
         keys.push(optional("second_axis_at_tip", Shape::Direction, "", words));
@@ -87,9 +90,12 @@ pub(super) fn assembly(context: &Context<'_>) -> Option<AssemblyRequest> {
 }
 
 /// Position of a joint on its tip.
-pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located<OnTip>> {
+pub(super) fn on_tip(reader: &Reader<'_, '_>, ports: Ports) -> Option<Located<OnTip>> {
     let context = reader.context;
-    let known: Vec<&str> = keys_on_tip(rule).iter().map(|key| key.name).collect();
+    let known: Vec<&str> = keys_on_tip(ports).iter().map(|key| key.name).collect();
+    if known.is_empty() {
+        return None;
+    }
     let direction = |key: &str| {
         let is_given = known.contains(&key) && reader.node(key).is_some();
         if is_given { reader.vector(key) } else { None }

@@ -68,10 +68,8 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
         let OutputSource::Node { node, .. } = &output.source else { continue };
         let NodeReference::Beam { beam: name, .. } = &node.value else { continue };
         let is_of_section = output.kind.subject() == Subject::Section;
-        let slider = document.joints.iter().find(|joint| match &joint.attachment {
-            Attachment::AlongBeams { beams, .. } => beams.iter().any(|beam| beam.value == *name),
-            _ => false,
-        });
+        let slides_along = |joint: &&Component| joint.attachment.beams.iter().any(|beam| beam.value == *name);
+        let slider = document.joints.iter().find(slides_along);
         let (Some(slider), Some(beam)) = (slider.filter(|_| is_of_section), document.beam(name)) else {
             continue;
         };
@@ -189,20 +187,12 @@ fn part_of(node: &NodeReference) -> &str {
 fn free_parts(context: &Context<'_>, document: &Document) {
     let mut groups = Groups::default();
     for component in document.joints.iter().chain(&document.springs) {
-        if let Attachment::TwoNodes { base, tip, .. } | Attachment::TwoPlaces { base, tip, .. } =
-            &component.attachment
-        {
-            groups.join(part_of(&base.value), part_of(&tip.value));
+        let Attachment { nodes, beams, .. } = &component.attachment;
+        for pair in nodes.windows(2) {
+            groups.join(part_of(&pair[0].node.value), part_of(&pair[1].node.value));
         }
-        if let Attachment::AlongBeams { beams, tip, .. } = &component.attachment {
-            for beam in beams {
-                groups.join(&beam.value, part_of(&tip.value));
-            }
-        }
-        if let Attachment::Places(along, _) = &component.attachment {
-            for pair in along.windows(2) {
-                groups.join(part_of(&pair[0].0.value), part_of(&pair[1].0.value));
-            }
+        for (beam, own) in beams.iter().zip(nodes.iter().cycle()) {
+            groups.join(&beam.value, part_of(&own.node.value));
         }
     }
     for contact in &document.contacts {

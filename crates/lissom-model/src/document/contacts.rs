@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lissom_motion::Vector3;
 
-use super::components::two_nodes;
 use super::entries::each;
+use super::ports::two_nodes;
 use super::solids::shape;
 use super::tables::variants;
 use super::{Body, NodeReference, PointMass};
@@ -140,8 +140,7 @@ pub(super) fn contacts(
         _ => false,
     };
     each(context, "contacts", |reader, name| {
-        let (base, tip) = two_nodes(reader)?;
-        let between = [base, tip];
+        let between = two_nodes(reader)?;
         for part in &between {
             if !matches!(
                 part.value,

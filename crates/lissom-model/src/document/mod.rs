@@ -20,6 +20,7 @@ mod output_kinds;
 mod outputs;
 pub(crate) mod part_tables;
 mod places;
+mod ports;
 mod signals;
 mod solids;
 mod superelements;
@@ -31,6 +32,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::elements::superelement::ReducedMatrices;
+use lissom_core::ports::Ports;
 use lissom_core::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
 use nalgebra::DMatrix;
@@ -395,69 +397,35 @@ pub enum NodeReference {
 /// A joint, with the word of one of its coordinates, or with all of them.
 pub type CoordinateName = (Located<String>, Option<String>);
 
-/// Attachment of a joint, spring or load.
+/// A node, and a location on it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Attachment {
-    /// Two nodes at one location.
-    TwoNodes {
-        /// The node it starts from.
-        base: Located<NodeReference>,
-        /// The node it leads to.
-        tip: Located<NodeReference>,
-        /// Location at the start [m]; the tip node's position by default.
-        at: Vector3,
-        /// Direction at the start, global axes, not normalised.
-        axis: Option<Located<Vector3>>,
-        /// Second direction at the start, global axes, not parallel to the first, not normalised.
-        second_axis: Option<Located<Vector3>>,
-    },
-    /// Two nodes, each at its own location.
-    TwoPlaces {
-        /// The node it starts from.
-        base: Located<NodeReference>,
-        /// The node it leads to.
-        tip: Located<NodeReference>,
-        /// Location on the base at the start [m]; the node's position by default.
-        at_base: Vector3,
-        /// Location on the tip at the start [m]; the node's position by default.
-        at_tip: Vector3,
-    },
-    /// One node.
-    OneNode {
-        /// The node.
-        on: Located<NodeReference>,
-        /// Location at the start [m]; the node's position by default.
-        at: Vector3,
-    },
-    /// Positions one after the other: nodes, and locations on them at the start [m]; then coordinates of joints, if any.
-    Places(Vec<(Located<NodeReference>, Vector3)>, Vec<CoordinateName>),
-    /// The relative coordinate of a joint.
-    JointCoordinate {
-        /// Name of the joint.
-        joint: Located<String>,
-    },
-    /// Relative coordinates of two joints, or two of one.
-    JointCoordinates {
-        /// Name of the first joint.
-        joint: Located<String>,
-        /// Name of the other joint.
-        other: Located<String>,
-    },
-    /// The relative coordinates that its expression names.
-    NamedCoordinates,
-    /// Joints, each with the word of one of its coordinates, or with all of them.
-    Coordinates(Vec<CoordinateName>),
-    /// A chain of beams, and the node that slides along them.
-    AlongBeams {
-        /// Names of the beams.
-        beams: Vec<Located<String>>,
-        /// The node that slides.
-        tip: Located<NodeReference>,
-        /// Location at the start [m]; the tip node's position by default.
-        at: Vector3,
-    },
-    /// Nothing.
-    Nothing,
+pub struct NodeLocation {
+    /// The node.
+    pub node: Located<NodeReference>,
+    /// Location at the start [m]; none for that of the node.
+    pub at: Option<Vector3>,
+}
+
+/// What a joint, spring or load is attached to, in the order of the ports of its kind.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attachment {
+    /// Nodes, such as base and tip.
+    pub nodes: Vec<NodeLocation>,
+    /// Directions at the start, global axes, not normalised.
+    pub axes: Vec<Located<Vector3>>,
+    /// Coordinates of joints.
+    pub coordinates: Vec<CoordinateName>,
+    /// Names of beams.
+    pub beams: Vec<Located<String>>,
+}
+
+impl Attachment {
+    /// The names of the joints whose coordinates it acts on; adjacent ones of one joint once.
+    pub fn joints(&self) -> Vec<&str> {
+        let mut joints: Vec<&str> = self.coordinates.iter().map(|(joint, _)| joint.value.as_str()).collect();
+        joints.dedup();
+        joints
+    }
 }
 
 /// A joint, spring or load of a registered kind.
@@ -467,7 +435,9 @@ pub struct Component {
     pub name: Located<String>,
     /// Word of its kind.
     pub kind: Located<String>,
-    /// Its attachment.
+    /// The ports of its kind.
+    pub ports: Ports,
+    /// What it is attached to.
     pub attachment: Attachment,
     /// The parameters of its kind that were given.
     pub parameters: Parameters,

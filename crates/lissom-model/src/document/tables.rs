@@ -2,15 +2,12 @@
 
 use std::borrow::Cow;
 
-use lissom_core::kinematics::Quantity;
-use lissom_core::registry::ModelAxis;
-
 use super::analysis_tables::analyses;
 use super::output_kinds::{Feature, OutputKind, Subject};
 use super::part_tables::{initial, part, placed_in, superelement};
 use super::top_level::{Variant, Variants};
-use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
-use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
+use crate::keys::{Key, Shape, choice, of_parameter, of_port, optional, required};
+use crate::registry::{KindEntry, Registry};
 use crate::sections::{GENERAL, KINDS, NAMES};
 
 impl Variants {
@@ -193,18 +190,18 @@ fn kinds(table: &[KindEntry]) -> Vec<Variant> {
     let variant = |entry: &KindEntry| {
         let mut keys = vec![required("kind", Shape::Choice(Cow::Owned(words.clone())), "", "its kind")];
         keys.push(placed_in());
-        keys.extend(attachment(entry.acts_on));
+        keys.extend(entry.ports.0.iter().filter_map(of_port));
         keys.extend(entry.parameters.iter().map(of_parameter));
         Variant { word: entry.name, summary: entry.summary, keys }
     };
     table.iter().map(variant).collect()
 }
 
-/// Joints between two nodes may have friction.
+/// Joints may have friction, and different positions on base and tip.
 fn joints(table: &[KindEntry]) -> Vec<Variant> {
     let mut variants = kinds(table);
     for (variant, entry) in variants.iter_mut().zip(table) {
-        if !matches!(entry.acts_on, ActsOn::JointCoordinate(_) | ActsOn::Nothing) {
+        if entry.ports.may_have_friction() {
             let words = "friction on its only coordinate";
             variant.keys.push(optional("friction", Shape::Friction, "", words));
             let words = "latch that engages when its only coordinate first reaches the value `at`, and locks it there";
@@ -212,112 +209,9 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
             let words = "the latch releases when this expression rises through zero; without `latch` it is engaged from the start";
             variant.keys.push(optional("release", Shape::Formula, "", words));
         }
-        if let ActsOn::TwoNodes(rule) = entry.acts_on {
-            variant.keys.extend(super::assembly::keys_on_tip(rule));
-        }
+        variant.keys.extend(super::assembly::keys_on_tip(entry.ports));
     }
     variants
-}
-
-fn attachment(acts_on: ActsOn) -> Vec<Key> {
-    let nodes = || {
-        vec![
-            required("base", Shape::Node, "", "first node: \"ground\", \"body\", \"beam.end\" …"),
-            required("tip", Shape::Node, "", "second node"),
-        ]
-    };
-    let axis = |name, words| required(name, Shape::Direction, "", words);
-    match acts_on {
-        ActsOn::TwoNodes(rule) => {
-            let mut keys = nodes();
-            keys.push(optional("at", Shape::Place, "m", "location; default: the tip node's position"));
-            if rule == FrameRule::GivenOrGlobal {
-                let axis = |name, axis, words| optional(name, Shape::DirectionOr(axis), "", words);
-                let words = "direction of x at the start, global axes; default: global x";
-                keys.push(axis("axis", ModelAxis::X, words));
-                let words = "direction of y at the start, global axes; default: global y";
-                keys.push(axis("second_axis", ModelAxis::Y, words));
-            }
-            if matches!(rule, FrameRule::Axis | FrameRule::TwoAxes) {
-                keys.push(axis("axis", "direction at the start, global axes"));
-            }
-            if rule == FrameRule::TwoAxes {
-                keys.push(axis("second_axis", "second direction at the start, global axes"));
-            }
-            keys
-        }
-        ActsOn::TwoPlaces => {
-            let mut keys = nodes();
-            keys.push(optional(
-                "at_base",
-                Shape::Place,
-                "m",
-                "location on the base; default: the node's position",
-            ));
-            keys.push(optional(
-                "at_tip",
-                Shape::Place,
-                "m",
-                "location on the tip; default: the node's position",
-            ));
-            keys
-        }
-        ActsOn::Places => {
-            vec![
-                required(
-                    "along",
-                    Shape::Places,
-                    "m",
-                    "points over which it passes, from one end to the other",
-                ),
-                optional(
-                    "drums",
-                    Shape::Coordinates,
-                    "",
-                    "coordinates of joints that pay it out, such as \"drum.angle\"; the name of a joint stands for all its coordinates",
-                ),
-            ]
-        }
-        ActsOn::OneNode => vec![
-            required("on", Shape::Node, "", "node on which it acts"),
-            optional("at", Shape::Place, "m", "location; default: the node's position"),
-        ],
-        ActsOn::JointCoordinate(quantity) => {
-            let words = match quantity {
-                Quantity::Angle => "the joint whose relative rotation it acts on",
-                Quantity::Length | Quantity::State => "the joint whose relative displacement it acts on",
-            };
-            vec![required("joint", Shape::Name("joints"), "", words)]
-        }
-        ActsOn::NamedCoordinates | ActsOn::Nothing => Vec::new(),
-        ActsOn::AlongBeams => vec![
-            required(
-                "beams",
-                Shape::Names,
-                "",
-                "beams along which it slides; each starts at the end of the previous one",
-            ),
-            required("tip", Shape::Node, "", "the node that slides"),
-            optional(
-                "at",
-                Shape::Place,
-                "m",
-                "location on the beam at the start; default: the tip node's position",
-            ),
-        ],
-        ActsOn::Coordinates => vec![required(
-            "coordinates",
-            Shape::Coordinates,
-            "",
-            "coordinates on which it acts, such as \"arm.angle\", in the order of its matrices; the name of a joint stands for all its coordinates",
-        )],
-        ActsOn::TwoJointCoordinates => {
-            vec![
-                required("joint", Shape::Name("joints"), "", "joint with the independent coordinate"),
-                required("other", Shape::Name("joints"), "", "joint with the dependent coordinate"),
-            ]
-        }
-    }
 }
 
 fn state() -> Vec<Key> {

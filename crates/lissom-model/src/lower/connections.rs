@@ -1,21 +1,20 @@
 //! Joints, drives, springs and loads, by way of the registry.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
-use lissom_core::joints::{self, Build, JointKind};
-use lissom_core::kinematics::{CoordinateId, NodeId, Quantity, Subject};
+use lissom_core::joints::{self, JointKind};
+use lissom_core::kinematics::{Quantity, Subject};
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_core::signals::Argument;
-use lissom_core::signals::coordinate::Of;
-use lissom_core::system::{Builder, PlaceOnTip, Placement};
-use lissom_motion::Vector3;
+use lissom_core::system::{Builder, JointAttachment, PlaceOnTip};
 
 use super::order::by_name;
-use super::{Names, parameter_problem};
-use crate::document::{Attachment, Component, CoordinateName, Document, NodeReference, OnTip};
+use super::{Names, parameter_problem, ports};
+use crate::document::{Component, Document, NodeLocation, OnTip};
 use crate::functions::Ramp;
-use crate::report::{Located, Problem};
+use crate::report::Problem;
 
 /// Adds all connections: joints between nodes first, then drives of their coordinates, then relations between them.
 pub(super) fn add(
@@ -25,26 +24,17 @@ pub(super) fn add(
     problems: &mut Vec<Problem>,
 ) {
     let sorted_joints = by_name(&document.joints, |component| &component.name.value);
-    for order in 0..3 {
-        for &component in &sorted_joints {
-            let Some(kind) = joints::KINDS.iter().find(|kind| kind.name == component.kind.value) else {
-                problems.push(unknown_kind(component));
-                continue;
-            };
-            let own = match kind.build {
-                Build::Relative(..) | Build::Motion | Build::Free(_) | Build::AlongBeams => 0,
-                Build::Coordinate(..) => 1,
-                Build::Coupling(..) => 2,
-            };
-            if own == order {
-                name_functions("joint", component, builder);
-            }
-            if own == order
-                && let Err(problem) = joint(document, (component, kind), builder, names)
-            {
-                problems.push(problem);
-            }
+    let mut known: Vec<(&Component, &JointKind)> = Vec::new();
+    for &component in &sorted_joints {
+        match joints::KINDS.iter().find(|kind| kind.name == component.kind.value) {
+            Some(kind) => known.push((component, kind)),
+            None => problems.push(unknown_kind(component)),
         }
+    }
+    known.sort_by_key(|(_, kind)| kind.ports.level());
+    for (component, kind) in known {
+        name_functions("joint", component, builder);
+        problems.extend(joint(document, (component, kind), builder, names).err());
     }
     super::signals::add(document, builder, names, problems);
     if !problems.is_empty() {
@@ -103,72 +93,33 @@ fn joint(
     names: &mut Names,
 ) -> Result<(), Problem> {
     let name = &component.name.value;
-    let fault = |error| parameter_problem(component, &error);
-    let placement = match &component.attachment {
-        Attachment::JointCoordinate { joint } => {
-            let wanted = match kind.build {
-                Build::Coordinate(wanted, _) => wanted,
-                _ => Quantity::Angle,
-            };
-            let coordinate = coordinate(component, joint, wanted, builder, names)?;
-            builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
-            names.coordinates.insert(name.clone(), vec![coordinate]);
-            return Ok(());
-        }
-        Attachment::TwoNodes { base, tip, at, axis, second_axis } => Placement {
-            nodes: [names.node(base)?, names.node(tip)?],
-            at: *at,
-            at_tip: None,
-            axis: axis.as_ref().map(|axis| axis.value),
-            second_axis: second_axis.as_ref().map(|axis| axis.value),
-        },
-        Attachment::TwoPlaces { base, tip, at_base, at_tip } => Placement {
-            nodes: [names.node(base)?, names.node(tip)?],
-            at: *at_base,
-            at_tip: Some(*at_tip),
-            axis: None,
-            second_axis: None,
-        },
-        Attachment::AlongBeams { beams, tip, at } => {
-            return super::sliders::add(document, component, (beams, tip, at), (builder, names));
-        }
-        Attachment::Nothing => {
-            let coordinates =
-                builder.add_free_coordinates(name, kind, &component.parameters).map_err(fault)?;
-            names.coordinates.insert(name.clone(), coordinates);
-            return Ok(());
-        }
-        Attachment::Places(..) | Attachment::Coordinates(_) => {
-            let message = format!("joint `{name}` joins two nodes, not positions");
-            return Err(Problem::error(component.name.span, message));
-        }
-        Attachment::OneNode { on, .. } => {
-            return Err(Problem::error(on.span, format!("joint `{name}` needs two nodes")));
-        }
-        Attachment::JointCoordinates { .. } | Attachment::NamedCoordinates => {
-            return super::couplings::add(document, (component, kind), builder, names);
-        }
+    let (coordinates, parameters) = match super::couplings::equation(document, component, builder, names)? {
+        Some((coordinates, parameters)) => (coordinates, Cow::Owned(parameters)),
+        None => (ports::coordinates(component, builder, names)?, Cow::Borrowed(&component.parameters)),
     };
-    if placement.nodes[0] == placement.nodes[1] {
+    let node = |own: &NodeLocation| Ok((names.node(&own.node)?, own.at));
+    let nodes = component.attachment.nodes.iter().map(node).collect::<Result<Vec<_>, Problem>>()?;
+    if let [(base, _), (tip, _)] = nodes[..]
+        && base == tip
+    {
         return Err(Problem::error(component.name.span, format!("joint `{name}` joins a node with itself"))
             .help("beams that share a node are joined already"));
     }
     let on_tip = component.on_tip.as_ref().map(|place| &place.value);
-    let on_tip = on_tip.map(|&OnTip { at, axis, second_axis }| PlaceOnTip { at, axis, second_axis });
-    let placed = (&placement, on_tip.as_ref());
-    let parameters = &component.parameters;
-    let added = match kind.build {
-        Build::Motion if on_tip.is_some() => {
-            let message = format!("the motion `{name}` begins where the parts are placed");
-            return Err(
-                Problem::error(component.name.span, message).help("leave out what is said of the tip")
-            );
-        }
-        Build::Motion => builder.add_motion(name, &placement, parameters),
-        _ => builder.add_joint_apart(name, kind, placed, parameters),
+    let attachment = JointAttachment {
+        nodes,
+        axes: component.attachment.axes.iter().map(|axis| axis.value).collect(),
+        on_tip: on_tip.map(|&OnTip { at, axis, second_axis }| PlaceOnTip { at, axis, second_axis }),
+        coordinates,
+        beams: ports::beam_chain(document, component, builder, names)?,
     };
-    let coordinates = added.map_err(fault)?;
-    names.coordinates.insert(name.clone(), coordinates);
+    let added = builder
+        .add_joint_of_kind(name, kind, attachment, &parameters)
+        .map_err(|error| parameter_problem(component, &error))?;
+    // A relation has no coordinates.
+    if !kind.ports.relate_coordinates() {
+        names.coordinates.insert(name.clone(), added);
+    }
     Ok(())
 }
 
@@ -187,100 +138,14 @@ fn friction(component: &Component, builder: &mut Builder, names: &mut Names) -> 
     };
     let wanted = builder.coordinate_quantity(*coordinate);
     let kinds = [elements::friction::TORSIONAL, elements::friction::AXIAL];
-    let Some(kind) = kinds.iter().find(|kind| kind.attachment == elements::Attachment::Coordinate(wanted))
-    else {
+    let Some(kind) = kinds.iter().find(|kind| kind.ports.quantity() == Some(wanted)) else {
         return Err(Problem::error(friction.span, format!("joint `{name}` can have no friction")));
     };
     let element = builder
-        .add_of_kind(kind, Attached::Coordinate(*coordinate), &friction.value)
+        .add_of_kind(kind, Attached::to_coordinates([*coordinate]), &friction.value)
         .map_err(|error| Problem::error(friction.span, format!("friction of joint `{name}`: {error}")))?;
     names.powers.extend(element.map(|element| (name.clone(), element)));
     Ok(())
-}
-
-/// Joint coordinate on which a drive or a spring acts: the specified one, or the first of the required kind.
-fn coordinate(
-    component: &Component,
-    joint: &Located<String>,
-    wanted: Quantity,
-    builder: &Builder,
-    names: &Names,
-) -> Result<CoordinateId, Problem> {
-    let coordinates = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
-    let fits = |coordinate: &CoordinateId| builder.coordinate_quantity(*coordinate) == wanted;
-    let Some(first) = coordinates.iter().position(fits) else {
-        let message = format!("joint `{}` has no relative {}", joint.value, wanted.relative());
-        let kinds = match wanted {
-            Quantity::Angle => {
-                "a revolute, universal, swing_arm, cylindrical, screw, planar or parallel_axes joint"
-            }
-            Quantity::Length | Quantity::State => {
-                "a prismatic, cylindrical or point_on_line joint, or generalized coordinates"
-            }
-        };
-        return Err(Problem::error(joint.span, message)
-            .label("nothing to act on")
-            .help(format!("name {kinds}")));
-    };
-    let number = component
-        .parameters
-        .number_or("coordinate", (first + 1) as f64)
-        .map_err(|error| parameter_problem(component, &error))?;
-    numbered(component, joint, ("coordinate", number), coordinates)
-}
-
-/// The coordinate of a joint that the number of a key means, counted from 1 on.
-pub(super) fn numbered(
-    component: &Component,
-    joint: &Located<String>,
-    (key, number): (&str, f64),
-    coordinates: &[CoordinateId],
-) -> Result<CoordinateId, Problem> {
-    let index = number as usize;
-    if index as f64 != number || index == 0 || index > coordinates.len() {
-        let message = format!("joint `{}` has no coordinate {number}", joint.value);
-        return Err(Problem::error(component.span_of(key), message)
-            .help(format!("give a whole number from 1 to {}", coordinates.len())));
-    }
-    Ok(coordinates[index - 1])
-}
-
-/// The coordinates that a list of joints and of coordinates of joints means.
-fn all_of(
-    component: &Component,
-    listed: &[CoordinateName],
-    builder: &Builder,
-    names: &Names,
-) -> Result<Vec<CoordinateId>, Problem> {
-    let mut all: Vec<CoordinateId> = Vec::new();
-    for (joint, word) in listed {
-        let own = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
-        let components = super::signals::relative_components(own, builder);
-        let found: Vec<CoordinateId> = match word {
-            None => own.to_vec(),
-            Some(word) => {
-                let named = components.iter().filter(|(known, _, of)| known == word && *of == Of::Value);
-                named.map(|(_, coordinate, _)| *coordinate).collect()
-            }
-        };
-        if found.is_empty() {
-            let values = components.iter().filter(|(.., of)| *of == Of::Value);
-            let known: Vec<&str> = values.map(|(known, ..)| known.as_str()).collect();
-            let message = match word {
-                Some(word) => format!("joint `{}` has no coordinate `{word}`", joint.value),
-                None => format!("joint `{}` has no relative coordinate", joint.value),
-            };
-            let help = (!known.is_empty()).then(|| format!("it has {}", known.join(", ")));
-            return Err(Problem::error(joint.span, message).maybe_help(help));
-        }
-        if let Some(twice) = found.iter().find(|coordinate| all.contains(coordinate)) {
-            let name = builder.coordinate_name(*twice);
-            let message = format!("`{}` names the coordinate `{name}` twice", component.name.value);
-            return Err(Problem::error(joint.span, message).help("name each coordinate once"));
-        }
-        all.extend(found);
-    }
-    Ok(all)
 }
 
 fn element(
@@ -289,50 +154,8 @@ fn element(
     (builder, names): (&mut Builder, &mut Names),
     ramp: Option<(f64, f64)>,
 ) -> Result<(), Problem> {
-    let local = |builder: &Builder, node: NodeId, place: &Vector3| {
-        builder.initial_frame(node).inverse_transform_point(place)
-    };
-    let attached = match &component.attachment {
-        Attachment::OneNode { on, at } => {
-            let node = names.node(on)?;
-            Attached::OneNode(node, local(builder, node, at))
-        }
-        Attachment::Places(along, drums) => {
-            let place = |(on, at): &(Located<NodeReference>, Vector3)| {
-                let node = names.node(on)?;
-                Ok((node, local(builder, node, at)))
-            };
-            let places = along.iter().map(place).collect::<Result<_, Problem>>()?;
-            Attached::Places(places, all_of(component, drums, builder, names)?)
-        }
-        Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
-            let nodes = [names.node(base)?, names.node(tip)?];
-            Attached::TwoNodes(nodes, [local(builder, nodes[0], at_base), local(builder, nodes[1], at_tip)])
-        }
-        Attachment::TwoNodes { base, tip, at, .. } => {
-            let nodes = [names.node(base)?, names.node(tip)?];
-            Attached::TwoNodes(nodes, nodes.map(|node| local(builder, node, at)))
-        }
-        Attachment::JointCoordinates { joint: on, .. } => {
-            return Err(Problem::error(
-                on.span,
-                format!("`{}` acts on one coordinate", component.name.value),
-            ));
-        }
-        Attachment::Coordinates(listed) => Attached::Coordinates(all_of(component, listed, builder, names)?),
-        Attachment::NamedCoordinates | Attachment::Nothing | Attachment::AlongBeams { .. } => {
-            let message = format!("`{}` acts on nothing", component.name.value);
-            return Err(Problem::error(component.name.span, message));
-        }
-        Attachment::JointCoordinate { joint } => {
-            let wanted = match kind.attachment {
-                elements::Attachment::Coordinate(wanted) => wanted,
-                _ => Quantity::Angle,
-            };
-            Attached::Coordinate(coordinate(component, joint, wanted, builder, names)?)
-        }
-    };
-    let coordinate = if let Attached::Coordinate(coordinate) = attached { Some(coordinate) } else { None };
+    let attached = ports::attached(component, builder, names)?;
+    let coordinate = kind.ports.quantity().and_then(|_| attached.coordinates.first().copied());
     // A size that depends on the motion is no constant load.
     let ramp = ramp.filter(|_| component.signal.is_none());
     let ramped = ramp.and_then(|span| ramped(kind, &component.parameters, span));
@@ -357,10 +180,7 @@ fn element(
     names.powers.extend(element.map(|element| (component.name.value.clone(), element)));
     names.actuators.extend(coordinate.filter(|_| !is_spring).map(|coordinate| (coordinate, element)));
     if let Some(element) = element.filter(|_| is_spring) {
-        let quantity = match kind.attachment {
-            elements::Attachment::Coordinate(quantity) => quantity,
-            _ => Quantity::Length,
-        };
+        let quantity = kind.ports.quantity().unwrap_or(Quantity::Length);
         names.springs.insert(component.name.value.clone(), (element, quantity));
     }
     Ok(())

@@ -3,18 +3,17 @@
 use std::sync::Arc;
 
 use lissom_core::joints::Constraint as _;
-use lissom_core::joints::JointKind;
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::Value;
+use lissom_core::registry::{Parameters, Value};
 use lissom_core::relation::{MAX_COUPLED, Relation, RelationPoint};
 use lissom_core::signals::SignalFunction as _;
 use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{Builder, State, System};
 
+use super::Names;
 use super::signals::relative_components;
-use super::{Names, parameter_problem};
-use crate::document::{Attachment, Component, Document};
+use crate::document::{Component, Document};
 use crate::expression::{Formula, Kink, Name};
 use crate::report::{Located, Problem};
 use crate::suggest;
@@ -58,49 +57,38 @@ impl Relation for Equation {
     }
 }
 
-/// Adds a relation.
-pub(super) fn add(
+/// The coordinates that the expression of a component names, and its parameters with the relation between them; none if it
+/// names no coordinates.
+pub(super) fn equation(
     document: &Document,
-    (component, kind): (&Component, &JointKind),
-    builder: &mut Builder,
-    names: &mut Names,
-) -> Result<(), Problem> {
-    let name = &component.name.value;
-    let fault = |error| parameter_problem(component, &error);
-    let mut parameters = component.parameters.clone();
-    let coordinates = match (&component.attachment, &component.signal) {
-        (Attachment::JointCoordinates { joint, other }, _) => {
-            let first = only(component, joint, "coordinate", names)?;
-            vec![first, only(component, other, "other_coordinate", names)?]
-        }
-        (_, Some((key, formula))) => {
-            let mut coordinates = Vec::new();
-            let mut arguments = Vec::new();
-            for argument in formula.value.arguments() {
-                let coordinate = named(document, (component, formula), argument, builder, names)?;
-                let known = coordinates.iter().position(|&known| known == coordinate);
-                arguments.push(known.unwrap_or(coordinates.len()));
-                if known.is_none() {
-                    coordinates.push(coordinate);
-                }
-            }
-            if let Some(kink) = formula.value.first_kink() {
-                return Err(kinked(name, formula, &kink));
-            }
-            let relation: Arc<dyn Relation> =
-                Arc::new(Equation { formula: formula.value.clone(), arguments });
-            parameters.insert(key, Value::Relation(relation));
-            coordinates
-        }
-        _ => return Err(Problem::error(component.name.span, format!("`{name}` relates no coordinates"))),
+    component: &Component,
+    builder: &Builder,
+    names: &Names,
+) -> Result<Option<(Vec<CoordinateId>, Parameters)>, Problem> {
+    let (true, Some((key, formula))) = (component.ports.name_coordinates(), &component.signal) else {
+        return Ok(None);
     };
+    let name = &component.name.value;
+    let (mut coordinates, mut arguments) = (Vec::new(), Vec::new());
+    for argument in formula.value.arguments() {
+        let coordinate = named(document, (component, formula), argument, builder, names)?;
+        let known = coordinates.iter().position(|&known| known == coordinate);
+        arguments.push(known.unwrap_or(coordinates.len()));
+        if known.is_none() {
+            coordinates.push(coordinate);
+        }
+    }
+    if let Some(kink) = formula.value.first_kink() {
+        return Err(kinked(name, formula, &kink));
+    }
     if coordinates.is_empty() || coordinates.len() > MAX_COUPLED {
-        let span = component.span_of("equation");
         let message = format!("equation `{name}` names {} coordinates of joints", coordinates.len());
-        return Err(Problem::error(span, message)
+        return Err(Problem::error(component.span_of(key), message)
             .help(format!("name at least one and at most {MAX_COUPLED}, such as `arm.angle`")));
     }
-    builder.add_coupling(name, kind, &coordinates, &parameters).map_err(fault)
+    let relation: Arc<dyn Relation> = Arc::new(Equation { formula: formula.value.clone(), arguments });
+    let parameters = component.parameters.clone().with(key, Value::Relation(relation));
+    Ok(Some((coordinates, parameters)))
 }
 
 /// An equation that is not smooth: velocities would jump without an impact, and energy would vanish.
@@ -119,32 +107,6 @@ fn kinked(name: &str, formula: &Located<Formula>, kink: &Kink) -> Problem {
     Problem::error(formula.span, format!("the relation `{name}` has a kink{at}"))
         .label("velocities would jump")
         .help("use a smooth function, such as `smoothstep` or a cam with a spline table; for stops and one-sided contact, springs")
-}
-
-/// The only coordinate of a joint, or the one specified by `key`.
-fn only(
-    component: &Component,
-    joint: &Located<String>,
-    key: &str,
-    names: &Names,
-) -> Result<CoordinateId, Problem> {
-    let coordinates = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
-    if coordinates.is_empty() {
-        let message = format!("joint `{}` has no relative coordinate", joint.value);
-        return Err(Problem::error(joint.span, message)
-            .label("nothing to relate")
-            .help("name a joint that has one, such as a revolute, screw, cylindrical or prismatic joint"));
-    }
-    if !component.parameters.has(key) {
-        if coordinates.len() == 1 {
-            return Ok(coordinates[0]);
-        }
-        let message = format!("joint `{}` has {} coordinates", joint.value, coordinates.len());
-        let help = format!("give `{key}`, a whole number from 1 to {}", coordinates.len());
-        return Err(Problem::error(joint.span, message).label("which one?").help(help));
-    }
-    let number = component.parameters.number(key).map_err(|error| parameter_problem(component, &error))?;
-    super::connections::numbered(component, joint, (key, number), coordinates)
 }
 
 /// The coordinate that an expression names.

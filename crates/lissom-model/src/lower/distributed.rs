@@ -55,7 +55,7 @@ pub(super) fn add(
                     .with("vector", Value::Vector(vector))
                     .with("scale", Value::Function(scale))
                     .with("follower", Value::Flag(distributed.axes.is_none()));
-                let attached = Attached::OneNode(line.nodes[k], line.offsets[k].position);
+                let attached = Attached::to_nodes([(line.nodes[k], line.offsets[k].position)]);
                 builder
                     .add_of_kind(&force::KIND, attached, &parameters)
                     .map_err(|error| Problem::error(distributed.span, error.to_string()))?;

@@ -39,15 +39,14 @@ pub(super) fn add(
     };
     let wanted = builder.coordinate_quantity(coordinate);
     let kinds = [elements::latch::TORSIONAL, elements::latch::AXIAL];
-    let Some(kind) = kinds.iter().find(|kind| kind.attachment == elements::Attachment::Coordinate(wanted))
-    else {
+    let Some(kind) = kinds.iter().find(|kind| kind.ports.quantity() == Some(wanted)) else {
         return Err(Problem::error(span, format!("joint `{name}` can have no latch")));
     };
     let start = if component.latch.is_some() { 0.0 } else { 1.0 };
     let engaged = builder.add_held(&format!("{name}, latched"), start);
     let fault = |error| Problem::error(span, format!("latch of joint `{name}`: {error}"));
     let parameters = Parameters::new().with("engaged", Value::Input(engaged));
-    builder.add_of_kind(kind, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
+    builder.add_of_kind(kind, Attached::to_coordinates([coordinate]), &parameters).map_err(fault)?;
     // A released latch does not engage again, although its coordinate starts from the position at which it was locked.
     let released = builder.add_held(&format!("{name}, released"), 0.0);
     let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {

@@ -11,12 +11,12 @@ mod latches;
 mod measurements;
 mod order;
 mod parts;
+mod ports;
 mod readings;
 mod redundancy;
 pub mod registry;
 mod resource_limits;
 mod signals;
-mod sliders;
 mod straight_line;
 mod superelements;
 

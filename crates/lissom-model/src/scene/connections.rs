@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::symbols::attached;
 use super::{Anchor, Places, part_of};
-use crate::document::{Attachment, Component, Document};
+use crate::document::{Component, Document, NodeLocation};
 
 /// Instants at which the size of a load is sampled, less one.
 const SAMPLES: u32 = 240;
@@ -85,14 +85,10 @@ pub struct BeamLoad {
 pub(super) fn joints(document: &Document, places: &Places<'_>) -> Vec<Joint> {
     let drawn = |component: &Component| {
         let (parts, anchors) = attached(component, places)?;
-        let axes = match &component.attachment {
-            Attachment::TwoNodes { base, axis, second_axis, .. } => {
-                let node = places.node(&base.value)?;
-                let given = [axis, second_axis];
-                given.into_iter().flatten().map(|axis| places.direction(node, &axis.value)).collect()
-            }
-            _ => Vec::new(),
-        };
+        let mut axes = Vec::new();
+        for axis in &component.attachment.axes {
+            axes.push(places.direction(places.node(&component.attachment.nodes[0].node.value)?, &axis.value));
+        }
         let (name, kind) = (component.name.value.clone(), component.kind.value.clone());
         Some(Joint { name, kind, parts, anchors, axes, joint: joint_of(component) })
     };
@@ -122,7 +118,9 @@ fn cable(component: &Component, places: &Places<'_>, anchors: Option<[Anchor; 2]
 pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
     let (start, end) = (document.analysis.start, document.analysis.end);
     let drawn = |component: &Component| {
-        let Attachment::OneNode { on, at } = &component.attachment else { return None };
+        let [NodeLocation { node: on, at: Some(at) }] = component.attachment.nodes.as_slice() else {
+            return None;
+        };
         // How large it is depends on the motion: no arrow rather than a wrong one.
         if component.signal.is_some() {
             return None;
@@ -192,9 +190,8 @@ pub(super) fn beam_loads(document: &Document, places: &Places<'_>) -> Vec<BeamLo
     found
 }
 
+/// The joint on whose coordinate a drive, spring or load acts.
 fn joint_of(component: &Component) -> Option<String> {
-    match &component.attachment {
-        Attachment::JointCoordinate { joint } => Some(joint.value.clone()),
-        _ => None,
-    }
+    component.ports.quantity()?;
+    component.attachment.coordinates.first().map(|(joint, _)| joint.value.clone())
 }

@@ -5,7 +5,7 @@ use lissom_motion::Vector3;
 use super::solids::{Axes, Form, Solid, Tone};
 use super::symbols::{End, joint_ends};
 use super::{Anchor, Places};
-use crate::document::{Attachment, Component, Document};
+use crate::document::{Component, Document};
 
 /// Number of slices of a profile.
 const SLICES: i32 = 8;
@@ -50,7 +50,7 @@ fn disc(
         Ok(normal) => normal.normalize(),
         Err(_) => global(places, base, &normal.0[0]),
     };
-    let Attachment::TwoNodes { at, .. } = component.attachment else {
+    let Some(at) = component.attachment.nodes[0].at.filter(|_| component.ports.have_one_location()) else {
         let radius = parameters.number("radius").ok()?;
         return Some(vec![(*wheel, wheel_solids(axes, radius + rim, tube))]);
     };
@@ -143,7 +143,7 @@ fn gears(
     document: &Document,
     places: &Places<'_>,
 ) -> Option<Vec<(Anchor, Vec<Solid>)>> {
-    let Attachment::JointCoordinates { joint, other } = &component.attachment else { return None };
+    let [(joint, _), (other, _)] = component.attachment.coordinates.as_slice() else { return None };
     let of = |name: &str| {
         let turns = |joint: &&Component| {
             joint.name.value == name && matches!(joint.kind.value.as_str(), "revolute" | "cylindrical")
@@ -183,7 +183,6 @@ fn drums(
     document: &Document,
     places: &Places<'_>,
 ) -> Option<Vec<(Anchor, Vec<Solid>)>> {
-    let Attachment::Places(_, drums) = &component.attachment else { return None };
     let radii = component.parameters.numbers("drum_radii").ok()?;
     let drum = |(name, radius): (&str, &f64)| {
         let joint = document.joints.iter().find(|joint| joint.name.value == name)?;
@@ -192,7 +191,8 @@ fn drums(
         let bar = axes.block([1.6 * radius, 1.02 * radius, 0.15 * radius], [0.0; 3], Tone::Light);
         Some((anchor, vec![axes.cylinder(0, radius, radius, Tone::Dark), bar]))
     };
-    Some(drums.iter().map(|(drum, _)| drum.value.as_str()).zip(radii).filter_map(drum).collect())
+    let drums = component.attachment.coordinates.iter();
+    Some(drums.map(|(drum, _)| drum.value.as_str()).zip(radii).filter_map(drum).collect())
 }
 
 fn position(places: &Places<'_>, anchor: &Anchor) -> Vector3 {

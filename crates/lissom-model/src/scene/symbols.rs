@@ -7,7 +7,7 @@ use super::kinds::{Drawn, drawn};
 use super::shapes::Outline;
 use super::solids::{Axes, Solid};
 use super::{Anchor, Places, dimensions, part_of};
-use crate::document::{Attachment, Component, Document, NodeReference};
+use crate::document::{Attachment, Component, Document, NodeLocation, NodeReference};
 use crate::report::Located;
 use lissom_core::kinematics::{GROUND, NodeId};
 
@@ -60,9 +60,9 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
         // A relation of several coordinates has its sign at each of them.
         let of_others = if tip.is_empty() { &base } else { &tip };
         for (index, (anchor, _)) in ends.iter().enumerate() {
-            let solids = match (&component.attachment, index) {
-                (Attachment::NamedCoordinates | Attachment::Coordinates(_), _) | (_, 0) => &base,
-                (Attachment::JointCoordinates { .. }, _) => of_others,
+            let solids = match index {
+                0 => &base,
+                _ if component.attachment.nodes.is_empty() => of_others,
                 _ => &tip,
             };
             if is_symbol && !solids.is_empty() {
@@ -96,68 +96,46 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             Some((anchor, Axes::of(&carried(first), second.map(carried).as_ref())))
         };
     let given = |key: &str| component.parameters.vector(key).ok();
-    match &component.attachment {
-        Attachment::TwoNodes { base, tip, at, axis, second_axis } => {
-            let second = second_axis.as_ref().map(|axis| axis.value);
-            // Without an axis that matters, that of the first base axis or of the model.
-            let first = axis.as_ref().map_or_else(Vector3::y, |axis| axis.value);
-            let on_tip =
-                given("tip_axis").or_else(|| given("wheel_axis")).or_else(|| given("axle")).unwrap_or(first);
-            let at_tip = match component.kind.value.as_str() {
-                // The arm connects the hinge to the tip's position, which is also the centre of a wheel.
-                "swing_arm" | "rolling" => places.frame(places.node(&tip.value)?).position,
-                // A wheel of a wheelset is beside the tip's position, outwards along the axle.
-                "wheel_on_rail" => {
-                    let centre = places.frame(places.node(&tip.value)?).position;
-                    let outwards = on_tip.normalize() * on_tip.dot(&first).signum();
-                    let above = (at - centre).dot(&outwards);
-                    centre + component.parameters.number_or("offset", above).ok()? * outwards
-                }
-                _ => *at,
-            };
-            Some(vec![end(base, at, &first, second.as_ref())?, end(tip, &at_tip, &on_tip, second.as_ref())?])
+    let Attachment { nodes, axes, coordinates, .. } = &component.attachment;
+    // What has neither nodes nor coordinates of joints with nodes has no position.
+    if nodes.is_empty() {
+        let mut joints: Vec<&str> = coordinates.iter().map(|(joint, _)| joint.value.as_str()).collect();
+        let of_joint = |joint: &&str| of_joint(joint, document, places);
+        if component.ports.joints() > 0 {
+            return joints.iter().map(of_joint).collect();
         }
-        Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
-            let first = given("axis").unwrap_or_else(Vector3::x);
-            let second = given("second_axis");
-            let on_tip = given("wheel_axis").unwrap_or(first);
-            Some(vec![
-                end(base, at_base, &first, second.as_ref())?,
-                end(tip, at_tip, &on_tip, second.as_ref())?,
-            ])
-        }
-        Attachment::OneNode { on, at } => {
-            Some(vec![end(on, at, &given("axis").unwrap_or_else(Vector3::z), None)?])
-        }
-        Attachment::Places(along, _) => {
-            along.iter().map(|(on, at)| end(on, at, &Vector3::z(), None)).collect()
-        }
-        Attachment::JointCoordinate { joint } => Some(vec![of_joint(&joint.value, document, places)?]),
-        Attachment::JointCoordinates { joint, other } => {
-            let of = |name: &Located<String>| of_joint(&name.value, document, places);
-            Some(vec![of(joint)?, of(other)?])
-        }
-        Attachment::AlongBeams { tip, at, .. } => Some(vec![end(tip, at, &Vector3::z(), None)?]),
-        // Elements without a position are not drawn.
-        Attachment::Nothing => None,
-        Attachment::Coordinates(coordinates) => {
-            let mut joints: Vec<&str> = coordinates.iter().map(|(joint, _)| joint.value.as_str()).collect();
-            joints.dedup();
-            let found: Vec<End> =
-                joints.iter().filter_map(|joint| of_joint(joint, document, places)).collect();
-            (!found.is_empty()).then_some(found)
-        }
-        Attachment::NamedCoordinates => {
-            let (_, formula) = component.signal.as_ref()?;
-            let mut joints: Vec<&str> = (formula.value.arguments().iter())
-                .filter_map(|name| Some(name.text.rsplit_once('.')?.0))
-                .collect();
-            joints.dedup();
-            let found: Vec<End> =
-                joints.iter().filter_map(|joint| of_joint(joint, document, places)).collect();
-            (!found.is_empty()).then_some(found)
-        }
+        joints.dedup();
+        let found: Vec<End> = joints.iter().filter_map(of_joint).collect();
+        return (!found.is_empty()).then_some(found);
     }
+    // Without an axis that matters, one that depends on the number of locations.
+    let fallback = match (component.ports.connect_two_nodes(), component.ports.locations()) {
+        (true, 1) => Vector3::y(),
+        (true, _) => Vector3::x(),
+        (false, _) => Vector3::z(),
+    };
+    let axis = |index: usize, key| axes.get(index).map(|axis| axis.value).or_else(|| given(key));
+    let first = axis(0, "axis").unwrap_or(fallback);
+    let second = axis(1, "second_axis");
+    let on_tip = ["tip_axis", "wheel_axis", "axle"].into_iter().find_map(given).unwrap_or(first);
+    let mut all = Vec::new();
+    for (index, own) in nodes.iter().enumerate() {
+        let direction = if index == 0 { first } else { on_tip };
+        let own_position = || Some(places.frame(places.node(&own.node.value)?).position);
+        let at = match own.at {
+            // A wheel of a wheelset is beside the tip's position, outwards along the axle.
+            Some(at) if component.kind.value == "wheel_on_rail" && index > 0 => {
+                let centre = own_position()?;
+                let outwards = on_tip.normalize() * on_tip.dot(&first).signum();
+                let above = (at - centre).dot(&outwards);
+                centre + component.parameters.number_or("offset", above).ok()? * outwards
+            }
+            Some(at) => at,
+            None => own_position()?,
+        };
+        all.push(end(&own.node, &at, &direction, second.as_ref())?);
+    }
+    Some(all)
 }
 
 /// The base's position and axes of the joint called `name`.
@@ -168,10 +146,7 @@ fn of_joint(name: &str, document: &Document, places: &Places<'_>) -> Option<End>
 
 /// Positions and axes of a joint on its base and its tip; none for other constraints.
 pub(super) fn joint_ends(joint: &Component, document: &Document, places: &Places<'_>) -> Option<Vec<End>> {
-    match &joint.attachment {
-        Attachment::TwoNodes { .. } | Attachment::TwoPlaces { .. } => ends(joint, document, places),
-        _ => None,
-    }
+    if joint.ports.connect_two_nodes() { ends(joint, document, places) } else { None }
 }
 
 /// Half the thickness of the thickest beam that ends at a node.
@@ -197,21 +172,16 @@ pub(super) fn attached(
     component: &Component,
     places: &Places<'_>,
 ) -> Option<(Vec<String>, Option<[Anchor; 2]>)> {
-    let (base, tip, at_base, at_tip) = match &component.attachment {
-        Attachment::TwoNodes { base, tip, at, .. } if component.kind.value == "swing_arm" => {
-            // The arm leads from the hinge to the tip's own position.
-            (base, tip, *at, places.frame(places.node(&tip.value)?).position)
-        }
-        Attachment::TwoNodes { base, tip, at, .. } if component.kind.value == "rolling" => {
-            // A point of the plane, and the centre of the wheel.
-            (base, tip, *at, places.frame(places.node(&tip.value)?).position)
-        }
-        Attachment::TwoNodes { base, tip, at, .. } => (base, tip, *at, *at),
-        Attachment::TwoPlaces { base, tip, at_base, at_tip } => (base, tip, *at_base, *at_tip),
-        _ => return Some((Vec::new(), None)),
+    let (true, [base, tip]) = (component.ports.connect_two_nodes(), component.attachment.nodes.as_slice())
+    else {
+        return Some((Vec::new(), None));
     };
-    let names = [base, tip].map(|end| part_of(&end.value).to_owned());
-    Some((names.into(), Some([places.anchor(base, &at_base)?, places.anchor(tip, &at_tip)?])))
+    let names = [base, tip].map(|end| part_of(&end.node.value).to_owned());
+    let anchor = |own: &NodeLocation| {
+        let at = own.at.map_or_else(|| Some(places.frame(places.node(&own.node.value)?).position), Some)?;
+        places.anchor(&own.node, &at)
+    };
+    Some((names.into(), Some([anchor(base)?, anchor(tip)?])))
 }
 
 #[cfg(test)]

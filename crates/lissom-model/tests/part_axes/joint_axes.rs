@@ -2,7 +2,7 @@
 //! kind of joint between two nodes.
 
 use lissom_core::kinematics::{GROUND, NodeId};
-use lissom_model::registry::{ActsOn, FrameRule};
+use lissom_core::ports::Ports;
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 use toml::{Table, Value};
 
@@ -34,11 +34,11 @@ fn node(end: &End, name: &str) -> NodeId {
 }
 
 /// Axes of a joint frame at the start.
-fn axes(rule: FrameRule, entry: &Table) -> Rotation {
+fn axes(ports: Ports, entry: &Table) -> Rotation {
     let columns =
         |a: Vector3, b: Vector3| Rotation::from_matrix(&Matrix3::from_columns(&[a, b, a.cross(&b)]));
-    match (rule, vector(entry, "axis"), vector(entry, "second_axis")) {
-        (FrameRule::Axis, Some(axis), _) => {
+    match (ports.directions(), vector(entry, "axis"), vector(entry, "second_axis")) {
+        (1, Some(axis), _) => {
             let third = axis.normalize();
             let farthest =
                 (0..3).fold(0, |best, k| if third[k].abs() < third[best].abs() { k } else { best });
@@ -46,7 +46,7 @@ fn axes(rule: FrameRule, entry: &Table) -> Rotation {
             let first = (global - third * third.dot(&global)).normalize();
             columns(first, third.cross(&first))
         }
-        (FrameRule::TwoAxes | FrameRule::GivenOrGlobal, Some(axis), Some(second)) => {
+        (2, Some(axis), Some(second)) => {
             let first = axis.normalize();
             columns(first, (second - first * first.dot(&second)).normalize())
         }
@@ -55,7 +55,7 @@ fn axes(rule: FrameRule, entry: &Table) -> Rotation {
 }
 
 /// The joint frames at the start, as the manual describes them.
-fn frames(end: &End, rule: FrameRule, entry: &Table, spans: bool) -> [Motion; 2] {
+fn frames(end: &End, ports: Ports, entry: &Table, spans: bool) -> [Motion; 2] {
     let start = |name: &str| {
         let key = entry[name].as_str().expect("a node");
         end.lowered.state.kinematics.nodes[node(end, key)].frame.position
@@ -68,7 +68,7 @@ fn frames(end: &End, rule: FrameRule, entry: &Table, spans: bool) -> [Motion; 2]
         let at = vector(entry, "at").unwrap_or(default);
         (at, at)
     };
-    let axes = axes(rule, entry);
+    let axes = axes(ports, entry);
     let third = axes.apply(&Vector3::z());
     let angle = if spans { 0.0 } else { number(entry, "angle") };
     // Along the axis at the start: the base's frame is behind the tip's.
@@ -113,17 +113,17 @@ fn outputs_of_joints_are_expressed_in_the_axes_of_the_manual() {
         let scene = entries(scene);
         for (name, entry) in tables_of(&scene, "joints") {
             let kind = kind_of(entry);
-            let (rule, spans) = match registered("joints", kind).expect("a kind").acts_on {
-                ActsOn::TwoNodes(rule) => (rule, SPANNING.contains(&kind)),
-                ActsOn::TwoPlaces => (FrameRule::None, true),
-                _ => continue,
-            };
+            let ports = registered("joints", kind).expect("a kind").ports;
+            if !ports.connect_two_nodes() {
+                continue;
+            }
+            let spans = SPANNING.contains(&kind) || !ports.have_one_location();
             covered.push(kind.to_owned());
             let end =
                 plain(&with_outputs(&scene, name), STEPS).unwrap_or_else(|text| panic!("{name}: {text}"));
             let what = format!("{scene_name}, {kind} `{name}`");
             let nodes = ["base", "tip"].map(|key| node(&end, entry[key].as_str().expect("a node")));
-            let start = frames(&end, rule, entry, spans);
+            let start = frames(&end, ports, entry, spans);
             let now = [0, 1].map(|side| {
                 let first = end.lowered.state.kinematics.nodes[nodes[side]].frame;
                 end.frames[nodes[side]] * (first.inverse() * start[side])
@@ -143,9 +143,8 @@ fn outputs_of_joints_are_expressed_in_the_axes_of_the_manual() {
         }
     }
     for kind in lissom_model::lower::registry::registry().joints {
-        let is_between_nodes = matches!(kind.acts_on, ActsOn::TwoNodes(_) | ActsOn::TwoPlaces);
         assert!(
-            !is_between_nodes || covered.iter().any(|own| own == kind.name),
+            !kind.ports.connect_two_nodes() || covered.iter().any(|own| own == kind.name),
             "no scene has a {}",
             kind.name
         );
@@ -157,9 +156,11 @@ fn outputs_of_joints_are_expressed_in_the_axes_of_the_manual() {
 fn values_at_the_start_move_nothing() {
     let mut count = 0;
     for kind in lissom_model::lower::registry::registry().joints {
-        let ActsOn::TwoNodes(rule) = kind.acts_on else { continue };
-        let axes = match rule {
-            FrameRule::Axis => "axis = [0.3, 0.2, 1]\n",
+        if !kind.ports.have_one_location() {
+            continue;
+        }
+        let axes = match kind.ports.directions() {
+            1 => "axis = [0.3, 0.2, 1]\n",
             _ => "axis = [0.6, 0.8, 0]\nsecond_axis = [0, 0, 1]\n",
         };
         for key in ["angle", "displacement"] {

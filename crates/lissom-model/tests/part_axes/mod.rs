@@ -10,7 +10,7 @@ use lissom_core::registry::ParameterType;
 use lissom_core::simulation::Simulation;
 use lissom_model::document::OutputKind;
 use lissom_model::lower::{Lowered, lower, registry::registry};
-use lissom_model::registry::{ActsOn, KindEntry};
+use lissom_model::registry::KindEntry;
 use lissom_model::{EntryAxes, Library, ModelText, model_axes};
 use lissom_motion::{Motion, Rotation, Vector3};
 use toml::{Table, Value};
@@ -348,19 +348,19 @@ fn scenes_cover_every_key_that_is_expressed_in_model_axes() {
                 || key.ends_with("_at_tip")
                 || (table == "joints"
                     && key == "at_tip"
-                    && own.is_some_and(|own| own.acts_on != ActsOn::TwoPlaces))
+                    && own.is_some_and(|own| own.ports.have_one_location()))
             {
                 continue;
             }
             let is_common =
                 own.is_some_and(|own| own.parameters.iter().all(|parameter| parameter.name != key));
-            if is_common && !checked.insert(format!("{table}, {key}, {:?}", own.map(|own| own.acts_on))) {
+            if is_common && !checked.insert(format!("{table}, {key}, {:?}", own.map(|own| own.ports))) {
                 continue;
             }
             // Keys that an attachment brings are read in one place for all kinds that have it.
             let alike = |other: &str| match own {
                 Some(own) if is_common => {
-                    registered(table, other).is_some_and(|other| other.acts_on == own.acts_on)
+                    registered(table, other).is_some_and(|other| other.ports == own.ports)
                 }
                 _ => other == kind,
             };

@@ -4,17 +4,17 @@ pub(crate) mod answers;
 pub(crate) mod damage;
 pub(crate) mod damaged_expressions;
 
-use lissom_core::kinematics::Quantity;
+use lissom_core::ports::Ports;
 use lissom_core::registry::{Parameter, ParameterType};
-use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
+use lissom_model::registry::{ChoiceEntry, KindEntry, Registry};
 
 const fn kind(
     name: &'static str,
     sample: &'static str,
-    acts_on: ActsOn,
+    ports: Ports,
     parameters: &'static [Parameter],
 ) -> KindEntry {
-    KindEntry { name, summary: "A kind for tests.", sample, parameters, acts_on }
+    KindEntry { name, summary: "A kind for tests.", sample, parameters, ports }
 }
 
 const fn choice(name: &'static str, parameters: &'static [Parameter]) -> ChoiceEntry {
@@ -47,28 +47,22 @@ const RADIUS: &[Parameter] =
 
 /// Kinds as the model files of the tests use them.
 pub(crate) fn registry() -> Registry {
-    use ActsOn::{JointCoordinate, OneNode, TwoNodes, TwoPlaces};
     let joints = vec![
-        kind("clamp", "base = \"ground\"\ntip = \"a.start\"", TwoNodes(FrameRule::None), &[]),
-        kind("spherical", "base = \"ground\"\ntip = \"a.start\"", TwoNodes(FrameRule::None), &[]),
-        kind("revolute", "axis = [0, 0, 1]", TwoNodes(FrameRule::Axis), ANGLE),
-        kind("universal", "axis = [0, 0, 1]\nsecond_axis = [0, 1, 0]", TwoNodes(FrameRule::TwoAxes), &[]),
-        kind("rigid_link", "base = \"a.end\"\ntip = \"b.start\"", TwoNodes(FrameRule::None), &[]),
-        kind("swing_arm", "axis = [0, 0, 1]", TwoNodes(FrameRule::Axis), &[]),
-        kind(
-            "prescribed_rotation",
-            "joint = \"hinge\"\nrotation = \"t\"",
-            JointCoordinate(Quantity::Angle),
-            TURN,
-        ),
+        kind("clamp", "base = \"ground\"\ntip = \"a.start\"", Ports::POINT, &[]),
+        kind("spherical", "base = \"ground\"\ntip = \"a.start\"", Ports::POINT, &[]),
+        kind("revolute", "axis = [0, 0, 1]", Ports::AXIS, ANGLE),
+        kind("universal", "axis = [0, 0, 1]\nsecond_axis = [0, 1, 0]", Ports::TWO_AXES, &[]),
+        kind("rigid_link", "base = \"a.end\"\ntip = \"b.start\"", Ports::POINT, &[]),
+        kind("swing_arm", "axis = [0, 0, 1]", Ports::ARM, &[]),
+        kind("prescribed_rotation", "joint = \"hinge\"\nrotation = \"t\"", Ports::ROTATION, TURN),
     ];
     let springs = vec![
-        kind("point", "stiffness = 1.0", TwoPlaces, POINT),
-        kind("torsional", "joint = \"hinge\"\nstiffness = 1.0", JointCoordinate(Quantity::Angle), TORSIONAL),
+        kind("point", "stiffness = 1.0", Ports::TWO_LOCATIONS, POINT),
+        kind("torsional", "joint = \"hinge\"\nstiffness = 1.0", Ports::ROTATION, TORSIONAL),
     ];
     let loads = vec![
-        kind("force", "on = \"a.end\"\nvector = [0, 0, 1]", OneNode, LOAD),
-        kind("moment", "on = \"a.end\"\nvector = [0, 0, 1]", OneNode, LOAD),
+        kind("force", "on = \"a.end\"\nvector = [0, 0, 1]", Ports::ONE_NODE, LOAD),
+        kind("moment", "on = \"a.end\"\nvector = [0, 0, 1]", Ports::ONE_NODE, LOAD),
     ];
     let schemes = vec![choice("generalized-alpha", RADIUS), choice("hht", ALPHA), choice("radau-iia", &[])];
     let solvers = vec![choice("sparse", &[]), choice("dense", &[])];

@@ -20,7 +20,7 @@ impl Builder {
         coordinate: CoordinateId,
         parameters: &Parameters,
     ) -> Result<(), ParameterError> {
-        let Build::Coordinate(wanted, build) = kind.build else {
+        let (Build::Coordinate(build), Some(wanted)) = (kind.build, kind.ports.quantity()) else {
             return Err(ParameterError::new("kind", "is between two nodes"));
         };
         self.model.check_quantity(coordinate, wanted)?;
@@ -73,7 +73,7 @@ impl Builder {
         coordinates: &[CoordinateId],
         parameters: &Parameters,
     ) -> Result<(), ParameterError> {
-        let Build::Coupling(_, build) = kind.build else {
+        let Build::Coupling(build) = kind.build else {
             return Err(ParameterError::new("kind", "relates no coordinates"));
         };
         let count = coordinates.len();

@@ -3,8 +3,9 @@
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Builder, Placement};
-use lissom_mechanics::joints::{AnyJoint, Frames};
+use lissom_mechanics::joints::AnyJoint;
 use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::ports::Ports;
 use lissom_mechanics::registry::{ParameterError, Parameters};
 
 /// Joint frame on the tip as modelled, in inertial axes.
@@ -82,13 +83,14 @@ pub(super) fn start_values(
         .collect()
 }
 
-/// Direction of the joint frames at the start.
-pub(super) fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Rotation, ParameterError> {
+/// Rotation of the joint frames at the start.
+pub(super) fn joint_rotation(ports: Ports, placement: &Placement) -> Result<Rotation, ParameterError> {
     let missing = |name: &str| ParameterError::new(name, "is missing: it must be a direction");
     let unusable = |name: &str, why: &str| ParameterError::new(name, why);
-    match frames {
-        Frames::Point | Frames::Span => Ok(Rotation::identity()),
-        Frames::Axis | Frames::SpanWithAxis => {
+    let is_omitted = placement.axis.is_none() && placement.second_axis.is_none();
+    match ports.directions() {
+        0 => Ok(Rotation::identity()),
+        1 => {
             let third = placement.axis.ok_or_else(|| missing("axis"))?;
             let third = third
                 .try_normalize(0.0)
@@ -101,10 +103,8 @@ pub(super) fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Ro
             Rotation::from_columns(&first, &third.cross(&first), &third)
                 .ok_or_else(|| unusable("axis", "has no usable direction"))
         }
-        Frames::GivenOrGlobalAxes if placement.axis.is_none() && placement.second_axis.is_none() => {
-            Ok(Rotation::identity())
-        }
-        Frames::TwoAxes | Frames::GivenOrGlobalAxes => {
+        _ if is_omitted && !ports.require_directions() => Ok(Rotation::identity()),
+        _ => {
             let first = placement.axis.ok_or_else(|| missing("axis"))?;
             let second = placement.second_axis.ok_or_else(|| missing("second_axis"))?;
             Rotation::from_axis_and_reference(&first, &second)

@@ -3,8 +3,8 @@
 use lissom_motion::{Motion, Vector3};
 
 use super::{Builder, Placement, joint_rotation};
-use lissom_mechanics::joints::prescribed_motion::COMPONENTS;
-use lissom_mechanics::joints::{Frames, prescribed_displacement, prescribed_rotation, prismatic, revolute};
+use lissom_mechanics::joints::prescribed_motion::{self, COMPONENTS};
+use lissom_mechanics::joints::{prescribed_displacement, prescribed_rotation, prismatic, revolute};
 use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, Freedoms, Quantity};
 use lissom_mechanics::registry::{ParameterError, Parameters, Value};
 
@@ -20,7 +20,7 @@ impl Builder {
         placement: &Placement,
         parameters: &Parameters,
     ) -> Result<Vec<CoordinateId>, ParameterError> {
-        let axes = joint_rotation(Frames::GivenOrGlobalAxes, placement)?;
+        let axes = joint_rotation(prescribed_motion::KIND.ports, placement)?;
         let given: Vec<usize> = (0..6).filter(|&k| parameters.has(COMPONENTS[k].0)).collect();
         let Some(&last) = given.last() else {
             let problem = "is missing, as are all others: specify at least one of x, y, z, rx, ry, rz";

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use clap::Args;
-use lissom_core::kinematics::Quantity;
+use lissom_core::ports::Ports;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::lower::registry::registry;
-use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
+use lissom_model::registry::{ChoiceEntry, KindEntry, Registry};
 use lissom_model::{Form, FormKey, forms, function_names, meant, topic, topics};
 use serde_json::{Value, json};
 
@@ -215,7 +215,7 @@ impl Catalogue<'_> {
                 json!({
                     "name": kind.name,
                     "summary": kind.summary,
-                    "acts_on": place(kind.acts_on).0,
+                    "acts_on": listed(kind.ports),
                     "parameters": list(kind.parameters),
                     "sample": kind.sample,
                 })
@@ -271,15 +271,15 @@ fn of_form(form: &Form) -> String {
 }
 
 fn of_kind(form: &Form, kind: &KindEntry) -> String {
-    let (place, sample) = place(kind.acts_on);
-    let mut text = format!("\n  {}: {}\n    acts on     {place}\n", kind.name, kind.summary);
+    let acts_on = listed(kind.ports);
+    let mut text = format!("\n  {}: {}\n    acts on     {acts_on}\n", kind.name, kind.summary);
     let own = form.keys.iter().filter(|key| kind.parameters.iter().any(|known| known.name == key.name));
     text.push_str(&keys_of(&own.cloned().collect::<Vec<_>>()));
     let name = form.singular;
     // Writing to a string cannot fail.
     let _ = writeln!(text, "    sample      [{}.my_{name}]", form.table);
     for line in std::iter::once(&*format!("kind = \"{}\"", kind.name))
-        .chain(sample.lines())
+        .chain(kind.ports.0.iter().map(|port| port.sample).filter(|line| !line.is_empty()))
         .chain(kind.sample.lines())
     {
         let _ = writeln!(text, "                {line}");
@@ -331,44 +331,14 @@ fn holds(holds: ParameterType) -> String {
     }
 }
 
-/// The keys of a kind's attachment, and a sample of the required ones.
-fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
-    const TWO: &str = "base = \"ground\"\ntip = \"my_body\"\nat = [0.0, 0.0, 0.0]";
-    const PLACES: &str = "base = \"ground\"\ntip = \"my_body\"\nat_base = [0.0, 0.0, 0.0]";
-    match acts_on {
-        ActsOn::TwoNodes(FrameRule::None) => ("base, tip, at (default: the tip's position)", TWO),
-        ActsOn::TwoNodes(FrameRule::Axis) => ("base, tip, at (default: the tip's position), axis", TWO),
-        ActsOn::TwoNodes(FrameRule::TwoAxes) => {
-            ("base, tip, at (default: the tip's position), axis, second_axis", TWO)
-        }
-        ActsOn::TwoNodes(FrameRule::GivenOrGlobal) => (
-            "base, tip, at (default: the tip's position), axis and second_axis (default: global x and y)",
-            TWO,
-        ),
-        ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' positions)", PLACES),
-        ActsOn::Places => (
-            "along: the points over which it passes, each with `on` and `at`; drums: coordinates that pay it out",
-            "along = [{ on = \"ground\", at = [0.0, 0.0, 3.0] }, { on = \"my_body\" }]",
-        ),
-        ActsOn::OneNode => ("on, at (default: the node's position)", "on = \"my_body\""),
-        ActsOn::TwoJointCoordinates => (
-            "joint, other: the joints whose coordinates it relates",
-            "joint = \"my_hinge\"\nother = \"my_slide\"",
-        ),
-        ActsOn::NamedCoordinates => ("the coordinates that its expression names", ""),
-        ActsOn::Coordinates => (
-            "coordinates: joint coordinates on which it acts, in the order of its matrices",
-            "coordinates = [\"my_hinge.angle\", \"my_slide.displacement\"]",
-        ),
-        ActsOn::AlongBeams => {
-            ("beams, tip, at (default: the tip's position)", "beams = [\"my_beam\"]\ntip = \"my_body\"")
-        }
-        ActsOn::Nothing => ("nothing: it has coordinates of its own", ""),
-        ActsOn::JointCoordinate(Quantity::Angle) => {
-            ("joint: acts on its relative rotation", "joint = \"my_hinge\"")
-        }
-        ActsOn::JointCoordinate(Quantity::Length | Quantity::State) => {
-            ("joint: acts on its relative displacement", "joint = \"my_slide\"")
-        }
+/// The keys of a kind's ports in one line. A key with an explanation ends with a semicolon.
+fn listed(ports: Ports) -> String {
+    let mut text = String::new();
+    let mut separator = "";
+    for port in ports.0.iter().filter(|port| !port.listed.is_empty()) {
+        text = text + separator + port.listed;
+        let rest = port.listed.strip_prefix(port.key);
+        separator = if rest.is_some_and(|rest| rest.starts_with(':')) { "; " } else { ", " };
     }
+    if text.is_empty() { "nothing: it has coordinates of its own".to_owned() } else { text }
 }

@@ -1,7 +1,7 @@
 //! Conversion of a model of rigid bodies to a robot description, if possible.
 
 use lissom_model::Document;
-use lissom_model::document::{Attachment, Body, Component, NodeReference};
+use lissom_model::document::{Attachment, Body, Component, NodeLocation, NodeReference};
 use lissom_model::lower::lower;
 use lissom_motion::{Motion, Rotation, Vector3};
 
@@ -46,11 +46,8 @@ pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
     let mut tree = Tree { placed: vec![None; document.bodies.len()], frames: Vec::new(), values: Vec::new() };
 
     // The root: the ground if anything is joined to it, otherwise the only body without a parent.
-    let links: Vec<&Component> = document
-        .joints
-        .iter()
-        .filter(|joint| matches!(joint.attachment, Attachment::TwoNodes { .. }))
-        .collect();
+    let links: Vec<&Component> =
+        document.joints.iter().filter(|joint| joint.ports.have_one_location()).collect();
     let is_on_ground = links.iter().any(|joint| ends(joint).contains(&&NodeReference::Ground));
     if is_on_ground || document.bodies.is_empty() {
         robot.links.push(Link { name: "world".to_owned(), inertia: None, visuals: Vec::new() });
@@ -125,8 +122,8 @@ fn unknown(name: &str) -> ImportError {
 
 /// Base and tip of a joint between nodes.
 fn ends(joint: &Component) -> [&NodeReference; 2] {
-    match &joint.attachment {
-        Attachment::TwoNodes { base, tip, .. } => [&base.value, &tip.value],
+    match joint.attachment.nodes.as_slice() {
+        [base, tip] => [&base.node.value, &tip.node.value],
         _ => [&NodeReference::Ground, &NodeReference::Ground],
     }
 }
@@ -182,7 +179,8 @@ impl Tree {
         (carrier, is_turned): (usize, bool),
     ) -> Result<(), ImportError> {
         let name = &joint.name.value;
-        let Attachment::TwoNodes { at, axis, .. } = &joint.attachment else { return Ok(()) };
+        let Attachment { nodes, axes, .. } = &joint.attachment;
+        let [NodeLocation { at: Some(at), .. }, _] = nodes.as_slice() else { return Ok(()) };
         let (freedom, key) = match joint.kind.value.as_str() {
             "revolute" => (Freedom::Rotation, "angle"),
             "prismatic" => (Freedom::Displacement, "displacement"),
@@ -203,7 +201,7 @@ impl Tree {
             joint.parameters.number_or(key, 0.0).map_err(|error| ImportError::new(error.to_string()))?;
         // The origin of the link is at the joint.
         let link_frame = Motion::new(frame.rotation, *at);
-        let along = axis.as_ref().map_or_else(Vector3::z, |axis| axis.value.normalize());
+        let along = axes.first().map_or_else(Vector3::z, |axis| axis.value.normalize());
         let own = frame.rotation.apply_inverse(&along) * if is_turned { -1.0 } else { 1.0 };
         let step = match freedom {
             Freedom::Rotation => Motion::new(Rotation::about_axis(&own, value), Vector3::zeros()),
@@ -236,9 +234,9 @@ fn couplings(document: &Document, tree: &Tree, robot: &mut Robot) -> Result<(), 
         |name: &str| tree.values.iter().find(|(known, _)| known == name).map_or(0.0, |(_, value)| *value);
     for joint in &document.joints {
         let name = &joint.name.value;
-        match (&joint.attachment, joint.kind.value.as_str()) {
-            (Attachment::TwoNodes { .. }, _) => {}
-            (Attachment::JointCoordinates { joint: leader, other }, "gear") => {
+        match (joint.attachment.coordinates.as_slice(), joint.kind.value.as_str()) {
+            _ if joint.ports.have_one_location() => {}
+            ([(leader, _), (other, _)], "gear") => {
                 let ratio =
                     joint.parameters.number("ratio").map_err(|error| ImportError::new(error.to_string()))?;
                 let offset = value(&other.value) - ratio * value(&leader.value);
@@ -259,10 +257,8 @@ fn resistance(spring: &Component, robot: &mut Robot) {
     let name = &spring.name.value;
     let only = |known: &[&str]| spring.parameter_spans.iter().all(|(key, _)| known.contains(&key.as_str()));
     let number = |key: &str| spring.parameters.number_or(key, 0.0).unwrap_or(f64::NAN);
-    let of_joint = match &spring.attachment {
-        Attachment::JointCoordinate { joint } => robot.joints.iter_mut().find(|own| own.name == joint.value),
-        _ => None,
-    };
+    let joint = spring.attachment.coordinates.first().filter(|_| spring.ports.quantity().is_some());
+    let of_joint = joint.and_then(|(joint, _)| robot.joints.iter_mut().find(|own| own.name == joint.value));
     let unsupported = match (spring.kind.value.as_str(), of_joint) {
         ("torsional" | "axial", Some(joint)) if only(&["damping", "coordinate"]) => {
             joint.damping += number("damping");

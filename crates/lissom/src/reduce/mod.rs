@@ -442,60 +442,39 @@ impl Chosen {
         self.refuse_beams(&own)?;
         let mut joints: BTreeSet<String> = BTreeSet::new();
         let keep = |component: &Component, joints: &BTreeSet<String>| -> Result<bool, ReduceError> {
-            let nodes: Vec<&NodeReference> = match &component.attachment {
-                Attachment::TwoNodes { base, tip, .. } | Attachment::TwoPlaces { base, tip, .. } => {
-                    vec![&base.value, &tip.value]
+            let Attachment { nodes, coordinates, beams, .. } = &component.attachment;
+            let nodes: Vec<&NodeReference> = nodes.iter().map(|own| &own.node.value).collect();
+            let has_part = nodes.iter().any(|node| self.is_part(node));
+            if !beams.is_empty() {
+                let start = |beam: &str| NodeReference::Beam { beam: beam.to_owned(), fraction: 0.0 };
+                if has_part || beams.iter().any(|beam| self.is_part(&start(&beam.value))) {
+                    return question(format!(
+                        "`{}` slides along a beam, which a superelement cannot represent: remove it, or reduce other parts",
+                        component.name.value
+                    ));
                 }
-                Attachment::OneNode { on, .. } => vec![&on.value],
-                // A rope with drums is kept or omitted as a whole.
-                Attachment::Places(places, drums)
-                    if !drums.iter().all(|(joint, _)| joints.contains(&joint.value)) =>
-                {
-                    if places.iter().any(|(on, _)| self.is_part(&on.value)) {
-                        return question(format!(
-                            "`{}` has a drum that is not reduced: remove it, or reduce the part with the drum as well",
-                            component.name.value
-                        ));
-                    }
-                    return Ok(false);
-                }
-                Attachment::Places(places, _) => places.iter().map(|(on, _)| &on.value).collect(),
-                Attachment::JointCoordinate { joint } => return Ok(joints.contains(&joint.value)),
-                Attachment::JointCoordinates { joint, other } => {
-                    return Ok(joints.contains(&joint.value) && joints.contains(&other.value));
-                }
-                Attachment::Coordinates(all) => {
-                    return Ok(all.iter().all(|(joint, _)| joints.contains(&joint.value)));
-                }
-                Attachment::AlongBeams { beams, tip, .. } => {
-                    let start = |beam: &str| NodeReference::Beam { beam: beam.to_owned(), fraction: 0.0 };
-                    if self.is_part(&tip.value) || beams.iter().any(|beam| self.is_part(&start(&beam.value)))
-                    {
-                        return question(format!(
-                            "`{}` slides along a beam, which a superelement cannot represent: remove it, or reduce other parts",
-                            component.name.value
-                        ));
-                    }
-                    return Ok(false);
-                }
-                Attachment::Nothing => return Ok(false),
-                Attachment::NamedCoordinates => {
-                    let names = component.signal.iter().flat_map(|(_, formula)| formula.value.arguments());
-                    let owners: Vec<String> =
-                        names.filter_map(|name| Some(name.text.rsplit_once('.')?.0.to_owned())).collect();
-                    return Ok(!owners.is_empty() && owners.iter().all(|owner| joints.contains(owner)));
-                }
-            };
+                return Ok(false);
+            }
+            let are_reduced = coordinates.iter().all(|(joint, _)| joints.contains(&joint.value));
+            if nodes.is_empty() {
+                return Ok(!coordinates.is_empty() && are_reduced);
+            }
+            // A rope with drums is kept or omitted as a whole.
+            if !are_reduced && has_part {
+                return question(format!(
+                    "`{}` has a drum that is not reduced: remove it, or reduce the part with the drum as well",
+                    component.name.value
+                ));
+            }
+            if !are_reduced {
+                return Ok(false);
+            }
             Ok(matches!(self.touches(component, &nodes)?, Touches::Inside))
         };
         // Joints between nodes come before components on their coordinates.
         for pass in [true, false] {
             for component in &whole.joints {
-                let is_between = matches!(
-                    component.attachment,
-                    Attachment::TwoNodes { .. } | Attachment::TwoPlaces { .. }
-                );
-                if is_between == pass && keep(component, &joints)? {
+                if component.ports.connect_two_nodes() == pass && keep(component, &joints)? {
                     joints.insert(component.name.value.clone());
                 }
             }

@@ -1,0 +1,266 @@
+//! Ports of joints, springs and loads: nodes, locations, directions, coordinates and beams, read as their kind declares them.
+
+use lissom_core::ports::{PortDeclaration, PortType, Ports};
+use lissom_core::registry::ModelAxis;
+use lissom_motion::Vector3;
+
+use super::connections::Places;
+use super::{Attachment, CoordinateName, NodeLocation, NodeReference};
+use crate::context::Context;
+use crate::expression::Formula;
+use crate::keys::Shape;
+use crate::line::are_parallel;
+use crate::parts::ScopeId;
+use crate::reader::Reader;
+use crate::registry::Registry;
+use crate::report::{Located, Problem};
+use crate::text::{Node, Value};
+
+/// What the entry called `name` is attached to; `formula` is the expression that names coordinates, if there is one. None if
+/// a port is missing or invalid.
+pub(super) fn read(
+    reader: &Reader<'_, '_>,
+    name: &str,
+    (ports, formula): (Ports, Option<&Located<Formula>>),
+    registry: &Registry,
+    places: &Places,
+) -> Option<Attachment> {
+    let mut own = Attachment::default();
+    let mut is_complete = true;
+    for port in ports.0 {
+        let PortDeclaration { key, required, .. } = *port;
+        let read = match port.holds {
+            PortType::Node { moves } => add_node(reader, key, moves, &mut own.nodes),
+            // With a missing node its own error is enough.
+            PortType::Location { .. } if !is_complete => None,
+            PortType::Location { of, default } => location(reader, key, (ports, default), &own.nodes, places)
+                .map(|at| of.iter().for_each(|key| own.nodes[ports.node(key)].at = Some(at))),
+            PortType::Direction(default) => {
+                direction(reader, key, (ports, default), &own.axes).map(|direction| own.axes.push(direction))
+            }
+            PortType::Locations => locations(reader, key, places).map(|nodes| own.nodes = nodes),
+            PortType::Coordinate(_) => {
+                joint(reader, key, name, registry).map(|joint| own.coordinates.push((joint, None)))
+            }
+            PortType::OnlyCoordinate(_) => {
+                reader.name_in(key).map(|joint| own.coordinates.push((joint, None)))
+            }
+            PortType::Coordinates => match reader.node(key) {
+                None => (!required).then_some(()),
+                Some(node) => coordinates(reader, (key, node)).map(|all| own.coordinates = all),
+            },
+            PortType::NamedCoordinates => {
+                own.coordinates = formula.map(named).unwrap_or_default();
+                Some(())
+            }
+            PortType::Beams => names_of_beams(reader, key).map(|beams| own.beams = beams),
+        };
+        is_complete &= read.is_some();
+    }
+    is_complete.then_some(own)
+}
+
+/// Adds the node that a key names, which differs from those before.
+fn add_node(reader: &Reader<'_, '_>, key: &str, moves: bool, nodes: &mut Vec<NodeLocation>) -> Option<()> {
+    let node = reader.node(key).and_then(|node| reader.context.node(node, &reader.words(key)))?;
+    if moves && node.value == NodeReference::Ground {
+        let message = format!("{} acts on the ground, which does not move", reader.what);
+        return reader.context.fail(node.span, message, "specify the node of a body or beam");
+    }
+    if let Some(base) = nodes.iter().find(|base| base.node.value == node.value) {
+        let message = format!("{} connects a node to itself", reader.what);
+        let problem = Problem::error(node.span, message).label("the same").also(base.node.span, "base");
+        reader.context.report(problem.help("`base` and `tip` must be different nodes"));
+        return None;
+    }
+    nodes.push(NodeLocation { node, at: None });
+    Some(())
+}
+
+/// The nodes `base` and `tip`, which differ.
+pub(super) fn two_nodes(reader: &Reader<'_, '_>) -> Option<[Located<NodeReference>; 2]> {
+    let mut nodes = Vec::new();
+    let [base, tip] = ["base", "tip"].map(|key| add_node(reader, key, false, &mut nodes));
+    base.and(tip)?;
+    Some(<[NodeLocation; 2]>::try_from(nodes).ok()?.map(|own| own.node))
+}
+
+/// The location of a key, or that of the first node of `default` that is not the ground.
+fn location(
+    reader: &Reader<'_, '_>,
+    key: &str,
+    (ports, default): (Ports, &[&str]),
+    nodes: &[NodeLocation],
+    places: &Places,
+) -> Option<Vector3> {
+    if let Some(place) = reader.node(key) {
+        return reader.context.place(place, &reader.words(key)).map(|place| place.value);
+    }
+    let mut all = default.iter().map(|key| &nodes[ports.node(key)].node.value);
+    let first = all.clone().next()?;
+    let node = all.find(|node| **node != NodeReference::Ground).unwrap_or(first);
+    own_place(reader.context, reader.scope, node, places)
+}
+
+/// Nodes in a sequence, each with its location.
+fn locations(reader: &Reader<'_, '_>, key: &str, places: &Places) -> Option<Vec<NodeLocation>> {
+    let (context, node) = (reader.context, reader.node(key)?);
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &reader.words(key), "a list of positions");
+    };
+    let read = |(index, entry): (usize, &Node)| {
+        let what = format!("position {} of {}", index + 1, reader.words(key));
+        let own = Reader::open(context, entry, (what, entry.span), Shape::place_keys())?;
+        let node = context.node(own.node("on")?, &own.words("on"))?;
+        let at = match own.node("at") {
+            Some(place) => context.place(place, &own.words("at")).map(|place| place.value),
+            None => own_place(context, reader.scope, &node.value, places),
+        };
+        Some(NodeLocation { node, at: Some(at?) })
+    };
+    let all: Vec<_> = list.iter().enumerate().map(read).collect();
+    all.into_iter().collect()
+}
+
+/// Cosine between axes that count as perpendicular: digits of a text.
+const PERPENDICULAR: f64 = 1e-5;
+
+/// The direction of a key, which is perpendicular to those `before`.
+fn direction(
+    reader: &Reader<'_, '_>,
+    key: &str,
+    (ports, default): (Ports, Option<ModelAxis>),
+    before: &[Located<Vector3>],
+) -> Option<Located<Vector3>> {
+    if default.is_some() && reader.node(key).is_none() {
+        let directions = ports.0.iter().filter(|port| matches!(port.holds, PortType::Direction(_)));
+        if let Some((other, given)) =
+            directions.map(|port| port.key).find_map(|other| Some((other, reader.node(other)?)))
+        {
+            let message = format!("{} has `{other}`, but not `{key}`", reader.what);
+            return reader.context.fail(given.span, message, "specify both axes, or none");
+        }
+    }
+    let second = reader.vector(key)?;
+    let Some(first) = before.first() else { return Some(second) };
+    if are_parallel(&first.value, &second.value) {
+        let message = format!("the two axes of {} are parallel", reader.what);
+        let problem = Problem::error(second.span, message).label("parallel").also(first.span, "first axis");
+        reader.context.report(problem.help("specify two different directions"));
+        return None;
+    }
+    let cosine = first.value.normalize().dot(&second.value.normalize());
+    if cosine.abs() > PERPENDICULAR {
+        let across =
+            second.value - first.value * (first.value.dot(&second.value) / first.value.norm_squared());
+        let message = format!(
+            "the two axes of {} are at {:.3} degrees to each other, not at 90",
+            reader.what,
+            cosine.acos().to_degrees()
+        );
+        let problem =
+            Problem::error(second.span, message).label("not perpendicular").also(first.span, "first axis");
+        reader.context.report(problem.help(format!(
+            "the nearest perpendicular direction is [{}, {}, {}]",
+            across.x, across.y, across.z
+        )));
+        return None;
+    }
+    Some(second)
+}
+
+/// The joint on whose coordinate the entry called `name` acts.
+fn joint(reader: &Reader<'_, '_>, key: &str, name: &str, registry: &Registry) -> Option<Located<String>> {
+    let joint = reader.name_in(key)?;
+    let context = reader.context;
+    // Only a joint can name itself: springs live in a table of their own.
+    let is_joint = context.names("joints").contains(&(name, reader.name));
+    if is_joint && joint.value == name {
+        let message = format!("{} acts on itself", reader.what);
+        return context.fail(joint.span, message, "specify the joint whose coordinate it prescribes");
+    }
+    let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
+    let Value::Text(kind) = &word.value else { return None };
+    let entry = registry.joints.iter().find(|entry| entry.name == kind)?;
+    if entry.ports.may_have_coordinates() {
+        return Some(joint);
+    }
+    let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);
+    let problem = Problem::error(joint.span, message).label("no coordinate");
+    let problem = problem.also(word.span, format!("a {kind} joint"));
+    context.report(problem.help("specify a joint with an axis, such as a revolute joint"));
+    None
+}
+
+/// Names of beams, at least one.
+fn names_of_beams(reader: &Reader<'_, '_>, key: &str) -> Option<Vec<Located<String>>> {
+    let (context, node) = (reader.context, reader.node(key)?);
+    let what = reader.words(key);
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &what, "a list of names of beams");
+    };
+    let read = |entry: &Node| {
+        let Value::Text(text) = &entry.value else {
+            return context.wrong_type(entry, &format!("each entry of {what}"), "the name of a beam");
+        };
+        let name = context.entry_named("beams", text, entry, &what)?;
+        let is_known = context.is_known("beams", &name, entry.span, &what);
+        is_known.then(|| Located::new(name, entry.span))
+    };
+    if list.is_empty() {
+        return context.fail(node.span, format!("{what} is empty"), "name at least one beam");
+    }
+    let all: Vec<_> = list.iter().map(read).collect();
+    all.into_iter().collect()
+}
+
+/// Joints, or coordinates of joints, by name.
+fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Vec<CoordinateName>> {
+    let context = reader.context;
+    let what = reader.words(key);
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &what, "a list of coordinates of joints");
+    };
+    let read = |entry: &Node| {
+        let Value::Text(text) = &entry.value else {
+            return context.wrong_type(entry, &format!("each entry of {what}"), "the name of a coordinate");
+        };
+        let whole = context.entry_named("joints", text, entry, &what)?;
+        let (name, component) = match text.rsplit_once('.') {
+            Some((owner, component)) if !context.has("joints", &whole) => {
+                (context.entry_named("joints", owner, entry, &what)?, Some(component.to_owned()))
+            }
+            _ => (whole, None),
+        };
+        let is_known = context.is_known("joints", &name, entry.span, &what);
+        is_known.then(|| (Located::new(name, entry.span), component))
+    };
+    if list.is_empty() {
+        return context.fail(
+            node.span,
+            format!("{what} is empty"),
+            "list coordinates, such as \"arm.angle\"",
+        );
+    }
+    let all: Vec<_> = list.iter().map(read).collect();
+    all.into_iter().collect()
+}
+
+/// Where a node is. The ground has its position where the part is that names it.
+fn own_place(
+    context: &Context<'_>,
+    scope: ScopeId,
+    node: &NodeReference,
+    places: &Places,
+) -> Option<Vector3> {
+    if *node == NodeReference::Ground {
+        return context.frame(scope).map(|frame| frame.position);
+    }
+    places.of(node)
+}
+
+/// The coordinates that an expression names.
+fn named(formula: &Located<Formula>) -> Vec<CoordinateName> {
+    let names = formula.value.arguments().iter().filter_map(|name| name.text.rsplit_once('.'));
+    names.map(|(joint, word)| (Located::new(joint.to_owned(), formula.span), Some(word.to_owned()))).collect()
+}
