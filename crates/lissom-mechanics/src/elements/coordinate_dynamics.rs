@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 use super::contribution::{Contribution, CoordinateMass};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
-use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use super::{Capabilities, Element, Energy, Load, Tangents, Unknowns};
+use crate::kinematics::{CoordinateId, Kinematics};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
 
@@ -177,12 +177,8 @@ impl CoordinateDynamics {
 }
 
 impl Element for CoordinateDynamics {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinates
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinates)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -220,7 +216,13 @@ impl Element for CoordinateDynamics {
         }
     }
 
-    fn is_load(&self) -> bool {
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for CoordinateDynamics {
+    fn is_active(&self) -> bool {
         self.is_load
     }
 }

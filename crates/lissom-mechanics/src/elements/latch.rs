@@ -11,8 +11,8 @@
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
-use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId, Quantity};
+use super::{Capabilities, Element, Spring, Tangents, Unknowns};
+use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
 
@@ -78,12 +78,8 @@ impl Latch {
 }
 
 impl Element for Latch {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinates
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinates)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -99,13 +95,15 @@ impl Element for Latch {
         out.damping[3] += by_impulse;
     }
 
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { spring: Some(self), ..Capabilities::default() }
     }
+}
 
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+impl Spring for Latch {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let [own, impulse] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
-        Some([own.value, own.rate, impulse.rate])
+        [own.value, own.rate, impulse.rate]
     }
 
     fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {

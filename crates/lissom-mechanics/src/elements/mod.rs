@@ -39,5 +39,8 @@ pub use initial_model::InitialModel;
 pub use kind::{Attached, Attachment, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 
+pub use crate::evaluation::capabilities::{
+    Capabilities, Deformable, ForceLaws, LinearLimit, LinearRange, Load, OwnInertia, Spring, StrainSlopes,
+};
 pub(crate) use crate::evaluation::element::add_block;
-pub use crate::evaluation::element::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
+pub use crate::evaluation::element::{Element, Energy, Tangents, Unknowns, is_same};

@@ -16,9 +16,9 @@
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
 use super::frame_pair::{FramePair, RelativeMotion};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Element, Tangents, Unknowns, add_block};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
-use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics};
 
 /// A wheel on a plane.
 #[derive(Clone, Debug)]
@@ -67,12 +67,8 @@ impl Rolling {
 }
 
 impl Element for Rolling {
-    fn nodes(&self) -> &[NodeId] {
-        &self.frames.nodes
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.impulses
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.frames.nodes, coordinates: &self.impulses, multipliers: &[] }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -114,9 +110,5 @@ impl Element for Rolling {
                 add_block(&mut out.damping, size, (6 * j, 12 + k), &by_rate.transpose());
             }
         }
-    }
-
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
     }
 }
