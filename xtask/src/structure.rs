@@ -1,5 +1,5 @@
-//! `cargo xtask structure`: import cycles between the files of a crate, and between its folders, and the number of named numeric
-//! constants. A file imports another one if it names an item that is defined there,
+//! `cargo xtask structure`: import cycles between the files of a crate, and between its folders, and the numbers of named numeric
+//! constants and of methods of traits. A file imports another one if it names an item that is defined there,
 //! also through re-exports; a re-export alone is no import, and tests do not count.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -35,6 +35,8 @@ struct Source {
     paths: Vec<Vec<String>>,
     /// Number of named numeric constants: numbers, and vectors of real numbers.
     constants: usize,
+    /// Number of methods of each trait.
+    methods: BTreeMap<String, usize>,
 }
 
 fn is_test(attributes: &[syn::Attribute]) -> bool {
@@ -125,6 +127,12 @@ impl<'ast> Visit<'ast> for Source {
     fn visit_impl_item_const(&mut self, item: &'ast syn::ImplItemConst) {
         self.count_constant(&item.ty);
         syn::visit::visit_impl_item_const(self, item);
+    }
+
+    fn visit_item_trait(&mut self, item: &'ast syn::ItemTrait) {
+        let methods = item.items.iter().filter(|own| matches!(own, syn::TraitItem::Fn(_))).count();
+        self.methods.insert(item.ident.to_string(), methods);
+        syn::visit::visit_item_trait(self, item);
     }
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
@@ -271,6 +279,14 @@ pub(crate) fn constants(root: &Path) -> Result<usize, StructureError> {
     Ok(Crate::read(root)?.sources.values().map(|source| source.constants).sum())
 }
 
+/// Number of methods of its traits, by name.
+///
+/// # Errors
+/// If a file cannot be read or is no Rust.
+pub(crate) fn methods(root: &Path) -> Result<BTreeMap<String, usize>, StructureError> {
+    Ok(Crate::read(root)?.sources.into_values().flat_map(|source| source.methods).collect())
+}
+
 fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     let reach: BTreeMap<&Module, BTreeSet<Module>> =
         edges.keys().map(|module| (module, reached(edges, module))).collect();
@@ -287,7 +303,7 @@ fn cycles_of(edges: &BTreeMap<Module, BTreeSet<Module>>) -> Vec<Vec<String>> {
     cycles
 }
 
-/// Prints the cycles of a crate and the number of its constants.
+/// Prints the cycles of a crate, the number of its constants and those of methods of its traits.
 ///
 /// # Errors
 /// If a file cannot be read or is no Rust.
@@ -299,6 +315,9 @@ pub(crate) fn run(root: &Path) -> Result<(), StructureError> {
         println!("{} folders: {}", folders.len(), folders.join(", "));
     }
     println!("{} numeric constants", constants(root)?);
+    for (name, count) in methods(root)? {
+        println!("{count} methods: {name}");
+    }
     Ok(())
 }
 
@@ -311,6 +330,9 @@ mod tests {
 
     /// Named numeric constants of the crates of the core outside tests.
     const MAX_CONSTANTS: usize = 325;
+
+    /// Methods that a trait may have.
+    const MAX_METHODS: [(&str, usize); 2] = [("Element", 9), ("AnyBatch", 10)];
 
     fn sources_of(name: &str) -> PathBuf {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src")
@@ -328,6 +350,18 @@ mod tests {
             found, MAX_CONSTANTS,
             "unify a constant with one of the same meaning, or lower the number"
         );
+    }
+
+    #[test]
+    fn queries_of_elements_are_methods_of_capabilities() {
+        let found = methods(&sources_of("lissom-mechanics")).expect("readable sources");
+        for (name, most) in MAX_METHODS {
+            assert!(
+                found[name] <= most,
+                "{name} has {} methods: a query belongs to a capability",
+                found[name]
+            );
+        }
     }
 
     #[test]

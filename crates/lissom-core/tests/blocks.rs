@@ -2,7 +2,7 @@
 
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::{Gravity, Inertia};
-use lissom_core::elements::{Element, Tangents};
+use lissom_core::elements::{Deformable, Element, Tangents};
 use lissom_core::kinematics::{Kinematics, NodeId, NodeMotion};
 use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
 
@@ -56,7 +56,7 @@ fn kinematics(numbers: &mut Numbers, count: usize, turn: f64) -> Kinematics {
 }
 
 fn compare<E: Element>(elements: &[E], at: &Kinematics) {
-    let size = 6 * elements[0].nodes().len();
+    let size = elements[0].unknowns().force_count();
     let blocks = E::blocks(elements).expect("a kind that is evaluated several at a time");
     let count = elements.len().div_ceil(WIDTH);
     for processor in processors() {
@@ -91,8 +91,12 @@ fn compare<E: Element>(elements: &[E], at: &Kinematics) {
 }
 
 /// The same of their derivatives by positions; none where something is damped.
-fn compare_stiffness<E: Element>(elements: &[E], (at, stressed): (&Kinematics, &Kinematics), damped: bool) {
-    let size = 6 * elements[0].nodes().len();
+fn compare_stiffness<E: Deformable>(
+    elements: &[E],
+    (at, stressed): (&Kinematics, &Kinematics),
+    damped: bool,
+) {
+    let size = elements[0].unknowns().force_count();
     let blocks = E::blocks(elements).expect("a kind that is evaluated several at a time");
     let count = elements.len().div_ceil(WIDTH);
     for processor in processors() {

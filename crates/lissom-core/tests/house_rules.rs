@@ -295,7 +295,7 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the mechanics, and what of their crate they may name.
-const FLOORS: [(&str, &[&str]); 13] = [
+const FLOORS: [(&str, &[&str]); 14] = [
     ("number.rs", &["number"]),
     ("round_off.rs", &[]),
     ("instants.rs", &["round_off"]),

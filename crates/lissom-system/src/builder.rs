@@ -389,7 +389,7 @@ impl Builder {
         let cliques: Vec<Vec<usize>> = self
             .batches
             .iter()
-            .flat_map(|batch| batch.cliques())
+            .flat_map(|batch| batch.rows().cliques())
             .chain(feedback.cliques())
             .chain(joint_rows.iter().map(|rows| free_rows(rows)))
             .chain(of_others.flat_map(|(constraint, placed)| placed.cliques(constraint, &layout)))

@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, OnceLock};
 
+use lissom_mechanics::elements::Element;
 use lissom_mechanics::evaluation::batch::{AnyBatch, ElementId};
+use lissom_mechanics::evaluation::work::{power, power_gradient};
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, NodeId, USUAL_UNKNOWNS};
 use lissom_mechanics::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
 
@@ -30,15 +32,19 @@ pub(crate) struct ElementQuantity {
 impl ElementQuantity {
     /// A quantity of an item of a batch; none if it has more unknowns than a gradient.
     pub(crate) fn new(of: Of, batch: &dyn AnyBatch, item: usize) -> Option<Self> {
-        let (nodes, coordinates) = batch.unknowns(item);
-        let is_small = 6 * nodes.len() + coordinates.len() <= USUAL_UNKNOWNS;
+        let unknowns = batch.element(item)?.unknowns();
+        let is_small = unknowns.force_count() <= USUAL_UNKNOWNS;
         (is_small && !batch.sees_multipliers()).then(|| Self {
             of,
-            nodes: nodes.to_vec(),
-            coordinates: coordinates.to_vec(),
+            nodes: unknowns.nodes.to_vec(),
+            coordinates: unknowns.coordinates.to_vec(),
             item,
             batch: OnceLock::new(),
         })
+    }
+
+    fn element(&self) -> Option<&dyn Element> {
+        self.batch.get()?.element(self.item)
     }
 
     /// Sets the batch, which does not change any more.
@@ -65,22 +71,22 @@ impl Measurement for ElementQuantity {
 
     fn values(&self, at: &Kinematics) -> [f64; MAX_COMPONENTS] {
         let mut values = [f64::NAN; MAX_COMPONENTS];
-        let Some(batch) = self.batch.get() else { return values };
+        let Some(element) = self.element() else { return values };
         match self.of {
             Of::Spring => {
-                if let Some(motion) = batch.spring_motion(self.item, at) {
-                    values[..3].copy_from_slice(&motion);
+                if let Some(spring) = element.capabilities().spring {
+                    values[..3].copy_from_slice(&spring.spring_motion(at));
                 }
             }
-            Of::Power => values[0] = batch.power(self.item, at),
+            Of::Power => values[0] = power(element, at),
         }
         values
     }
 
     fn gradient(&self, component: usize, at: &Kinematics) -> Gradient {
-        let gradient = self.batch.get().and_then(|batch| match self.of {
-            Of::Spring => Some(batch.spring_gradients(self.item, at)[component]),
-            Of::Power => batch.power_gradient(self.item, at),
+        let gradient = self.element().and_then(|element| match self.of {
+            Of::Spring => Some(element.capabilities().spring?.spring_gradients(at)[component]),
+            Of::Power => power_gradient(element, at),
         });
         gradient.unwrap_or_else(Gradient::zero)
     }

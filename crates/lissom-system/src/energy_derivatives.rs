@@ -6,9 +6,9 @@
 //! kinetic ½ v·M v:   by velocities M v, by positions ½ v·∂(M v)/∂q          U:  f          V:  -g·∂p/∂v
 //! ```
 
-use super::System;
+use super::{Mass, System};
 use lissom_mechanics::elements::contribution::CoordinateMass;
-use lissom_mechanics::evaluation::batch::Mass;
+use lissom_mechanics::elements::{Capabilities, Element, Tangents};
 use lissom_mechanics::kinematics::{GROUND, Kinematics, NodeId, split};
 use lissom_motion::{Matrix6, Vector3, Vector6, screw};
 
@@ -50,9 +50,12 @@ impl System {
             screw(&weight, &Vector3::zeros())
         });
         for batch in &self.batches {
-            batch.strain_slopes(&fall, &mut |rows, slopes| {
-                rows.iter().zip(slopes).for_each(|(&row, &slope)| add(&mut strain.by_place, row, slope));
-            });
+            for (item, element) in batch.elements().enumerate() {
+                let rows = batch.rows().of(item);
+                let mut slopes = vec![0.0; rows.len()];
+                strain_slopes(element, &fall, &mut slopes);
+                rows.iter().zip(slopes).for_each(|(&row, slope)| add(&mut strain.by_place, row, slope));
+            }
         }
         self.each_mass(at, |moving| {
             let (mass, rates) = (&moving.mass, self.local_rates(&moving.mass, at));
@@ -118,14 +121,14 @@ impl System {
                 }
             }
         });
-        for batch in &self.batches {
-            batch.angular_momenta(at, &mut |node, momentum| {
-                for i in 0..3 {
-                    let axis = at.nodes[node].frame.rotation.apply(&Vector3::ith(i, 1.0));
-                    let turned = screw(&Vector3::zeros(), &axis.cross(&momentum));
-                    note(self.layout.rows_of_node(node)[3 + i], false, &turned);
-                }
-            });
+        for element in self.elements_with(|own| own.inertia) {
+            let momentum = element.angular_momentum(at);
+            let Some(&node) = element.unknowns().nodes.first() else { continue };
+            for i in 0..3 {
+                let axis = at.nodes[node].frame.rotation.apply(&Vector3::ith(i, 1.0));
+                let turned = screw(&Vector3::zeros(), &axis.cross(&momentum));
+                note(self.layout.rows_of_node(node)[3 + i], false, &turned);
+            }
         }
         all
     }
@@ -135,7 +138,8 @@ impl System {
         Slopes { by_place: zeros.clone(), by_rate: zeros }
     }
 
-    /// Every mass, of nodes and of elements.
+    /// Every mass, of nodes and of elements, with the derivatives of M v with respect to positions: those of M a at rest with v as
+    /// accelerations.
     fn each_mass(&self, at: &Kinematics, mut each: impl FnMut(&Moving<'_>)) {
         for inertia in &self.inertias {
             let matrix: &Matrix6 = inertia.mass();
@@ -150,12 +154,23 @@ impl System {
         for (own, moving) in thrust.coordinates.iter_mut().zip(&at.coordinates) {
             own.acceleration = moving.rate;
         }
-        for batch in &self.batches {
-            batch.mass_slopes((&rest, &thrust), &mut |mass, by_place| {
-                let mass = Mass { nodes: mass.nodes, rows: mass.rows, matrix: mass.matrix };
-                each(&Moving { mass, by_place: Some(by_place) });
-            });
-        }
+        self.each_own_mass(&thrust, |element, mass| {
+            let [mut slopes, mut still] = [(); 2].map(|()| Tangents::new(mass.rows.len()));
+            element.linearize(&thrust, &mut slopes);
+            element.linearize(&rest, &mut still);
+            slopes.stiffness.iter_mut().zip(&still.stiffness).for_each(|(own, still)| *own -= still);
+            each(&Moving { mass: *mass, by_place: Some(&slopes.stiffness) });
+        });
+    }
+}
+
+/// Adds the derivatives of an element's strain energy, from the configuration at rest and in free fall. Without inertia and weight other
+/// forces than loads are these derivatives, unless the element has its own.
+fn strain_slopes(element: &dyn Element, fall: &Kinematics, out: &mut [f64]) {
+    match element.capabilities() {
+        Capabilities { strain: Some(own), .. } => own.strain_slopes(fall, out),
+        Capabilities { load: Some(load), .. } if load.is_active() => {}
+        _ => element.forces(fall, out),
     }
 }
 

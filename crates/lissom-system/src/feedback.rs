@@ -7,24 +7,18 @@
 //! load:   f = s e,      ∂f/∂q = s ∂e/∂q + e ∂s/∂q            state:   x' - s = 0
 //! ```
 
-use std::any::Any;
 use std::sync::Arc;
 
 use lissom_solver::Pattern;
 
 use super::{ElementId, System};
-use lissom_mechanics::elements::{Element, Energy, LinearLimit, LinearRange, Tangents};
-use lissom_mechanics::evaluation::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
+use lissom_mechanics::elements::{Element, Tangents, Unknowns};
+use lissom_mechanics::evaluation::batch::{AnyBatch, scatter, through};
 use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
 use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
-use lissom_mechanics::evaluation::threads::Threads;
 use lissom_mechanics::evaluation::work::{power, power_gradient, work};
 use lissom_mechanics::joints::evaluation_point::Chart;
-use lissom_mechanics::kinematics::step_stages::StepStages;
-use lissom_mechanics::kinematics::{
-    CoordinateId, Kinematics, Layout, NodeId, Subject, Switch, USUAL_UNKNOWNS,
-};
-use lissom_mechanics::law::VisitLaw;
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId, USUAL_UNKNOWNS};
 use lissom_mechanics::signals::measurement::{Component, Gradient};
 use lissom_mechanics::signals::{Argument, DiscreteValueId, Graph, SignalId};
 
@@ -37,17 +31,10 @@ pub enum Target {
 }
 
 impl Target {
-    fn nodes(&self) -> &[NodeId] {
+    fn unknowns(&self) -> Unknowns<'_> {
         match self {
-            Self::Load(element) => element.nodes(),
-            Self::State(_) => &[],
-        }
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        match self {
-            Self::Load(element) => element.coordinates(),
-            Self::State(coordinate) => coordinate,
+            Self::Load(element) => element.unknowns(),
+            Self::State(coordinate) => Unknowns::of_coordinates(coordinate),
         }
     }
 }
@@ -68,11 +55,12 @@ struct Driven {
 impl Driven {
     fn new(target: Target, signal: SignalId, graph: &Graph, layout: &Layout) -> Option<Self> {
         let (mut nodes, mut coordinates, mut rows) = (Vec::new(), Vec::new(), Vec::new());
-        for &node in target.nodes() {
+        let unknowns = target.unknowns();
+        for &node in unknowns.nodes {
             nodes.push((node, rows.len()));
             rows.extend_from_slice(layout.rows_of_node(node));
         }
-        for &coordinate in target.coordinates() {
+        for &coordinate in unknowns.coordinates {
             coordinates.push((coordinate, rows.len()));
             rows.push(layout.row_of_coordinate(coordinate) as u32);
         }
@@ -208,6 +196,35 @@ impl Feedback {
         cliques
     }
 
+    /// Number of loads and states.
+    pub fn count(&self) -> usize {
+        self.driven.len()
+    }
+
+    /// Work of a load between two configurations [J]; none of a state.
+    pub fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
+        self.load(item).map_or(0.0, |(signal, load)| {
+            work(load, (from, to), [from, to].map(|at| self.graph.value(signal, at)))
+        })
+    }
+
+    /// Power of a load [W]; none of a state.
+    pub fn power(&self, item: usize, at: &Kinematics) -> f64 {
+        self.load(item).map_or(0.0, |(signal, load)| self.graph.value(signal, at) * power(load, at))
+    }
+
+    /// A load and its signal.
+    fn load(&self, item: usize) -> Option<(SignalId, &dyn Element)> {
+        let driven = self.driven.get(item)?;
+        let Target::Load(load) = &driven.target else { return None };
+        Some((driven.signal, &**load))
+    }
+
+    /// Known breakpoints of the signals of loads and states [s].
+    pub fn breakpoints(&self) -> Vec<f64> {
+        self.graph.breakpoints_of(self.driven.iter().map(|driven| driven.signal))
+    }
+
     /// Determines the positions of local matrices in the tangent's pattern.
     pub fn locate(&mut self, pattern: &Pattern) {
         self.places = ScatterMap::new();
@@ -307,16 +324,14 @@ pub struct ScaledPower<'s> {
 impl System {
     /// The power of a load scaled by a signal, with its parts; none of other elements.
     pub fn scaled_power(&self, element: ElementId, at: &Kinematics) -> Option<ScaledPower<'_>> {
-        let feedback: &Feedback = &self.feedback;
-        let driven = feedback.driven.get(element.item).filter(|_| element.batch.is_none())?;
-        let Target::Load(load) = &driven.target else { return None };
+        let (signal, load) = self.feedback.load(element.item).filter(|_| element.batch.is_none())?;
         Some(ScaledPower {
-            signal: driven.signal,
-            size: feedback.graph.value(driven.signal, at),
-            unit: power(&**load, at),
-            gradient: power_gradient(&**load, at)?,
-            nodes: load.nodes(),
-            coordinates: load.coordinates(),
+            signal,
+            size: self.feedback.graph.value(signal, at),
+            unit: power(load, at),
+            gradient: power_gradient(load, at)?,
+            nodes: load.unknowns().nodes,
+            coordinates: load.unknowns().coordinates,
         })
     }
 }
@@ -334,31 +349,7 @@ impl std::ops::Deref for DrivenBatch {
 }
 
 impl AnyBatch for DrivenBatch {
-    fn count(&self) -> usize {
-        0
-    }
-
-    fn sees_multipliers(&self) -> bool {
-        false
-    }
-
-    fn connect(&mut self, _: &Layout) {}
-
-    fn locate(&mut self, _: &Pattern) {}
-
-    fn cliques(&self) -> Vec<Vec<usize>> {
-        Feedback::cliques(self)
-    }
-
-    fn starts(&self) -> &[usize] {
-        &[0]
-    }
-
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        self.add_forces(at, out);
-    }
-
-    fn forces_side_by_side(&self, at: &Kinematics, _: &mut Threads, out: &mut [f64]) {
         self.add_forces(at, out);
     }
 
@@ -370,105 +361,5 @@ impl AnyBatch for DrivenBatch {
         out: &mut TangentAssembler<'_>,
     ) {
         self.assemble_tangent(at, chart, scratch, out);
-    }
-
-    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {
-        for (at, out) in step.stages.iter().zip(out) {
-            self.add_forces(at, out);
-        }
-    }
-
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
-    }
-
-    fn strain_energies(&self, _: &Kinematics, _: &mut Vec<(Owner, f64)>) {}
-
-    fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
-        (0..self.driven.len()).map(|item| AnyBatch::work(self, item, from, to)).sum()
-    }
-
-    fn power_of_loads(&self, at: &Kinematics) -> f64 {
-        (0..self.driven.len()).map(|item| AnyBatch::power(self, item, at)).sum()
-    }
-
-    fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
-        let size = |driven: &Driven, at: &Kinematics| {
-            self.graph.evaluate(at, |values| values[driven.signal.index()])
-        };
-        match self.driven.get(item) {
-            Some(driven @ Driven { target: Target::Load(element), .. }) => {
-                work(&**element, (from, to), [size(driven, from), size(driven, to)])
-            }
-            _ => 0.0,
-        }
-    }
-
-    fn power(&self, item: usize, at: &Kinematics) -> f64 {
-        let Some(driven) = self.driven.get(item) else { return 0.0 };
-        match &driven.target {
-            Target::Load(element) => {
-                self.graph.evaluate(at, |values| values[driven.signal.index()]) * power(&**element, at)
-            }
-            Target::State(_) => 0.0,
-        }
-    }
-
-    fn spring_motion(&self, _: usize, _: &Kinematics) -> Option<[f64; 3]> {
-        None
-    }
-
-    fn breakpoints(&self) -> Vec<f64> {
-        self.graph.breakpoints_of(self.driven.iter().map(|driven| driven.signal))
-    }
-
-    fn freeze_switches(&mut self, _: usize) -> usize {
-        0
-    }
-
-    fn switches(&self, _: &Kinematics, _: &mut Vec<Switch>) {
-        // Those of signals are monitored with their sides.
-    }
-
-    fn laws(&self, _: &Kinematics, _: &mut VisitLaw<'_>) {
-        // Those of signals are visited by the system.
-    }
-
-    fn name_laws(&self, _: &Kinematics, _: &Layout, _: &mut Vec<Subject>) {}
-
-    fn name_switches(&self, _: &Layout, _: &mut Vec<Subject>) {}
-
-    fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
-        None
-    }
-
-    fn linear_range(&self, _: LinearLimit, _: &Kinematics) -> Option<LinearRange> {
-        None
-    }
-
-    fn without_positive_mass(&self, _: &Kinematics) -> Option<NodeId> {
-        None
-    }
-
-    fn masses(&self, _: &Kinematics, _: &mut dyn FnMut(&Mass<'_>)) {}
-
-    fn max_relative_rotation(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
-        None
-    }
-
-    fn changed(&self, _: &[(&dyn AnyBatch, f64)], _: &Layout) -> Option<Changed> {
-        None
-    }
-
-    fn forces_of(&self, _: &[usize], at: &Kinematics, out: &mut [f64]) {
-        self.add_forces(at, out);
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
     }
 }

@@ -6,6 +6,7 @@ mod constraints;
 pub mod element_quantity;
 pub mod energy_derivatives;
 mod feedback;
+mod mass;
 mod parameter_difference;
 mod reading;
 mod state;
@@ -15,10 +16,10 @@ use std::sync::Arc;
 
 pub use builder::{BeamChain, BuildError, Builder, JointAttachment, PlaceOnTip, Placement};
 pub use lissom_mechanics::evaluation::batch::ElementId;
-pub use lissom_mechanics::evaluation::batch::{Mass, Owner};
 pub use lissom_mechanics::evaluation::threads::Threads;
 pub use lissom_mechanics::evaluation::{Blend, Linearization, Scratch, Sum, TangentAssembler, WORTH_WHILE};
 pub use lissom_mechanics::joints::Drive;
+pub use mass::Mass;
 pub use parameter_difference::ParameterDifference;
 pub use reading::{Quantity, Reading};
 pub use state::State;
@@ -33,9 +34,10 @@ pub use feedback::{DrivenBatch, Feedback, ScaledPower};
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
-use lissom_mechanics::elements::{Energy, LinearLimit, LinearRange};
+use lissom_mechanics::elements::{Capabilities, Element, Energy, Load, Unknowns};
 use lissom_mechanics::evaluation::batch::AnyBatch;
 use lissom_mechanics::evaluation::scatter_map::ScatterMap;
+use lissom_mechanics::evaluation::work::{power, work};
 use lissom_mechanics::joints::Constraint;
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::blocks::{Batches, JointBatch};
@@ -44,7 +46,7 @@ use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::latch::Latch;
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
-use lissom_mechanics::kinematics::{self, CoordinateId, Kinematics, LOCKED, Layout, NodeId, Subject, Switch};
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, Subject, Switch};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
 use lissom_mechanics::signals::Graph;
@@ -165,7 +167,7 @@ impl System {
             }
         }
         let mut counts = vec![0; self.layout.node_rows.len()];
-        let of_elements = self.batches.iter().flat_map(|batch| batch.cliques());
+        let of_elements = self.batches.iter().flat_map(|batch| batch.rows().cliques());
         let nodes_of =
             |rows: Vec<usize>| rows.into_iter().filter_map(|row| of_row[row]).collect::<Vec<usize>>();
         let of_constraints = self.constraints().map(|constraint| {
@@ -173,7 +175,7 @@ impl System {
             own.filter_map(|port| if let Port::Node(node) = port { Some(node.index()) } else { None })
                 .collect()
         });
-        for mut nodes in of_elements.map(nodes_of).chain(of_constraints) {
+        for mut nodes in of_elements.chain(self.feedback.cliques()).map(nodes_of).chain(of_constraints) {
             nodes.sort_unstable();
             nodes.dedup();
             for node in nodes {
@@ -198,25 +200,36 @@ impl System {
         self.gravity.factor.as_ref().map_or(1.0, |factor| factor.value(time))
     }
 
+    /// An element; none for a load scaled by a signal.
+    pub fn element(&self, id: ElementId) -> Option<&dyn Element> {
+        self.batches.get(id.batch?)?.element(id.item)
+    }
+
+    /// All elements with a capability.
+    pub fn elements_with<'s, C: ?Sized + 's>(
+        &'s self,
+        capability: impl Fn(Capabilities<'s>) -> Option<&'s C> + Copy + 's,
+    ) -> impl Iterator<Item = &'s C> {
+        self.batches.iter().flat_map(move |batch| batch.elements_with(capability))
+    }
+
     /// Kinetic, elastic and potential energy [J].
     pub fn energy(&self, at: &Kinematics) -> Energy {
-        let mut sum = Energy::default();
-        for batch in &self.batches {
-            sum += batch.energy(at);
-        }
-        sum
+        let of =
+            |batch: &Arc<dyn AnyBatch>| batch.elements().map(|element| element.energy(at)).sum::<Energy>();
+        self.batches.iter().map(of).sum()
     }
 
     /// Elongation, its rate and the opposing force [SI] of a spring or similar element.
     pub fn spring_motion(&self, element: ElementId, at: &Kinematics) -> Option<[f64; 3]> {
-        self.batches.get(element.batch?)?.spring_motion(element.item, at)
+        Some(self.element(element)?.capabilities().spring?.spring_motion(at))
     }
 
     /// Power that an element supplies to the rest of the model [W]: negative while it stores or dissipates energy.
     pub fn power(&self, element: ElementId, at: &Kinematics) -> f64 {
         match element.batch {
             None => self.feedback.power(element.item, at),
-            Some(batch) => self.batches[batch].power(element.item, at),
+            Some(_) => self.element(element).map_or(0.0, |element| power(element, at)),
         }
     }
 
@@ -225,13 +238,13 @@ impl System {
     pub fn work_of(&self, element: ElementId, from: &Kinematics, to: &Kinematics) -> f64 {
         match element.batch {
             None => self.feedback.work(element.item, from, to),
-            Some(batch) => self.batches[batch].work(element.item, from, to),
+            Some(_) => self.element(element).map_or(0.0, |element| work(element, (from, to), [1.0; 2])),
         }
     }
 
     /// Offsets of the local values of each item, for every batch of elements and of joints.
     pub fn starts_of_batches(&self) -> impl Iterator<Item = &[usize]> {
-        let elements = self.batches.iter().map(|batch| batch.starts());
+        let elements = self.batches.iter().map(|batch| batch.rows().starts());
         elements.chain(self.joint_batches.iter().map(JointBatch::starts))
     }
 
@@ -239,12 +252,24 @@ impl System {
     /// that are cubic polynomials.
     #[inline]
     pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
-        self.batches.iter().map(|batch| batch.work_of_loads(from, to)).sum()
+        self.sum_over_loads(
+            |load| work(load, (from, to), [1.0; 2]),
+            |item| self.feedback.work(item, from, to),
+        )
     }
 
     /// Power of loads [W].
     pub fn power_of_loads(&self, at: &Kinematics) -> f64 {
-        self.batches.iter().map(|batch| batch.power_of_loads(at)).sum()
+        self.sum_over_loads(|load| power(load, at), |item| self.feedback.power(item, at))
+    }
+
+    /// Sum over loads, first of every kind, and over those scaled by signals.
+    fn sum_over_loads(&self, of: impl Fn(&dyn Load) -> f64, of_scaled: impl Fn(usize) -> f64) -> f64 {
+        let loads = |batch: &Arc<dyn AnyBatch>| {
+            batch.elements_with(|own| own.load).filter(|load| load.is_active()).map(&of).sum::<f64>()
+        };
+        let scaled = (0..self.feedback.count()).map(of_scaled).sum();
+        self.batches.iter().map(loads).chain([scaled]).sum()
     }
 
     /// Power of prescribed motions, with all multipliers [W].
@@ -275,8 +300,9 @@ impl System {
     pub fn breakpoints(&self) -> Vec<f64> {
         let of_constraints = self.constraints.others().flat_map(Constraint::breakpoints);
         let of_events = self.signals().breakpoints_of(self.signals().events().iter().map(|event| event.root));
-        let of_elements = self.batches.iter().flat_map(|batch| batch.breakpoints());
-        let mut breakpoints: Vec<f64> = of_elements.chain(of_constraints).chain(of_events).collect();
+        let of_loads =
+            self.elements_with(|own| own.load).flat_map(Load::breakpoints).chain(self.feedback.breakpoints());
+        let mut breakpoints: Vec<f64> = of_loads.chain(of_constraints).chain(of_events).collect();
         breakpoints.sort_by(f64::total_cmp);
         breakpoints.dedup();
         breakpoints
@@ -285,21 +311,23 @@ impl System {
     /// Appends switching functions, which change their sign where forces of elements have a kink or a jump: the same
     /// number at every configuration.
     pub fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        self.batches.iter().for_each(|batch| batch.switches(at, out));
+        self.elements_with(|own| own.laws).for_each(|element| element.switches(at, out));
     }
 
     /// Passes the scalar laws of signals, elements and relations that depend on the motion to `visit`, with their arguments:
     /// the same laws in the same order at every configuration.
     pub fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
         self.signals().laws(at, visit);
-        self.batches.iter().for_each(|batch| batch.laws(at, visit));
+        self.elements_with(|own| own.laws).for_each(|element| element.laws(at, visit));
         self.constraints.others().for_each(|constraint| constraint.laws(at, visit));
     }
 
     /// Description of the law of this index.
     pub fn name_of_law(&self, which: usize, at: &Kinematics) -> Subject {
         let mut names = self.signals().names_of_laws();
-        self.batches.iter().for_each(|batch| batch.name_laws(at, self.layout(), &mut names));
+        for element in self.elements_with(|own| own.laws) {
+            element.laws(at, &mut |_, _| names.push(self.subject_of(element.unknowns())));
+        }
         for constraint in self.constraints.others() {
             let words = format!("the relation `{}`", constraint.name());
             constraint
@@ -311,78 +339,19 @@ impl System {
     /// Description of the switch of this index: those of signals are first.
     pub fn name_of_switch(&self, which: usize) -> Subject {
         let mut names = self.signals().names_of_switches();
-        self.batches.iter().for_each(|batch| batch.name_switches(self.layout(), &mut names));
+        for element in self.elements_with(|own| own.laws) {
+            let subject = self.subject_of(element.unknowns());
+            names.extend(std::iter::repeat_n(subject, element.switch_count()));
+        }
         names.get(which).cloned().unwrap_or_else(|| Subject::nameless("a force with a kink or a jump"))
     }
 
-    /// The largest deformation rate of an element [1/s], with one of its nodes; none if no element is deformable.
-    pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
-        let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));
-        rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
-    }
-
-    /// The element that exceeds the range of its linear law most; none if no element is linear in a frame of its own.
-    #[inline]
-    pub fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
-        let parts = self.batches.iter().filter_map(|batch| batch.linear_range(limit, at));
-        parts.reduce(|most, own| if own.part > most.part { own } else { most })
-    }
-
-    /// The first node of an element whose kinetic energy is not positive in every motion.
-    #[inline]
-    pub fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId> {
-        self.batches.iter().find_map(|batch| batch.without_positive_mass(at))
-    }
-
-    /// Passes the mass matrix of every element that has one, besides [`inertias`](Self::inertias), to `each`.
-    pub fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {
-        self.batches.iter().for_each(|batch| batch.masses(at, each));
-    }
-
-    /// The two nodes of an element with the largest relative rotation, and the cosine of half its angle; none if no
-    /// element connects two nodes that rotate.
-    pub fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
-        let pairs = self.batches.iter().filter_map(|batch| batch.max_relative_rotation(at));
-        pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
-    }
-
-    /// Momentum [N s] and angular momentum about the origin [N m s], in inertial axes.
-    pub fn momentum(&self, at: &Kinematics) -> (Vector3, Vector3) {
-        let mut linear = Vector3::zeros();
-        let mut angular = Vector3::zeros();
-        for inertia in &self.inertias {
-            let node = &at.nodes[inertia.node()];
-            let (p, l) = kinematics::split(&(inertia.mass() * node.twist));
-            let p = node.frame.rotation.apply(&p);
-            linear += p;
-            angular += node.frame.rotation.apply(&l) + node.frame.position.cross(&p);
-        }
-        self.masses(at, &mut |mass| {
-            let rates = self.local_rates(mass, at);
-            let mut momenta = vec![0.0; rates.len()];
-            mass.times(&rates, |row, value| momenta[row] = value);
-            for (&node, momentum) in mass.nodes.iter().zip(momenta.chunks_exact(6)) {
-                let frame = &at.nodes[node].frame;
-                let p = frame.rotation.apply(&Vector3::from_column_slice(&momentum[..3]));
-                let l = frame.rotation.apply(&Vector3::from_column_slice(&momentum[3..]));
-                linear += p;
-                angular += l + frame.position.cross(&p);
-            }
-        });
-        for batch in &self.batches {
-            angular += batch.angular_momentum(at);
-        }
-        (linear, angular)
-    }
-
-    /// Twists of an element's nodes and rates of its coordinates.
-    fn local_rates(&self, mass: &Mass<'_>, at: &Kinematics) -> Vec<f64> {
-        let twists = mass.nodes.iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
-        let coordinates = mass.rows[6 * mass.nodes.len()..].iter();
-        let rates = coordinates.map(|&row| {
-            let found = self.layout.coordinate_rows.iter().position(|own| *own == row);
-            found.map_or(0.0, |coordinate| at.coordinates[coordinate].rate)
-        });
-        twists.chain(rates).collect()
+    /// The force of an element, by where it acts.
+    fn subject_of(&self, unknowns: Unknowns<'_>) -> Subject {
+        let coordinates = unknowns.coordinates.iter().map(|&own| self.layout.coordinate_name(own));
+        let names: Vec<&str> =
+            coordinates.chain(unknowns.nodes.iter().map(|&node| self.layout.name_of_node(node))).collect();
+        let words = format!("the force on `{}`", names.join("` and `"));
+        Subject::new("", names.first().copied().unwrap_or_default()).called(words)
     }
 }

@@ -15,7 +15,8 @@ use std::sync::Arc;
 
 use super::System;
 use lissom_mechanics::elements::is_same;
-use lissom_mechanics::evaluation::batch::{AnyBatch, Changed};
+use lissom_mechanics::evaluation::batch::{AnyBatch, Changed, scatter};
+use lissom_mechanics::evaluation::scratch::with_scratch;
 use lissom_mechanics::kinematics::Kinematics;
 
 /// Difference between models with the same unknowns.
@@ -70,10 +71,10 @@ impl ParameterDifference {
             scratch.fill(0.0);
             for (batch, items) in &self.elements {
                 let batch = &system.batches[*batch];
-                if items.len() == batch.count() {
+                if items.len() == batch.rows().count() {
                     batch.forces(at, scratch);
                 } else {
-                    batch.forces_of(items, at, scratch);
+                    add_forces_of(&**batch, items, at, scratch);
                 }
             }
             for &constraint in &self.constraints {
@@ -83,5 +84,17 @@ impl ParameterDifference {
                 *sum += weight * value;
             }
         }
+    }
+}
+
+/// Adds the forces of some items of a batch.
+fn add_forces_of(batch: &dyn AnyBatch, items: &[usize], at: &Kinematics, out: &mut [f64]) {
+    for &item in items {
+        let Some(element) = batch.element(item) else { continue };
+        let rows = batch.rows().of(item);
+        with_scratch(rows.len(), |local| {
+            element.forces(at, local);
+            scatter(rows, local, out);
+        });
     }
 }

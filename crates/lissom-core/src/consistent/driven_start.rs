@@ -63,7 +63,7 @@ impl ConsistentInitialConditions {
     fn stiffness_of_driven(&self, system: &System, at: &Kinematics) -> Vec<f64> {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let kinds: Vec<bool> =
-            system.batches.iter().map(|batch| batch.deformation_rate(at).is_some()).collect();
+            system.batches.iter().map(|batch| batch.capabilities().deformation.is_some()).collect();
         let zero = vec![0.0; layout.multiplier_count];
         let mut flexible = system.empty_linearization();
         system.linearize_kinds(&kinds, &self.point(at, &zero), Chart::Body, &mut flexible);

@@ -91,8 +91,15 @@ pub(crate) fn sudden_deformation(
     let nodes = given.nodes.iter().chain(&used.nodes);
     let largest = nodes.map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
     let before = Kinematics { nodes: given.nodes.clone(), ..used.clone() };
-    let (most, (known, _)) = system.deformation_rate(used).zip(system.deformation_rate(&before))?;
+    let (most, (known, _)) = deformation_rate(system, used).zip(deformation_rate(system, &before))?;
     (most.0 - known > (NOTEWORTHY * largest / length).max(RATE_AT_REST)).then_some(most)
+}
+
+/// The largest deformation rate of an element [1/s], with one of its nodes; none if no element is deformable.
+fn deformation_rate(system: &System, at: &Kinematics) -> Option<(f64, NodeId)> {
+    let rates =
+        system.elements_with(|own| own.deformation).filter_map(|element| element.deformation_rate(at));
+    rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
 }
 
 /// The coordinate whose given rate is changed most, if that is significant compared with the `largest` speed of a

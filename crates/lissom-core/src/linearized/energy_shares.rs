@@ -9,10 +9,11 @@ use super::DISPLACEMENT;
 use super::mode::Mode;
 use super::model::LinearModel;
 use super::shapes::part_of;
-use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity};
+use crate::elements::Unknowns;
+use crate::kinematics::{GROUND, Kinematics, LOCKED, NodeId, Quantity};
 use crate::node_motion::displace;
 
-use crate::system::{Mass, Owner};
+use crate::system::Mass;
 
 /// Effective masses: translations along x, y and z [kg], rotations about them through the centre of mass [kg m²].
 pub type EffectiveMasses = [f64; 6];
@@ -23,7 +24,7 @@ impl LinearModel<'_> {
     /// ground, or to the joint on whose coordinate it acts. The sum is 1; parts under compression may have shares below 0.
     /// Empty for a mode without strain.
     pub fn strain_shares(&self, mode: &Mode) -> BTreeMap<String, f64> {
-        let (mut shares, mut energies) = (BTreeMap::new(), Vec::new());
+        let mut shares = BTreeMap::new();
         for take in [(|value: &Complex64| value.re) as fn(&Complex64) -> f64, |value| value.im] {
             let rows: Vec<f64> = mode.shape.iter().map(take).collect();
             let largest = self.largest(&rows);
@@ -33,10 +34,12 @@ impl LinearModel<'_> {
             let step = DISPLACEMENT / largest;
             for (sense, weight) in [(1.0, 1.0), (-1.0, 1.0), (0.0, -2.0)] {
                 let at = self.displaced(&rows, sense * step);
-                energies.clear();
-                self.system.batches.iter().for_each(|batch| batch.strain_energies(&at, &mut energies));
-                for (owner, energy) in energies.iter().filter(|(_, energy)| *energy != 0.0) {
-                    *shares.entry(self.name_of(owner)).or_insert(0.0) += weight * energy / (step * step);
+                for element in self.system.batches.iter().flat_map(|batch| batch.elements()) {
+                    let energy = element.energy(&at).strain;
+                    if energy != 0.0 {
+                        let name = self.owner(element.unknowns());
+                        *shares.entry(name).or_insert(0.0) += weight * energy / (step * step);
+                    }
                 }
             }
         }
@@ -172,13 +175,14 @@ impl LinearModel<'_> {
         at
     }
 
-    /// The part or joint that an element belongs to.
-    fn name_of(&self, owner: &Owner) -> String {
+    /// The part or joint to which an element with these unknowns belongs: that of its first node that is not the ground, or of its
+    /// first coordinate.
+    fn owner(&self, unknowns: Unknowns<'_>) -> String {
         let layout = self.system.layout();
-        if let Some(node) = owner.node {
+        if let Some(&node) = unknowns.nodes.iter().find(|&&node| node != GROUND) {
             return part_of(layout.node_name(node)).to_owned();
         }
-        let name = owner.coordinate.map_or("ground", |own| layout.coordinate_name(own));
+        let name = unknowns.coordinates.first().map_or("ground", |&own| layout.coordinate_name(own));
         name.rsplit_once('.').map_or(name, |(joint, _)| joint).to_owned()
     }
 }

@@ -3,6 +3,7 @@
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::elements::{LinearLimit, LinearRange};
 use crate::errors::Warning;
+use crate::kinematics::Kinematics;
 use crate::system::{State, System};
 
 /// Reports the first superelement that leaves its linear range in each respect. Has no state.
@@ -10,15 +11,22 @@ struct LinearRanges;
 
 pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     // Every superelement has a deformation.
-    beginning.problem.system.linear_range(LinearLimit::Deformation, &beginning.state.kinematics)?;
+    linear_range(beginning.problem.system, LinearLimit::Deformation, &beginning.state.kinematics)?;
     Some(Box::new(LinearRanges))
+}
+
+/// The element that exceeds the range of its linear law most; none if no element is linear in a frame of its own.
+fn linear_range(system: &System, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
+    let parts =
+        system.elements_with(|own| own.deformation).filter_map(|element| element.linear_range(limit, at));
+    parts.reduce(|most, own| if own.part > most.part { own } else { most })
 }
 
 impl Monitor for LinearRanges {
     fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
         let (system, state) = (step.problem.system, step.end);
         for limit in LinearLimit::ALL {
-            let found = system.linear_range(limit, &state.kinematics).filter(|own| own.part > 1.0);
+            let found = linear_range(system, limit, &state.kinematics).filter(|own| own.part > 1.0);
             if let Some(found) = found {
                 check_element(system, state, (limit, found), warnings);
             }

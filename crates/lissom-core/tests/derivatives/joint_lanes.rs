@@ -4,7 +4,7 @@ use lissom_core::joints::derivatives::LOCAL;
 use lissom_core::joints::evaluation_point::Point;
 use lissom_core::joints::starts::JointStarts;
 use lissom_core::joints::{self, Build};
-use lissom_core::kinematics::{CoordinateId, Freedoms, LOCKED};
+use lissom_core::kinematics::{Freedoms, LOCKED};
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Motion, Vector3};
 

@@ -14,7 +14,7 @@ use crate::derivatives::configuration::{Configuration, Random};
 const WEIGHTS: [[f64; 4]; 2] = [[1.0, -8.0, 8.0, -1.0], [0.3, 0.2, 0.1, -2.0]];
 
 fn forces(element: &impl Element, at: &Kinematics) -> Vec<f64> {
-    let mut out = vec![0.0; 6 * element.nodes().len()];
+    let mut out = vec![0.0; element.unknowns().force_count()];
     element.forces(at, &mut out);
     out
 }
@@ -26,7 +26,7 @@ fn check<E: Element + Sized>(shown: &str, neighbours: &[E; 4], is_proportional: 
         let derivative = E::derivative(&weighed);
         assert_eq!(derivative.is_some(), is_proportional, "{shown}");
         let Some(derivative) = derivative else { continue };
-        let mut wanted = vec![0.0; 6 * derivative.nodes().len()];
+        let mut wanted = vec![0.0; derivative.unknowns().force_count()];
         for (neighbour, weight) in weighed {
             for (sum, force) in wanted.iter_mut().zip(forces(neighbour, at)) {
                 *sum += weight * force;

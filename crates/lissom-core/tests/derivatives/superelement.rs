@@ -5,7 +5,7 @@ use lissom_core::elements::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Shortening, Superelement,
     SuperelementDescription, TurningMatrices, superelement,
 };
-use lissom_core::elements::{Element, LinearLimit};
+use lissom_core::elements::{Deformable, LinearLimit};
 use lissom_core::kinematics::{Freedoms, NodeId};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};

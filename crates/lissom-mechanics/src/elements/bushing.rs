@@ -21,7 +21,7 @@ use lissom_motion::{
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Element, Energy, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
 use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
@@ -155,8 +155,8 @@ impl Bushing {
 }
 
 impl Element for Bushing {
-    fn nodes(&self) -> &[NodeId] {
-        &self.nodes
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.nodes)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {

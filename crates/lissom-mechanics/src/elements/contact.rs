@@ -22,7 +22,7 @@ use lissom_motion::{
 use nalgebra::SMatrix;
 
 use super::force_law::Response;
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::{Gap, Pair};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
@@ -370,12 +370,12 @@ impl Contact {
 }
 
 impl Element for Contact {
-    fn nodes(&self) -> &[NodeId] {
-        &self.frames.nodes
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        self.friction.as_ref().map_or(&[], |friction| &friction.bristles)
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns {
+            nodes: &self.frames.nodes,
+            coordinates: self.friction.as_ref().map_or(&[], |friction| &friction.bristles),
+            multipliers: &[],
+        }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -383,7 +383,7 @@ impl Element for Contact {
         if touch.is_touching {
             self.frames.add_wrench(&touch.motion, &-touch.wrench(), out);
         }
-        for (k, &bristle) in self.coordinates().iter().enumerate() {
+        for (k, &bristle) in self.unknowns().coordinates.iter().enumerate() {
             out[BRISTLES + k] += at.coordinates[bristle].rate - touch.deflecting[k];
         }
     }
@@ -391,7 +391,7 @@ impl Element for Contact {
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let touch = self.touch(at);
         let size = out.size();
-        for k in 0..self.coordinates().len() {
+        for k in 0..self.unknowns().coordinates.len() {
             out.damping[(BRISTLES + k) * size + BRISTLES + k] += 1.0;
         }
         if !touch.is_touching {
@@ -465,28 +465,40 @@ impl Element for Contact {
         Energy { strain, ..Energy::default() }
     }
 
-    /// Friction is not the derivative of the energy of the bristles.
-    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
-        let touch = self.touch(fall);
-        if !touch.is_touching {
-            return;
-        }
-        let [force, stiffness, _] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
-        let slope = -(force + stiffness * self.deflected(&touch)) * Self::gap_by(&touch);
-        self.frames.add_wrench(&touch.motion, &slope, out);
-        if let Some(friction) = &self.friction {
-            for (k, bristle) in touch.bristles.iter().enumerate() {
-                out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;
-            }
-        }
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
     }
 
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { spring: Some(self), laws: Some(self), strain: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Spring for Contact {
+    /// Gap, its rate and the normal force.
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
+        self.motion(at)
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let touch = self.touch(at);
+        let by = Self::variations(&touch);
+        let gap_by = Self::gap_by(&touch);
+        let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
+        for (j, columns) in self.frames.columns(&touch.motion).iter().enumerate() {
+            let slots = 6 * j..6 * j + 6;
+            gap.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&gap_by).as_slice());
+            rate.by_place[slots.clone()].copy_from_slice((by.rate[0] * columns).as_slice());
+            rate.by_rate[slots].copy_from_slice((by.rate[1] * columns).as_slice());
+        }
+        let [force, by_depth, by_closing] = touch.normal_force;
+        Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate])
+    }
+}
+
+impl ForceLaws for Contact {
     fn switch_count(&self) -> usize {
         1
-    }
-
-    fn freeze_switches(&mut self, switch_states: SwitchStates) {
-        self.switch_states = switch_states;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
@@ -504,25 +516,23 @@ impl Element for Contact {
             visit(&law, &[x.x, x.y, x.z, a.x, a.y, a.z]);
         }
     }
+}
 
-    /// Gap, its rate and the normal force.
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
-        Some(self.motion(at))
-    }
-
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
-        let touch = self.touch(at);
-        let by = Self::variations(&touch);
-        let gap_by = Self::gap_by(&touch);
-        let (mut gap, mut rate) = (Gradient::zero(), Gradient::zero());
-        for (j, columns) in self.frames.columns(&touch.motion).iter().enumerate() {
-            let slots = 6 * j..6 * j + 6;
-            gap.by_place[slots.clone()].copy_from_slice(columns.tr_mul(&gap_by).as_slice());
-            rate.by_place[slots.clone()].copy_from_slice((by.rate[0] * columns).as_slice());
-            rate.by_rate[slots].copy_from_slice((by.rate[1] * columns).as_slice());
+impl StrainSlopes for Contact {
+    /// Friction is not the derivative of the energy of the bristles.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
+        let touch = self.touch(fall);
+        if !touch.is_touching {
+            return;
         }
-        let [force, by_depth, by_closing] = touch.normal_force;
-        Response { force, stiffness: -by_depth, damping: -by_closing }.gradients([gap, rate])
+        let [force, stiffness, _] = self.compliance.force(-touch.gap.value, 0.0, 0.0);
+        let slope = -(force + stiffness * self.deflected(&touch)) * Self::gap_by(&touch);
+        self.frames.add_wrench(&touch.motion, &slope, out);
+        if let Some(friction) = &self.friction {
+            for (k, bristle) in touch.bristles.iter().enumerate() {
+                out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;
+            }
+        }
     }
 }
 

@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 use super::contribution::{Contribution, CoordinateMass};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use super::{Capabilities, Element, Energy, Load, Tangents, Unknowns};
+use crate::kinematics::{CoordinateId, Kinematics};
 use crate::ports::{PortDeclaration, PortType, Ports};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::round_off;
@@ -187,12 +187,8 @@ impl CoordinateDynamics {
 }
 
 impl Element for CoordinateDynamics {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinates
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinates)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -230,7 +226,13 @@ impl Element for CoordinateDynamics {
         }
     }
 
-    fn is_load(&self) -> bool {
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for CoordinateDynamics {
+    fn is_active(&self) -> bool {
         self.is_load
     }
 }

@@ -5,9 +5,9 @@ use super::contribution::Contribution;
 use super::force_law::{ForceLaw, PRELOAD_FORCE, PRELOAD_MOMENT, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents};
+use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns};
 use crate::evaluation::switch_states::SwitchStates;
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
 use crate::law::VisitLaw;
 use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
@@ -140,12 +140,8 @@ impl CoordinateSpring {
 }
 
 impl Element for CoordinateSpring {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinate
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinate)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -164,12 +160,36 @@ impl Element for CoordinateSpring {
         Energy { strain: self.law.energy(self.motion(at)[0]), ..Energy::default() }
     }
 
-    fn switch_count(&self) -> usize {
-        self.law.switch_count()
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
     }
 
-    fn freeze_switches(&mut self, switch_states: SwitchStates) {
-        self.switch_states = switch_states;
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), spring: Some(self), laws: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for CoordinateSpring {
+    fn is_active(&self) -> bool {
+        self.law.is_active()
+    }
+}
+
+impl Spring for CoordinateSpring {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
+        let [elongation, rate] = self.motion(at);
+        [elongation, rate, self.law.evaluate(elongation, rate, self.switch_states.of(at)).force]
+    }
+
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let [elongation, rate] = self.motion(at);
+        self.law.evaluate(elongation, rate, self.switch_states.of(at)).gradients(Gradient::of_unknown(0))
+    }
+}
+
+impl ForceLaws for CoordinateSpring {
+    fn switch_count(&self) -> usize {
+        self.law.switch_count()
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
@@ -181,19 +201,5 @@ impl Element for CoordinateSpring {
         if !self.law.is_linear() {
             visit(&self.law, &self.motion(at));
         }
-    }
-
-    fn is_load(&self) -> bool {
-        self.law.is_active()
-    }
-
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
-        let [elongation, rate] = self.motion(at);
-        Some([elongation, rate, self.law.evaluate(elongation, rate, self.switch_states.of(at)).force])
-    }
-
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
-        let [elongation, rate] = self.motion(at);
-        self.law.evaluate(elongation, rate, self.switch_states.of(at)).gradients(Gradient::of_unknown(0))
     }
 }

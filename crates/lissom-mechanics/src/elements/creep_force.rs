@@ -4,14 +4,14 @@
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use nalgebra::{SMatrix, SVector};
 
-use super::{Element, Energy, Tangents};
+use super::{Capabilities, Element, Load, Tangents, Unknowns};
 use crate::contact::CreepLaw;
 use crate::contact::creep_law::Creep;
 use crate::contact::wheel_on_rail::{Pose, RailContact};
 use crate::dual::{Dual, Number};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::local_derivatives::LocalDerivatives;
-use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
+use crate::kinematics::{CarriedFrame, Kinematics};
 
 /// Derivatives of a force: with respect to the tip's variation, its twist relative to the base, and the normal force.
 const DIRECTIONS: usize = 13;
@@ -54,12 +54,8 @@ impl CreepForce {
 }
 
 impl Element for CreepForce {
-    fn nodes(&self) -> &[NodeId] {
-        &self.frames.nodes
-    }
-
-    fn multipliers(&self) -> &[usize] {
-        &self.multipliers
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.frames.nodes, multipliers: &self.multipliers, ..Unknowns::default() }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -72,14 +68,12 @@ impl Element for CreepForce {
         self.linearize_pressed(at, self.normal_force(at), out);
     }
 
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
-    }
-
-    fn is_load(&self) -> bool {
-        true
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), ..Capabilities::default() }
     }
 }
+
+impl Load for CreepForce {}
 
 impl CreepForce {
     /// The derivatives of its forces at this normal force; the multiplier is the last local unknown.

@@ -5,7 +5,7 @@ use lissom_motion::{Vector3, skew};
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
@@ -89,8 +89,8 @@ fn build(
 }
 
 impl Element for Force {
-    fn nodes(&self) -> &[NodeId] {
-        &self.node
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.node)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -111,15 +111,13 @@ impl Element for Force {
         }
     }
 
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for Force {
     fn breakpoints(&self) -> Vec<f64> {
         self.load.breakpoints()
-    }
-
-    fn is_load(&self) -> bool {
-        true
-    }
-
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
     }
 }

@@ -11,8 +11,8 @@
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use super::{Capabilities, Element, Energy, Spring, StrainSlopes, Tangents, Unknowns};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
@@ -153,12 +153,8 @@ impl Friction {
 }
 
 impl Element for Friction {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinates
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinates)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -182,11 +178,22 @@ impl Element for Friction {
         out.damping[3] += 1.0;
     }
 
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let deflection = at.coordinates[self.coordinates[1]].value;
+        Energy { strain: 0.5 * self.stiffness * deflection * deflection, ..Energy::default() }
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { spring: Some(self), strain: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Spring for Friction {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let coordinate = at.coordinates[self.coordinates[0]];
         let mut forces = [0.0; 2];
         self.forces(at, &mut forces);
-        Some([coordinate.value, coordinate.rate, forces[0]])
+        [coordinate.value, coordinate.rate, forces[0]]
     }
 
     fn spring_gradients(&self, _: &Kinematics) -> [Gradient; 3] {
@@ -194,14 +201,11 @@ impl Element for Friction {
         let elastic = Gradient::zero().plus(self.stiffness, &deflection).plus(self.damping, &deflecting);
         [value, rate, elastic.plus(self.viscous, &rate)]
     }
+}
 
+impl StrainSlopes for Friction {
     /// Of the bristle alone: the force of the coordinate is that of the bristle.
     fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
         out[1] += self.stiffness * fall.coordinates[self.coordinates[1]].value;
-    }
-
-    fn energy(&self, at: &Kinematics) -> Energy {
-        let deflection = at.coordinates[self.coordinates[1]].value;
-        Energy { strain: 0.5 * self.stiffness * deflection * deflection, ..Energy::default() }
     }
 }

@@ -14,7 +14,7 @@ use lissom_motion::{Vector3, rotation_part, skew};
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Element, OwnInertia, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
@@ -62,8 +62,8 @@ fn build(
 }
 
 impl Element for Gyrostat {
-    fn nodes(&self) -> &[NodeId] {
-        &self.node
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.node)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -77,10 +77,12 @@ impl Element for Gyrostat {
         add_block(&mut out.damping, 6, (3, 3), &-skew(&self.momentum));
     }
 
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { inertia: Some(self), ..Capabilities::default() }
     }
+}
 
+impl OwnInertia for Gyrostat {
     fn angular_momentum(&self, at: &Kinematics) -> Vector3 {
         at.nodes[self.node[0]].frame.rotation.apply(&self.momentum)
     }

@@ -10,7 +10,7 @@
 use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, skew};
 
 use super::inertia_blocks::InertiaBlocks;
-use super::{Element, Energy, Tangents, add_block, is_same};
+use super::{Capabilities, Element, Energy, Tangents, Unknowns, add_block, is_same};
 use crate::evaluation::blocks::Blocks;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{Kinematics, NodeId, split};
@@ -90,8 +90,8 @@ impl Inertia {
 }
 
 impl Element for Inertia {
-    fn nodes(&self) -> &[NodeId] {
-        &self.node
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.node)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -160,10 +160,6 @@ impl Element for Inertia {
         }
     }
 
-    fn may_be_stiff(&self) -> bool {
-        false
-    }
-
     fn energy(&self, at: &Kinematics) -> Energy {
         let node = &at.nodes[self.node[0]];
         let (mass, moment) = self.moments();
@@ -173,5 +169,9 @@ impl Element for Inertia {
             strain: 0.0,
             potential: -self.gravity.acceleration.dot(&weight_moment),
         }
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { is_body_inertia: true, ..Capabilities::default() }
     }
 }

@@ -3,8 +3,8 @@
 use super::contribution::Contribution;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use super::{Capabilities, Element, Load, Tangents, Unknowns};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 use crate::ports::Ports;
 use crate::registry::{COORDINATE, Function, Parameter, ParameterError, ParameterType, Parameters};
 
@@ -64,12 +64,8 @@ fn add(
 }
 
 impl Element for JointLoad {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinate
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinate)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -78,15 +74,13 @@ impl Element for JointLoad {
 
     fn linearize(&self, _: &Kinematics, _: &mut Tangents) {}
 
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for JointLoad {
     fn breakpoints(&self) -> Vec<f64> {
         self.size.breakpoints()
-    }
-
-    fn is_load(&self) -> bool {
-        true
-    }
-
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
     }
 }

@@ -38,5 +38,8 @@ pub use initial_model::InitialModel;
 pub use kind::{Attached, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 
-pub use crate::evaluation::element::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
+pub use crate::evaluation::capabilities::{
+    Capabilities, Deformable, ForceLaws, LinearLimit, LinearRange, Load, OwnInertia, Spring, StrainSlopes,
+};
+pub use crate::evaluation::element::{Element, Energy, Tangents, Unknowns, is_same};
 pub(crate) use crate::kinematics::local_derivatives::add_block;

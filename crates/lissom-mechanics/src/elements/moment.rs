@@ -6,7 +6,7 @@ use super::contribution::Contribution;
 use super::force::{DirectedLoad, LOAD_PARAMETERS};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Element, Load, Tangents, Unknowns, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::ports::Ports;
 use crate::registry::{ParameterError, Parameters};
@@ -39,8 +39,8 @@ fn build(
 }
 
 impl Element for Moment {
-    fn nodes(&self) -> &[NodeId] {
-        &self.node
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.node)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -57,15 +57,13 @@ impl Element for Moment {
         }
     }
 
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for Moment {
     fn breakpoints(&self) -> Vec<f64> {
         self.load.breakpoints()
-    }
-
-    fn is_load(&self) -> bool {
-        true
-    }
-
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
     }
 }

@@ -12,7 +12,7 @@ use super::force_law::{ForceLaw, PRELOAD_FORCE, Response, SIDE_OF_LENGTH};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::law_of_distance::{self, LawOfDistance};
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns, add_block};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, Switch, split};
@@ -177,8 +177,8 @@ fn add_pull(points: &[Point; 2], pull: &Vector3, out: &mut [f64]) {
 }
 
 impl Element for PointSpring {
-    fn nodes(&self) -> &[NodeId] {
-        &self.nodes
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.nodes)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -262,34 +262,25 @@ impl Element for PointSpring {
         Energy { strain: self.law.energy(length - self.length), ..Energy::default() }
     }
 
-    fn switch_count(&self) -> usize {
-        self.law.switch_count()
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
     }
 
-    fn freeze_switches(&mut self, switch_states: SwitchStates) {
-        self.switch_states = switch_states;
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), spring: Some(self), laws: Some(self), ..Capabilities::default() }
     }
+}
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        let (_, length, rate, _) = self.tension(at, &self.points(at));
-        self.law.switches(length - self.length, rate, self.switch_states.of(at), out);
-    }
-
-    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
-        if !self.law.is_linear() {
-            let [a, b] = self.points(at);
-            let law = LawOfDistance { law: &self.law, length: self.length };
-            visit(&law, &law_of_distance::arguments(&(b.position - a.position), &(b.velocity - a.velocity)));
-        }
-    }
-
-    fn is_load(&self) -> bool {
+impl Load for PointSpring {
+    fn is_active(&self) -> bool {
         self.law.is_active()
     }
+}
 
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+impl Spring for PointSpring {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let (_, length, rate, tension) = self.tension(at, &self.points(at));
-        Some([length - self.length, rate, tension.force])
+        [length - self.length, rate, tension.force]
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
@@ -308,5 +299,24 @@ impl Element for PointSpring {
             rate.by_place[slots].copy_from_slice(by_place.as_slice());
         }
         response.gradients([elongation, rate])
+    }
+}
+
+impl ForceLaws for PointSpring {
+    fn switch_count(&self) -> usize {
+        self.law.switch_count()
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        let (_, length, rate, _) = self.tension(at, &self.points(at));
+        self.law.switches(length - self.length, rate, self.switch_states.of(at), out);
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        if !self.law.is_linear() {
+            let [a, b] = self.points(at);
+            let law = LawOfDistance { law: &self.law, length: self.length };
+            visit(&law, &law_of_distance::arguments(&(b.position - a.position), &(b.velocity - a.velocity)));
+        }
     }
 }

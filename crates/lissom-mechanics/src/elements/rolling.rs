@@ -11,10 +11,10 @@
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
-use super::{Element, Energy, Tangents};
+use super::{Element, Tangents, Unknowns};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
-use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
+use crate::kinematics::{CarriedFrame, Kinematics};
 
 /// A wheel that creeps on a plane.
 #[derive(Clone, Debug)]
@@ -58,8 +58,8 @@ impl RollingCreep {
 }
 
 impl Element for RollingCreep {
-    fn nodes(&self) -> &[NodeId] {
-        &self.frames.nodes
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.frames.nodes)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -86,9 +86,5 @@ impl Element for RollingCreep {
         let size = out.size();
         self.frames.add_stiffness(&of.motion, (&of.wrench(), &by_place), (size, &mut out.stiffness));
         self.frames.add_damping(&of.motion, &by_rate, (size, &mut out.damping));
-    }
-
-    fn energy(&self, _: &Kinematics) -> Energy {
-        Energy::default()
     }
 }

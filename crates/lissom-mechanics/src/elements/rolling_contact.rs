@@ -16,11 +16,11 @@ use super::contribution::Contribution;
 use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents};
+use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
-use crate::kinematics::{CarriedFrame, Kinematics, NodeId, Switch};
+use crate::kinematics::{CarriedFrame, Kinematics, Switch};
 use crate::ports::Ports;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
@@ -247,8 +247,8 @@ impl RollingContact {
 }
 
 impl Element for RollingContact {
-    fn nodes(&self) -> &[NodeId] {
-        &self.frames.nodes
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.frames.nodes)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -293,22 +293,20 @@ impl Element for RollingContact {
         Energy { strain: 0.5 * self.stiffness * depth * depth, ..Energy::default() }
     }
 
-    fn switch_count(&self) -> usize {
-        1
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
     }
 
-    fn freeze_switches(&mut self, switch_states: SwitchStates) {
-        self.switch_states = switch_states;
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { spring: Some(self), laws: Some(self), ..Capabilities::default() }
     }
+}
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        out.push((-self.touch(at).gap).into());
-    }
-
+impl Spring for RollingContact {
     /// Gap, its rate and the normal force.
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let touch = self.touch(at);
-        Some([touch.gap, touch.gap_rate, touch.normal[0]])
+        [touch.gap, touch.gap_rate, touch.normal[0]]
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
@@ -323,5 +321,15 @@ impl Element for RollingContact {
         rate.by_rate = gap.by_place;
         let [force, stiffness, damping] = touch.normal;
         Response { force, stiffness, damping }.gradients([gap, rate])
+    }
+}
+
+impl ForceLaws for RollingContact {
+    fn switch_count(&self) -> usize {
+        1
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        out.push((-self.touch(at).gap).into());
     }
 }

@@ -17,7 +17,7 @@ use super::force_law::{ForceLaw, Response};
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::point_spring::Point;
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Element, Energy, ForceLaws, Load, Spring, Tangents, Unknowns, add_block};
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, MAX_NODES, NodeId, Switch};
@@ -321,12 +321,8 @@ impl Rope {
 }
 
 impl Element for Rope {
-    fn nodes(&self) -> &[NodeId] {
-        &self.nodes
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.drums
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.nodes, coordinates: &self.drums, multipliers: &[] }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -414,27 +410,47 @@ impl Element for Rope {
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
-        if self.is_load() {
+        if self.is_active() {
             return Energy::default();
         }
         Energy { strain: self.law.energy(self.shape(at).elongation), ..Energy::default() }
     }
 
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), spring: Some(self), laws: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for Rope {
     /// A winch supplies energy: then its total work is computed.
-    fn is_load(&self) -> bool {
+    fn is_active(&self) -> bool {
         self.law.is_active() || !self.length.is_constant()
     }
 
     fn breakpoints(&self) -> Vec<f64> {
         self.length.breakpoints()
     }
+}
 
-    fn switch_count(&self) -> usize {
-        self.law.switch_count()
+impl Spring for Rope {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
+        let shape = self.shape(at);
+        [shape.elongation, shape.rate, self.tension(&shape, at).force]
     }
 
-    fn freeze_switches(&mut self, switch_states: SwitchStates) {
-        self.switch_states = switch_states;
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
+        let shape = self.shape(at);
+        self.tension(&shape, at).gradients(self.gradients(&shape))
+    }
+}
+
+impl ForceLaws for Rope {
+    fn switch_count(&self) -> usize {
+        self.law.switch_count()
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
@@ -445,15 +461,5 @@ impl Element for Rope {
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
         let shape = self.shape(at);
         visit(&self.law, &[shape.elongation, shape.rate]);
-    }
-
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
-        let shape = self.shape(at);
-        Some([shape.elongation, shape.rate, self.tension(&shape, at).force])
-    }
-
-    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
-        let shape = self.shape(at);
-        self.tension(&shape, at).gradients(self.gradients(&shape))
     }
 }

@@ -5,10 +5,10 @@ use super::contribution::Contribution;
 use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
-use super::{Element, Energy, Tangents};
+use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
 use crate::contact::compliance::{Compliance, MIN_RESTITUTION, relative_dissipation};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity, Switch};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity, Switch};
 use crate::ports::Ports;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::measurement::Gradient;
@@ -172,12 +172,8 @@ impl Stop {
 }
 
 impl Element for Stop {
-    fn nodes(&self) -> &[NodeId] {
-        &[]
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinate
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_coordinates(&self.coordinate)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -190,16 +186,8 @@ impl Element for Stop {
         out.damping[0] += response.damping;
     }
 
-    fn switch_count(&self) -> usize {
-        2
-    }
-
-    fn freeze_switches(&mut self, switch_states: SwitchStates) {
-        self.switch_states = switch_states;
-    }
-
-    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
-        out.extend(self.depths(at).map(Switch::from));
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
@@ -207,12 +195,28 @@ impl Element for Stop {
         Energy { strain, ..Energy::default() }
     }
 
-    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { spring: Some(self), laws: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Spring for Stop {
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let coordinate = &at.coordinates[self.coordinate[0]];
-        Some([coordinate.value, coordinate.rate, self.response(at).force])
+        [coordinate.value, coordinate.rate, self.response(at).force]
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
         self.response(at).gradients(Gradient::of_unknown(0))
+    }
+}
+
+impl ForceLaws for Stop {
+    fn switch_count(&self) -> usize {
+        2
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        out.extend(self.depths(at).map(Switch::from));
     }
 }

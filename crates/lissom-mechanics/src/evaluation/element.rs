@@ -1,14 +1,12 @@
 //! Interface of an element: it computes forces and their derivatives from positions, twists and accelerations in SI.
 
-use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::blocks::Blocks;
+use super::capabilities::Capabilities;
 use super::switch_states::SwitchStates;
 use crate::kinematics::step_stages::{STAGES, StepStages};
-use crate::kinematics::{CoordinateId, Kinematics, NodeId, Switch};
-use crate::law::VisitLaw;
-use crate::signals::measurement::Gradient;
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
 /// Energies of an element or a system [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -25,6 +23,14 @@ impl Energy {
     /// Sum of all terms.
     pub fn total(&self) -> f64 {
         self.kinetic + self.strain + self.potential
+    }
+}
+
+impl std::iter::Sum for Energy {
+    fn sum<I: Iterator<Item = Self>>(energies: I) -> Self {
+        let mut sum = Self::default();
+        energies.for_each(|energy| sum += energy);
+        sum
     }
 }
 
@@ -116,62 +122,48 @@ pub fn is_same<T: std::fmt::Debug + ?Sized>(one: &T, other: &T) -> bool {
     format!("{one:?}") == format!("{other:?}")
 }
 
-/// Used fraction of the range in which a linear law is valid.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinearRange {
-    /// Fraction of the valid range: above 1 the law is inaccurate.
-    pub part: f64,
-    /// The node with the largest deformation or rotation.
-    pub node: NodeId,
+/// Unknowns on which an element acts, and multipliers on which its forces depend, in the order of its local unknowns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unknowns<'e> {
+    /// Nodes, six body-frame degrees of freedom each.
+    pub nodes: &'e [NodeId],
+    /// Algebraic coordinates.
+    pub coordinates: &'e [CoordinateId],
+    /// Multipliers, among all.
+    pub multipliers: &'e [usize],
 }
 
-/// Limits of a linear law.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LinearLimit {
-    /// Deformations.
-    Deformation,
-    /// The rate of rotation.
-    Spin,
-    /// The relative change of stiffness by axial forces and rotation.
-    Load,
-    /// Coupling of bending and torsion by moments.
-    Moment,
-    /// Forces of modes that are omitted, under sudden loads.
-    LeftOut,
-}
+impl<'e> Unknowns<'e> {
+    /// Nodes alone.
+    pub fn of_nodes(nodes: &'e [NodeId]) -> Self {
+        Self { nodes, ..Self::default() }
+    }
 
-impl LinearLimit {
-    /// All of them.
-    pub const ALL: [Self; 5] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment, Self::LeftOut];
+    /// Coordinates alone.
+    pub fn of_coordinates(coordinates: &'e [CoordinateId]) -> Self {
+        Self { coordinates, ..Self::default() }
+    }
+
+    /// Number of forces: multipliers have none.
+    pub fn force_count(&self) -> usize {
+        6 * self.nodes.len() + self.coordinates.len()
+    }
+
+    /// Twists of the nodes, then rates of the coordinates.
+    pub fn rates(self, at: &Kinematics) -> impl Iterator<Item = f64> {
+        let twists = self.nodes.iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
+        twists.chain(self.coordinates.iter().map(|&own| at.coordinates[own].rate))
+    }
 }
 
 /// An element. SI in, SI out.
 pub trait Element: std::fmt::Debug + Send + Sync + 'static {
-    /// Nodes it acts on, in local order.
-    fn nodes(&self) -> &[NodeId];
-
-    /// Algebraic coordinates it acts on, after the nodes in local order.
-    fn coordinates(&self) -> &[CoordinateId] {
-        &[]
-    }
-
-    /// Multipliers on which its forces depend, among all; they follow its coordinates in local order. Default: none.
-    fn multipliers(&self) -> &[usize] {
-        &[]
-    }
+    /// Unknowns on which it acts.
+    fn unknowns(&self) -> Unknowns<'_>;
 
     /// Adds the forces [N, N m] on the left-hand side of the equations of motion, six per node in the node's body
     /// frame, then one per coordinate. Called in every iteration.
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
-
-    /// All elements of a batch laid out for evaluation several at a time, if that is efficient. Their forces are
-    /// those of [`Self::forces`] to round-off. Default: none, they are evaluated one by one.
-    fn blocks(_elements: &[Self]) -> Option<Box<dyn Blocks>>
-    where
-        Self: Sized,
-    {
-        None
-    }
 
     /// Adds the forces at both stages of a step, for schemes that integrate strains. Their work over it is the
     /// change of the elements' energy, as far as the method's stages integrate squares exactly. Default, for
@@ -180,6 +172,34 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         for (at, out) in step.stages.iter().zip(out) {
             self.forces(at, out);
         }
+    }
+
+    /// Adds the derivatives of `forces`. `out` is zero on entry. Called rarely.
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents);
+
+    /// Kinetic, elastic and potential energy. Default: none.
+    fn energy(&self, _at: &Kinematics) -> Energy {
+        Energy::default()
+    }
+
+    /// Its capabilities, the same for all elements of its kind. Default: none.
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities::default()
+    }
+
+    /// Location of the frozen sides of its switches, for elements with [`ForceLaws`](super::capabilities::ForceLaws): its forces are
+    /// to be continued from there. Default: none.
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        None
+    }
+
+    /// All elements of a batch laid out for evaluation several at a time, if that is efficient. Their forces are
+    /// those of [`Self::forces`] to round-off. Default: none, they are evaluated one by one.
+    fn blocks(_elements: &[Self]) -> Option<Box<dyn Blocks>>
+    where
+        Self: Sized,
+    {
+        None
     }
 
     /// If forces are proportional to a model parameter, such as a stiffness or a mass: an element whose forces are their
@@ -191,122 +211,23 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     {
         None
     }
-
-    /// Adds the derivatives of `forces`. `out` is zero on entry. Called rarely.
-    fn linearize(&self, at: &Kinematics, out: &mut Tangents);
-
-    /// The same, with the stresses of another configuration in the geometric stiffness: far from equilibrium those of
-    /// an iterate are meaningless, see `Point::stressed`.
-    fn linearize_stressed(&self, at: &Kinematics, _stressed: &Kinematics, out: &mut Tangents) {
-        self.linearize(at, out);
-    }
-
-    /// Writes its mass matrix to `out`, row by row of its local unknowns, for elements with mass except bodies, whose mass
-    /// is stored in the system. Default: nothing.
-    fn mass(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
-
-    /// Whether its kinetic energy is positive in every motion, if that depends on the configuration. Default: it is.
-    fn has_positive_mass(&self, _at: &Kinematics) -> bool {
-        true
-    }
-
-    /// Kinetic, elastic and potential energy.
-    fn energy(&self, at: &Kinematics) -> Energy;
-
-    /// Adds the derivatives of its strain energy with respect to its local unknowns, from the configuration at rest and in free
-    /// `fall`, where neither inertia nor weight acts. Default, for elements whose other forces vanish there: their forces, unless
-    /// they are a load.
-    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]) {
-        if !self.is_load() {
-            self.forces(fall, out);
-        }
-    }
-
-    /// Whether motion that deforms it may be faster than steps resolve. Default: it may. False for inertia, whose forces depend on
-    /// positions only through the axes in which they are expressed.
-    fn may_be_stiff(&self) -> bool {
-        true
-    }
-
-    /// Whether its forces supply or dissipate energy, so that their work is computed. Default: they do not. Stored
-    /// energy is then reported by [`energy`](Self::energy), and dissipated energy is lost.
-    fn is_load(&self) -> bool {
-        false
-    }
-
-    /// Angular momentum in addition to that of the masses, inertial axes [N m s]. Default: none.
-    fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
-        Vector3::zeros()
-    }
-
-    /// Elongation, its rate and the opposing force [SI], for springs and similar elements. Default: none.
-    fn spring_motion(&self, _at: &Kinematics) -> Option<[f64; 3]> {
-        None
-    }
-
-    /// Derivatives of the three numbers of [`spring_motion`](Self::spring_motion) with respect to its local unknowns. Default:
-    /// zero.
-    fn spring_gradients(&self, _at: &Kinematics) -> [Gradient; 3] {
-        [Gradient::zero(); 3]
-    }
-
-    /// Known breakpoints of its forces [s]. Default: none.
-    fn breakpoints(&self) -> Vec<f64> {
-        Vec::new()
-    }
-
-    /// Number of kinks and jumps of its forces that [`switches`](Self::switches) reports. Default: none.
-    fn switch_count(&self) -> usize {
-        0
-    }
-
-    /// Sets the location of the frozen sides of its switches, from which its forces are to be continued. Default:
-    /// nothing.
-    fn freeze_switches(&mut self, _switch_states: SwitchStates) {}
-
-    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
-    fn switches(&self, _at: &Kinematics, _out: &mut Vec<Switch>) {}
-
-    /// Passes its scalar laws with their arguments to `visit`, always in the same order, except for linear ones. Default: it
-    /// has none.
-    fn laws(&self, _at: &Kinematics, _visit: &mut VisitLaw<'_>) {}
-
-    /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
-    /// nodes, for deformable elements. Default: none.
-    fn deformation_rate(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {
-        None
-    }
-
-    /// Used fraction of the range in which its linear law is valid, for elements that are linear in a frame of their own.
-    /// Default: none.
-    fn linear_range(&self, _limit: LinearLimit, _at: &Kinematics) -> Option<LinearRange> {
-        None
-    }
-
-    /// Its two nodes with the largest relative rotation, and the cosine of half its angle, for elements that cannot
-    /// distinguish a rotation from the opposite one. Default: none.
-    fn max_relative_rotation(&self, _at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
-        None
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kinematics::GROUND;
 
-    /// Forces, their derivatives and energy, and nothing else.
+    /// Forces and their derivatives, and nothing else.
     #[derive(Debug)]
-    struct Bare;
+    struct Bare([NodeId; 1]);
 
     impl Element for Bare {
-        fn nodes(&self) -> &[NodeId] {
-            &[]
+        fn unknowns(&self) -> Unknowns<'_> {
+            Unknowns::of_nodes(&self.0)
         }
         fn forces(&self, _: &Kinematics, _: &mut [f64]) {}
         fn linearize(&self, _: &Kinematics, _: &mut Tangents) {}
-        fn energy(&self, _: &Kinematics) -> Energy {
-            Energy::default()
-        }
     }
 
     #[test]
@@ -315,31 +236,20 @@ mod tests {
         sum += Energy { kinetic: 8.0, strain: 16.0, potential: -32.0 };
         assert_eq!(sum, Energy { kinetic: 9.0, strain: 18.0, potential: -36.0 });
         assert_eq!(sum.total(), -9.0);
+        assert_eq!([sum, sum].into_iter().sum::<Energy>().total(), -18.0);
     }
 
     #[test]
     fn an_element_has_only_what_it_says() {
-        let at = &Kinematics {
-            time: 0.0,
-            elapsed: 0.0,
-            nodes: Vec::new(),
-            coordinates: Vec::new(),
-            held: Vec::new(),
-            multipliers: Vec::new(),
-        };
-        assert!(Bare.coordinates().is_empty() && Bare.multipliers().is_empty() && !Bare.is_load());
-        assert!(Bare.breakpoints().is_empty() && Bare.switch_count() == 0);
-        assert!(<Bare as Element>::blocks(&[Bare]).is_none() && Bare::derivative(&[(&Bare, 1.0)]).is_none());
-        assert_eq!(Bare.deformation_rate(at), None);
-        assert_eq!(Bare.spring_motion(at), None);
-        assert_eq!(Bare.spring_gradients(at), [Gradient::zero(); 3]);
-        assert_eq!(Bare.max_relative_rotation(at), None);
-        for limit in LinearLimit::ALL {
-            assert_eq!(Bare.linear_range(limit, at), None);
-        }
-        let (mut switches, mut out) = (Vec::new(), Vec::new());
-        Bare.switches(at, &mut switches);
-        Bare.mass(at, &mut out);
-        assert!(switches.is_empty() && out.is_empty());
+        let mut bare = Bare([GROUND]);
+        assert!(bare.switch_states().is_none());
+        assert!(<Bare as Element>::blocks(&[Bare([GROUND])]).is_none());
+        assert!(Bare::derivative(&[(&bare, 1.0)]).is_none());
+        let element: &dyn Element = &bare;
+        assert_eq!((element.unknowns().force_count(), element.unknowns().coordinates.len()), (6, 0));
+        let capabilities = element.capabilities();
+        assert!(capabilities.load.is_none() && capabilities.spring.is_none() && capabilities.laws.is_none());
+        assert!(capabilities.deformation.is_none() && capabilities.inertia.is_none());
+        assert!(capabilities.strain.is_none() && !capabilities.is_body_inertia);
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod batch;
 pub mod blocks;
+pub mod capabilities;
 pub mod element;
 pub mod linearization;
 pub mod scatter_map;

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 
 use lissom_motion::Vector3;
 
-use super::element::{Element, Tangents};
+use super::element::{Element, Tangents, Unknowns};
 use super::scratch::with_scratch;
 use crate::kinematics::work::along;
 use crate::kinematics::{Kinematics, USUAL_UNKNOWNS};
@@ -23,7 +23,7 @@ pub fn work<E: Element + ?Sized>(
     (from, to): (&Kinematics, &Kinematics),
     factors: [f64; 2],
 ) -> f64 {
-    let size = 6 * element.nodes().len() + element.coordinates().len();
+    let size = element.unknowns().force_count();
     with_scratch(2 * size, |locals| {
         let (first, second) = locals.split_at_mut(size);
         let mut locals = [first, second];
@@ -31,19 +31,19 @@ pub fn work<E: Element + ?Sized>(
             element.forces(at, local);
             local.iter_mut().for_each(|force| *force *= factor);
         }
-        work_along(element, (from, to), &locals)
+        work_along(element.unknowns(), (from, to), &locals)
     })
 }
 
 /// The work of these forces.
-fn work_along<E: Element + ?Sized>(
-    element: &E,
+fn work_along(
+    unknowns: Unknowns<'_>,
     (from, to): (&Kinematics, &Kinematics),
     locals: &[&mut [f64]; 2],
 ) -> f64 {
     let elapsed = to.time - from.time;
     let mut sum = 0.0;
-    for (k, &node) in element.nodes().iter().enumerate() {
+    for (k, &node) in unknowns.nodes.iter().enumerate() {
         let motions = [from, to].map(|at| &at.nodes[node]);
         let rotations = motions.map(|motion| motion.frame.rotation);
         let inertial = |values: &[f64], side: usize| {
@@ -59,8 +59,8 @@ fn work_along<E: Element + ?Sized>(
                 .sum::<f64>();
         }
     }
-    for (k, &coordinate) in element.coordinates().iter().enumerate() {
-        let position = 6 * element.nodes().len() + k;
+    for (k, &coordinate) in unknowns.coordinates.iter().enumerate() {
+        let position = 6 * unknowns.nodes.len() + k;
         let [start, end] = [from, to].map(|at| at.coordinates[coordinate]);
         let forces = [locals[0][position], locals[1][position]];
         sum += along(forces, end.value - start.value, [start.rate, end.rate], elapsed);
@@ -71,13 +71,11 @@ fn work_along<E: Element + ?Sized>(
 
 /// Power of an element's forces on its nodes and coordinates [W].
 pub fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
-    let size = 6 * element.nodes().len() + element.coordinates().len();
-    with_scratch(size, |forces| {
+    let unknowns = element.unknowns();
+    with_scratch(unknowns.force_count(), |forces| {
         element.forces(at, forces);
-        let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
-        let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
         // Forces are on the left-hand side of the equations of motion.
-        -twists.chain(rates).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
+        -unknowns.rates(at).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
     })
 }
 
@@ -88,19 +86,18 @@ pub fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
 /// P = -v·f,      ∂P/∂q = -Kᵀ v,      ∂P/∂v = -f - Cᵀ v,      ∂P/∂a = -Mᵀ v
 /// ```
 pub fn power_gradient<E: Element + ?Sized>(element: &E, at: &Kinematics) -> Option<Gradient> {
-    let size = 6 * element.nodes().len() + element.coordinates().len();
-    if size > USUAL_UNKNOWNS || !element.multipliers().is_empty() {
+    let unknowns = element.unknowns();
+    let size = unknowns.force_count();
+    if size > USUAL_UNKNOWNS || !unknowns.multipliers.is_empty() {
         return None;
     }
     let mut gradient = Gradient::zero();
     element.forces(at, &mut gradient.by_rate[..size]);
     gradient.by_rate.iter_mut().for_each(|force| *force = -*force);
-    let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
-    let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
     TANGENTS.with_borrow_mut(|tangents| {
         tangents.clear(size);
         element.linearize(at, tangents);
-        for (row, rate) in twists.chain(rates).enumerate() {
+        for (row, rate) in unknowns.rates(at).enumerate() {
             for (own, matrix) in [
                 (&mut gradient.by_place, &tangents.stiffness),
                 (&mut gradient.by_rate, &tangents.damping),

@@ -8,7 +8,7 @@ use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
 use crate::contact_point::ContactPoint;
 use crate::document::{Declaration, Output, Subject};
 use crate::report::Problem;
-use lissom_core::elements::Element;
+use lissom_core::elements::{Element, Unknowns};
 use lissom_core::system::System;
 use lissom_motion::Vector3;
 
@@ -63,8 +63,9 @@ impl OutputQuantity for ContactForce {
     fn touched(&self, _: &System) -> Option<Touched> {
         let mut touched = Touched::default();
         for ContactPoint { contact, .. } in &self.0 {
-            touched.nodes.extend(contact.nodes());
-            touched.coordinates.extend(contact.coordinates());
+            let Unknowns { nodes, coordinates, .. } = contact.unknowns();
+            touched.nodes.extend(nodes);
+            touched.coordinates.extend(coordinates);
         }
         Some(touched)
     }

@@ -68,7 +68,9 @@ impl Builder {
     ) -> bool {
         let Some(index) = element.batch else { return false };
         let batch = &*self.batches[index];
-        if of == Of::Spring && batch.spring_motion(element.item, &self.initial_kinematics()).is_none() {
+        let has_spring =
+            || batch.element(element.item).is_some_and(|own| own.capabilities().spring.is_some());
+        if of == Of::Spring && !has_spring() {
             return false;
         }
         let Some(quantity) = ElementQuantity::new(of, batch, element.item).map(Arc::new) else {

@@ -38,7 +38,7 @@ use forces::{Constants, forces};
 
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
-use super::{Element, Energy, Tangents, add_block};
+use super::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns, add_block};
 use crate::evaluation::blocks::Blocks;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{Kinematics, NodeId, split};
@@ -341,8 +341,8 @@ impl<const N: usize> Constants<f64> for Beam<N> {
 }
 
 impl<const N: usize> Element for Beam<N> {
-    fn nodes(&self) -> &[NodeId] {
-        &self.nodes
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns::of_nodes(&self.nodes)
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -392,6 +392,26 @@ impl<const N: usize> Element for Beam<N> {
         self.linearize_stressed(at, at, out);
     }
 
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let relative = self.relative(at);
+        let strain = self
+            .stations
+            .iter()
+            .map(|station| {
+                let strain =
+                    station.strain(&combine(&station.shape, &relative), &combine(&station.slope, &relative));
+                0.5 * station.weight * strain.dot(&(station.law.stiffness * strain))
+            })
+            .sum();
+        Energy { strain, ..Energy::default() }
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { deformation: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl<const N: usize> Deformable for Beam<N> {
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
         linearize::Linearization::new(self, at, stressed).assemble(self, out);
     }
@@ -421,19 +441,5 @@ impl<const N: usize> Element for Beam<N> {
         };
         let pairs = (0..N).filter(|&i| i != Self::REFERENCE).map(pair);
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
-    }
-
-    fn energy(&self, at: &Kinematics) -> Energy {
-        let relative = self.relative(at);
-        let strain = self
-            .stations
-            .iter()
-            .map(|station| {
-                let strain =
-                    station.strain(&combine(&station.shape, &relative), &combine(&station.slope, &relative));
-                0.5 * station.weight * strain.dot(&(station.law.stiffness * strain))
-            })
-            .sum();
-        Energy { strain, ..Energy::default() }
     }
 }

@@ -62,7 +62,9 @@ use self::part::Part;
 use self::second_order::{Deformed, SecondOrder};
 use self::vectors::{product, three};
 use super::inertia::Gravity;
-use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
+use super::{
+    Capabilities, Deformable, Element, Energy, LinearLimit, LinearRange, OwnInertia, Tangents, Unknowns,
+};
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, split};
 
@@ -156,12 +158,8 @@ fn is_positive_definite(matrix: &mut [f64], size: usize) -> bool {
 }
 
 impl Element for Superelement {
-    fn nodes(&self) -> &[NodeId] {
-        &self.part.nodes
-    }
-
-    fn coordinates(&self) -> &[CoordinateId] {
-        &self.part.coordinates
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.part.nodes, coordinates: &self.part.coordinates, multipliers: &[] }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -193,53 +191,6 @@ impl Element for Superelement {
         self.linearize_stressed(at, at, out);
     }
 
-    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        SCRATCH.with_borrow_mut(
-            |ThreadScratch { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
-                other.enter(&self.part, stressed);
-                self.part.stress(other);
-                own.enter(&self.part, at);
-                own.stress.copy_from_slice(&other.stress);
-                maps.add_elastic_tangents(&self.part, own, out);
-                if let Some(law) = &self.second_order {
-                    second.add_tangents(&self.part, law, at, out);
-                } else {
-                    self.part.momenta(own);
-                    maps.add_inertial_tangents(&self.part, own, out);
-                    centre.enter(&self.part, at);
-                    centre.add_tangents(&self.part, derivatives, out);
-                }
-            },
-        );
-    }
-
-    fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        SCRATCH.with_borrow_mut(|ThreadScratch { own, centre, maps, second, .. }| {
-            if let Some(law) = &self.second_order {
-                out.clear();
-                out.resize(self.part.size() * self.part.size(), 0.0);
-                second.add_mass(&self.part, law, at, out);
-                return;
-            }
-            own.enter(&self.part, at);
-            maps.mass(&self.part, own, out);
-            centre.enter(&self.part, at);
-            centre.add_mass(self.part.total, out);
-        });
-    }
-
-    fn has_positive_mass(&self, at: &Kinematics) -> bool {
-        // To first order the kinetic energy is a sum of squares.
-        if self.second_order.is_none() {
-            return true;
-        }
-        let mut matrix = SCRATCH.with_borrow_mut(|scratch| std::mem::take(&mut scratch.mass));
-        self.mass(at, &mut matrix);
-        let is_positive = is_positive_definite(&mut matrix, self.part.size());
-        SCRATCH.with_borrow_mut(|scratch| scratch.mass = matrix);
-        is_positive
-    }
-
     fn energy(&self, at: &Kinematics) -> Energy {
         SCRATCH.with_borrow_mut(|ThreadScratch { own: scratch, centre, second, .. }| {
             scratch.enter(&self.part, at);
@@ -260,6 +211,32 @@ impl Element for Superelement {
             let potential = -self.part.total * self.part.gravity.acceleration.dot(&place);
             Energy { kinetic, strain, potential }
         })
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { deformation: Some(self), inertia: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Deformable for Superelement {
+    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
+        SCRATCH.with_borrow_mut(
+            |ThreadScratch { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
+                other.enter(&self.part, stressed);
+                self.part.stress(other);
+                own.enter(&self.part, at);
+                own.stress.copy_from_slice(&other.stress);
+                maps.add_elastic_tangents(&self.part, own, out);
+                if let Some(law) = &self.second_order {
+                    second.add_tangents(&self.part, law, at, out);
+                } else {
+                    self.part.momenta(own);
+                    maps.add_inertial_tangents(&self.part, own, out);
+                    centre.enter(&self.part, at);
+                    centre.add_tangents(&self.part, derivatives, out);
+                }
+            },
+        );
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
@@ -330,5 +307,34 @@ impl Element for Superelement {
                 .map(deformed)
                 .reduce(|most, own| if own.part > most.part { own } else { most })
         })
+    }
+}
+
+impl OwnInertia for Superelement {
+    fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        SCRATCH.with_borrow_mut(|ThreadScratch { own, centre, maps, second, .. }| {
+            if let Some(law) = &self.second_order {
+                out.clear();
+                out.resize(self.part.size() * self.part.size(), 0.0);
+                second.add_mass(&self.part, law, at, out);
+                return;
+            }
+            own.enter(&self.part, at);
+            maps.mass(&self.part, own, out);
+            centre.enter(&self.part, at);
+            centre.add_mass(self.part.total, out);
+        });
+    }
+
+    fn has_positive_mass(&self, at: &Kinematics) -> bool {
+        // To first order the kinetic energy is a sum of squares.
+        if self.second_order.is_none() {
+            return true;
+        }
+        let mut matrix = SCRATCH.with_borrow_mut(|scratch| std::mem::take(&mut scratch.mass));
+        self.mass(at, &mut matrix);
+        let is_positive = is_positive_definite(&mut matrix, self.part.size());
+        SCRATCH.with_borrow_mut(|scratch| scratch.mass = matrix);
+        is_positive
     }
 }

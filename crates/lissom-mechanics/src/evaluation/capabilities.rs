@@ -1,0 +1,140 @@
+//! Capabilities of elements besides forces and energy. A query is a method of one of these interfaces, and a loop over the elements
+//! that have it where the result is needed.
+
+use lissom_motion::Vector3;
+
+use super::element::{Element, Tangents};
+use crate::kinematics::{Kinematics, NodeId, Switch};
+use crate::law::VisitLaw;
+use crate::signals::measurement::Gradient;
+
+/// Capabilities of an element, the same for all elements of a kind: a loop over a batch ends at the first element
+/// without the one it needs.
+#[derive(Clone, Copy, Default)]
+pub struct Capabilities<'e> {
+    /// Forces that supply or dissipate energy.
+    pub load: Option<&'e dyn Load>,
+    /// An elongation with its force.
+    pub spring: Option<&'e dyn Spring>,
+    /// Laws of its forces, with their kinks and jumps.
+    pub laws: Option<&'e dyn ForceLaws>,
+    /// Strain energy whose derivatives differ from the forces.
+    pub strain: Option<&'e dyn StrainSlopes>,
+    /// Deformations of an element with geometric stiffness.
+    pub deformation: Option<&'e dyn Deformable>,
+    /// Inertia besides that of bodies, which is stored in the system.
+    pub inertia: Option<&'e dyn OwnInertia>,
+    /// Whether it is the inertia of a body, whose forces depend on positions only through the axes in which they are
+    /// expressed. Motion that deforms any other element may be faster than steps resolve.
+    pub is_body_inertia: bool,
+}
+
+/// Forces that supply or dissipate energy.
+pub trait Load: Element {
+    /// Whether they do, so that their work is computed. Default: they do. Stored energy is otherwise reported by
+    /// [`Element::energy`], and dissipated energy is lost.
+    fn is_active(&self) -> bool {
+        true
+    }
+
+    /// Known breakpoints of its forces [s]. Default: none.
+    fn breakpoints(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// Springs and similar elements.
+pub trait Spring: Element {
+    /// Elongation, its rate and the opposing force [SI].
+    fn spring_motion(&self, at: &Kinematics) -> [f64; 3];
+
+    /// Derivatives of these three numbers with respect to its local unknowns.
+    fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3];
+}
+
+/// Elements whose forces follow from functions of a few numbers, with kinks or jumps at which steps end. They have
+/// [`switch_states`](Element::switch_states).
+pub trait ForceLaws: Element {
+    /// Number of kinks and jumps that [`switches`](Self::switches) reports.
+    fn switch_count(&self) -> usize;
+
+    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>);
+
+    /// Passes its scalar laws with their arguments to `visit`, always in the same order, except for linear ones. Default: it
+    /// has none.
+    fn laws(&self, _at: &Kinematics, _visit: &mut VisitLaw<'_>) {}
+}
+
+/// Elements whose forces at rest are not the derivatives of their strain energy.
+pub trait StrainSlopes: Element {
+    /// Adds the derivatives of its strain energy with respect to its local unknowns, from the configuration at rest and in free
+    /// `fall`, where neither inertia nor weight acts.
+    fn strain_slopes(&self, fall: &Kinematics, out: &mut [f64]);
+}
+
+/// Elements that deform, with geometric stiffness.
+pub trait Deformable: Element {
+    /// As [`Element::linearize`], with the stresses of another configuration in the geometric stiffness: far from equilibrium those
+    /// of an iterate are meaningless, see `Point::stressed`.
+    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents);
+
+    /// Its deformation rate [1/s]: the largest relative speed of its nodes over their distance, and one of the two
+    /// nodes.
+    fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
+
+    /// Its two nodes with the largest relative rotation, and the cosine of half its angle: it cannot distinguish a rotation from the
+    /// opposite one.
+    fn max_relative_rotation(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
+
+    /// Used fraction of the range in which its linear law is valid, for elements that are linear in a frame of their own.
+    /// Default: none.
+    fn linear_range(&self, _limit: LinearLimit, _at: &Kinematics) -> Option<LinearRange> {
+        None
+    }
+}
+
+/// Elements with inertia besides that of bodies.
+pub trait OwnInertia: Element {
+    /// Writes its mass matrix to `out`, row by row of its local unknowns. Default: nothing.
+    fn mass(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
+
+    /// Whether its kinetic energy is positive in every motion. Default: it is.
+    fn has_positive_mass(&self, _at: &Kinematics) -> bool {
+        true
+    }
+
+    /// Angular momentum in addition to that of the masses, inertial axes [N m s]. Default: none.
+    fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
+        Vector3::zeros()
+    }
+}
+
+/// Used fraction of the range in which a linear law is valid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearRange {
+    /// Fraction of the valid range: above 1 the law is inaccurate.
+    pub part: f64,
+    /// The node with the largest deformation or rotation.
+    pub node: NodeId,
+}
+
+/// Limits of a linear law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearLimit {
+    /// Deformations.
+    Deformation,
+    /// The rate of rotation.
+    Spin,
+    /// The relative change of stiffness by axial forces and rotation.
+    Load,
+    /// Coupling of bending and torsion by moments.
+    Moment,
+    /// Forces of modes that are omitted, under sudden loads.
+    LeftOut,
+}
+
+impl LinearLimit {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment, Self::LeftOut];
+}
