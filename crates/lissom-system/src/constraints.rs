@@ -208,7 +208,9 @@ fn slips(
         return;
     }
     rates(constraint, at, gradient, out);
-    out.iter_mut().for_each(|value| *value *= scale.lapse);
+    for value in out {
+        *value *= scale.lapse;
+    }
 }
 
 /// μ = λ + w c by equation; constraints of velocities are not augmented: they do not define coordinates without mass.
@@ -324,7 +326,6 @@ impl System {
                 }
                 for &(column, node) in &arrangement.nodes {
                     match chart {
-                        Chart::Body => {}
                         Chart::Increments(tangents) => {
                             let matrices = [&mut *stiffness, &mut *charted, &mut *turning];
                             for row in matrices.into_iter().flat_map(|own| own.chunks_exact_mut(size)) {
@@ -340,7 +341,7 @@ impl System {
                                 }
                             }
                         }
-                        Chart::RelativeToDrift(_) => {}
+                        Chart::Body | Chart::RelativeToDrift(_) => {}
                     }
                 }
                 let diagonal = if constraint.is_released(point.at) { -1.0 } else { 0.0 };
