@@ -22,9 +22,6 @@ use crate::kinematics::{CarriedFrame, Kinematics, Quantity};
 /// Names of the equations.
 pub const EQUATIONS: [&str; DIRECTIONS] = ["rolling along the first axis", "rolling along the second axis"];
 
-/// Number of local unknowns: those of base and tip.
-const SIZE: usize = 12;
-
 /// A wheel that rolls on a plane.
 #[derive(Debug)]
 pub struct NoSlip {
@@ -66,11 +63,11 @@ impl NoSlip {
         (by_place, std::array::from_fn(|k| turns[k] - bracket.tr_mul(&rows[k])))
     }
 
-    /// Rows with respect to η as rows with respect to the local unknowns.
+    /// Rows with respect to η as rows with respect to the twelve local unknowns of base and tip.
     fn add_rows(&self, motion: &RelativeMotion, rows: &[Vector6; DIRECTIONS], out: &mut [f64]) {
         for (j, columns) in self.frames.columns(motion).iter().enumerate() {
             for (k, row) in rows.iter().enumerate() {
-                add_block(out, SIZE, (k, 6 * j), &(row.transpose() * columns));
+                add_block(out, 12, (k, 6 * j), &(row.transpose() * columns));
             }
         }
     }
@@ -122,7 +119,7 @@ impl Constraint for NoSlip {
         let motion = self.frames.motion(at);
         let forces = [multipliers[0], multipliers[1]];
         let (by_place, _) = self.derivatives(&motion, forces);
-        self.frames.add_stiffness(&motion, (&self.of(&motion, &forces), &by_place), (SIZE, out));
+        self.frames.add_stiffness(&motion, (&self.of(&motion, &forces), &by_place), (12, out));
     }
 
     fn rate_derivatives(&self, at: &Kinematics, out: &mut [f64]) {
@@ -132,10 +129,10 @@ impl Constraint for NoSlip {
     }
 
     fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
-        let mut rows = [0.0; DIRECTIONS * SIZE];
+        let mut rows = [0.0; DIRECTIONS * 12];
         self.rate_derivatives(at, &mut rows);
         let twists = self.frames.nodes.map(|node| at.nodes[node].twist);
-        for (value, row) in out.iter_mut().zip(rows.chunks_exact(SIZE)) {
+        for (value, row) in out.iter_mut().zip(rows.chunks_exact(12)) {
             *value = row
                 .iter()
                 .zip(twists.iter().flat_map(|twist| twist.iter()))
