@@ -328,3 +328,20 @@ fn wrong_contacts_are_rejected_with_a_remedy() {
         }
     }
 }
+
+/// A ball that falls through a soft plate is reported; one on a stiff plate is not.
+#[test]
+fn parts_that_pass_through_each_other_are_reported() {
+    let plate = DROP
+        .replace("shape = { kind = \"plane\" }", "shape = { box = [1, 1, 0.1] }")
+        .replace("exponent = 1.5\nrestitution = 0.5\n", "")
+        .replace("end = 0.46", "end = 0.8");
+    for (stiffness, is_reported) in [("100", true), ("1e6", false)] {
+        let set = [("contacts.floor.stiffness".to_owned(), stiffness.to_owned())];
+        let mut session = Model::from_text("plate.toml", &plate).session(&set).expect("valid");
+        let (_, report) = session.record();
+        assert!(report.is_complete(), "{:?}", report.error());
+        let codes: Vec<_> = session.warnings().map(lissom_core::errors::Warning::code).collect();
+        assert_eq!(codes.contains(&"contact-too-deep"), is_reported, "{stiffness}: {codes:?}");
+    }
+}

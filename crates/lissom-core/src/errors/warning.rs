@@ -335,6 +335,26 @@ diagnostics! {
             advice: "A flange or a second contact would carry load from there on, which one constraint cannot represent: reduce the \
                 speed, or specify profiles over the whole width.",
         }
+        /// Two solids in contact are almost within each other.
+        ContactTooDeep {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of one of the parts.
+            part: String,
+            /// Penetration [m].
+            depth: f64,
+            /// Half of the penetration at which the solids are within each other [m].
+            limit: f64,
+        } => "contact-too-deep" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at t = {time} s a contact of `{part}` is {depth:.3e} m deep, more than half of what its shapes allow ({limit:.3e} m): \
+                    deeper, the parts leave each other on the other side"),
+            remedy: "use a larger contact stiffness, or start the parts apart",
+            meaning: "Two shapes in contact penetrate each other by more than half of their size; the contact force is no longer meaningful, \
+                and the parts may pass through each other.",
+            advice: "Use a larger contact stiffness, or start the parts apart.",
+        }
         /// A wheel that rolls is pulled by its plane.
         WheelLifts {
             /// When it was first detected [s].

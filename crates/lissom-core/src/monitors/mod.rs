@@ -16,6 +16,7 @@ mod instants;
 mod linear_range;
 mod monitor;
 mod pairs;
+mod penetration;
 mod resolution;
 mod sampled_steps;
 mod section_forces;
@@ -55,6 +56,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "equilibrium-jump", begin: equilibrium_jump::begin },
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
+    Kind { name: "penetration", begin: penetration::begin },
     Kind { name: "beam-strains", begin: beam_strains::begin },
     Kind { name: "section-forces", begin: section_forces::begin },
     Kind { name: "unresolved-forces", begin: unresolved_forces::begin },

@@ -90,6 +90,20 @@ impl Pair {
         }
     }
 
+    /// Penetration at which the solids are within each other [m]: beyond it the nearest surfaces are those of the other side, or a
+    /// sphere is below a plane.
+    pub fn deepest(&self) -> f64 {
+        match self {
+            Self::PointOnSurface { rounding, surface } if surface.depth().is_finite() => {
+                rounding + surface.depth()
+            }
+            // A point may be anywhere below a plane.
+            Self::PointOnSurface { rounding, .. } if *rounding == 0.0 => f64::INFINITY,
+            Self::PointOnSurface { rounding, .. } => 2.0 * rounding,
+            Self::RimOnPlane { radius, .. } => 2.0 * radius,
+        }
+    }
+
     /// Largest change of the gap per change of a [m].
     pub fn reach(&self) -> f64 {
         match self {

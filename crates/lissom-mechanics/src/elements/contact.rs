@@ -480,6 +480,12 @@ impl Spring for Contact {
         self.motion(at)
     }
 
+    /// Half of the penetration at which the solids are within each other.
+    fn least_elongation(&self) -> Option<f64> {
+        let deepest = self.pair.deepest();
+        deepest.is_finite().then_some(-0.5 * deepest)
+    }
+
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {
         let touch = self.touch(at);
         let by = Self::variations(&touch);

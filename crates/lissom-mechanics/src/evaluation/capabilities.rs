@@ -50,6 +50,12 @@ pub trait Spring: Element {
 
     /// Derivatives of these three numbers with respect to its local unknowns.
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3];
+
+    /// The elongation below which it describes no real part [m], as where two solids in contact penetrate each other almost
+    /// completely. Default: there is none.
+    fn least_elongation(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Elements whose forces follow from functions of a few numbers, with kinks or jumps at which steps end. They have

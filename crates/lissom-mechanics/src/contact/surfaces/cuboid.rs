@@ -18,6 +18,10 @@ pub struct Cuboid {
 }
 
 impl Surface for Cuboid {
+    fn depth(&self) -> f64 {
+        self.half_sides.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
     fn distance(&self, y: &Vector3) -> Distance {
         let beyond = y.abs() - Vector3::from(self.half_sides);
         let sign = y.map(|y| 1.0_f64.copysign(y));

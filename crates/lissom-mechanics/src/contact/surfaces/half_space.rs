@@ -9,6 +9,10 @@ use super::{Distance, Surface};
 pub struct HalfSpace;
 
 impl Surface for HalfSpace {
+    fn depth(&self) -> f64 {
+        f64::INFINITY
+    }
+
     fn distance(&self, y: &Vector3) -> Distance {
         Distance { value: y.z, normal: Vector3::z(), curvature: Matrix3::zeros() }
     }

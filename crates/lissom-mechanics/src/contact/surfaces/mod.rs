@@ -30,6 +30,9 @@ pub trait Surface: std::fmt::Debug + Send + Sync {
     /// Distance of the point y [m].
     fn distance(&self, y: &Vector3) -> Distance;
 
+    /// Depth below the surface at which the nearest point of it changes to the other side [m]; infinite for a plane.
+    fn depth(&self) -> f64;
+
     /// Whether its curvature is zero everywhere, so that the distance of a point is linear in its position. Default: it is not.
     fn is_plane(&self) -> bool {
         false

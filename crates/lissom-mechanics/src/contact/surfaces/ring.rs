@@ -21,6 +21,12 @@ pub struct Ring {
 }
 
 impl Surface for Ring {
+    fn depth(&self) -> f64 {
+        let [inner, outer] = self.radii;
+        let wall = if inner > 0.0 { 0.5 * (outer - inner) } else { outer };
+        wall.min(self.half_length)
+    }
+
     fn distance(&self, y: &Vector3) -> Distance {
         let [inner, outer] = self.radii;
         let radius = y.xy().norm();

@@ -18,6 +18,10 @@ pub struct Rod {
 }
 
 impl Surface for Rod {
+    fn depth(&self) -> f64 {
+        self.radius
+    }
+
     fn distance(&self, y: &Vector3) -> Distance {
         let is_beside = y.z.abs() < self.half_length;
         let from_axis = Vector3::new(y.x, y.y, y.z - y.z.clamp(-self.half_length, self.half_length));

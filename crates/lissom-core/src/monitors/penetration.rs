@@ -1,0 +1,39 @@
+//! Whether solids in contact penetrate each other by less than half of their size: deeper, they leave on the other side.
+
+use super::monitor::{Accepted, Beginning, Monitor};
+use crate::errors::{Warning, warn};
+use crate::kinematics::{GROUND, Kinematics};
+use crate::system::System;
+
+/// Reports the first contact that is too deep. Has no state.
+struct Penetration;
+
+pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
+    let mut springs = beginning.problem.system.elements_with(|own| own.spring);
+    let is_limited = springs.any(|spring| spring.least_elongation().is_some());
+    is_limited.then(|| Box::new(Penetration) as Box<dyn Monitor>)
+}
+
+impl Monitor for Penetration {
+    fn accept(&mut self, step: &mut Accepted<'_>, warnings: &mut Vec<Warning>) {
+        if let Some(warning) = too_deep(step.problem.system, &step.end.kinematics) {
+            warn(warnings, warning);
+        }
+    }
+}
+
+/// The first contact that is deeper than half of the size of its solids.
+fn too_deep(system: &System, at: &Kinematics) -> Option<Warning> {
+    system.elements_with(|own| own.spring).find_map(|spring| {
+        let least = spring.least_elongation()?;
+        let [gap, ..] = spring.spring_motion(at);
+        let named = |node| system.layout().name_of_node(node).to_owned();
+        let parts = spring.unknowns().nodes.iter().copied();
+        (gap < least).then(|| Warning::ContactTooDeep {
+            time: at.time,
+            part: parts.filter(|&node| node != GROUND).map(named).next_back().unwrap_or_default(),
+            depth: -gap,
+            limit: -least,
+        })
+    })
+}
