@@ -6,9 +6,9 @@ mod drawn;
 mod groups;
 mod joint;
 mod motion;
-mod rolling;
 mod signals;
 mod slider;
+mod velocity_constraints;
 
 use std::sync::Arc;
 

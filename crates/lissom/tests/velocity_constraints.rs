@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use lissom::Model;
+use lissom::linearize::{LinearizeRequest, linearize};
 use lissom::modes::{ModeReport, ModeRequest, OperatingPoint, modes};
 use lissom::response::{ResponseRequest, response};
 use lissom_core::linearized::{Completeness, ModeKind};
@@ -276,5 +277,41 @@ step = 1e-2
     assert_eq!(open.modes.len(), 2);
     for (mode, square) in open.modes.iter().zip([0.5 * b - root, 0.5 * b + root]) {
         near(mode.frequency, square.sqrt() / TAU, 1e-12);
+    }
+}
+
+/// An equilibrium path has no velocities, and says so.
+#[test]
+fn paths_reject_constraints_between_velocities() {
+    let path = ball("").replace("kind = \"dynamics\"\nend = 1\nstep = 1e-2", "kind = \"path\"");
+    let error = lissom::path::PathSession::new(&Model::from_text("model.toml", &path), &[]);
+    let words = error.err().map(|error| error.to_string()).unwrap_or_default();
+    assert!(words.contains("equilibrium path has no velocities") && words.contains("floor"), "{words}");
+}
+
+/// First-order equations at rest contain the force of a latch, which opposes the push while it is engaged and is zero while it is released.
+#[test]
+fn first_order_equations_contain_the_force_of_a_latch() {
+    for (held, states, force) in [(1, 0, 3.0), (0, 2, 0.0)] {
+        let text = format!(
+            "lissom = 1\ninputs.held = {held}\n\
+             [bodies.sledge]\nmass = 3\ninertia = [1, 1, 1]\n\
+             [joints.slope]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"sledge\"\naxis = [1, 0, 0]\n\
+             [springs.spring]\nkind = \"axial\"\njoint = \"slope\"\nstiffness = 100\n\
+             [springs.hook]\nkind = \"axial_latch\"\njoint = \"slope\"\nengaged = \"held\"\n\
+             [loads.push]\nkind = \"force\"\non = \"sledge\"\nvector = [3, 0, 0]\nscale = \"0*t\"\n\
+             [outputs.hook]\nkind = \"spring\"\nof = \"hook\"\n\
+             [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 1e-2\n"
+        );
+        let request = LinearizeRequest {
+            about: OperatingPoint::Time(0.0),
+            inputs: vec!["push".to_owned()],
+            outputs: vec!["hook.force".to_owned()],
+        };
+        let report = linearize(&Model::from_text("model.toml", &text), &[], &request)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let equations = report.state_space.unwrap_or_else(|error| panic!("{held}: {error}"));
+        assert_eq!(equations.a.nrows(), states, "{held}");
+        assert!((equations.d[(0, 0)] - force).abs() < 1e-9, "{held}: {}", equations.d);
     }
 }

@@ -278,8 +278,8 @@ fn find_near<'a, S: Field>(
     let most = match &spectrum {
         Some(spectrum) => spectrum.values.len(),
         None if freedoms == 0 || solver.has_redundant_constraints() => usize::MAX,
-        // Rolling bodies have more positions than velocities.
-        None => 2 * freedoms + layout.of_velocities.len(),
+        // Rolling bodies have more positions than velocities, and latches that are released do not constrain.
+        None => 2 * (freedoms + layout.of_velocities.len()),
     };
     if (is_empty && modes.is_empty()) || eigenvalues > most {
         return Err(ModeError::NotConverged {});

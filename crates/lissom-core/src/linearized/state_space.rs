@@ -301,7 +301,12 @@ impl Reduced {
         own += &self.t;
         let acceleration = &self.t * &self.accelerations;
         let multipliers = if outputs.iter().any(|(output, _)| !output.by_multiplier.is_empty()) {
-            if self.dependent.len() < self.gradient.nrows() {
+            // Constraints that are released exert no force.
+            let constraints = model.system.constraints().filter(|own| !own.is_released(&model.at));
+            let acting: Vec<usize> = constraints
+                .flat_map(|own| own.first_multiplier()..own.first_multiplier() + own.equations())
+                .collect();
+            if self.dependent.len() < acting.len() {
                 return Err(StateSpaceError::Redundant {});
             }
             let mut rest = -(&self.mass * &acceleration + &self.damping * &rate + &self.stiffness * &place);
@@ -310,8 +315,14 @@ impl Reduced {
                     rest[(row, states + k)] += input[row];
                 }
             }
-            let transposed = self.gradient.select_columns(&self.dependent).transpose();
-            transposed.lu().solve(&rest.select_rows(&self.dependent)).ok_or(StateSpaceError::Redundant {})?
+            let square = self.gradient.select_rows(&acting).select_columns(&self.dependent).transpose();
+            let forces = square.lu().solve(&rest.select_rows(&self.dependent));
+            let forces = forces.ok_or(StateSpaceError::Redundant {})?;
+            let mut multipliers = DMatrix::zeros(self.gradient.nrows(), width);
+            for (own, force) in acting.iter().zip(forces.row_iter()) {
+                multipliers.set_row(*own, &force);
+            }
+            multipliers
         } else {
             DMatrix::zeros(self.gradient.nrows(), width)
         };

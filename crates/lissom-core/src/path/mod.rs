@@ -74,6 +74,17 @@ diagnostics! {
             meaning: "The path of a system with feedback is not defined.",
             advice: "Remove loads and states whose signals depend on the motion.",
         }
+        /// There are constraints between velocities, which a path has none of.
+        VelocityConstraint {
+            /// The first of them.
+            constraint: Subject,
+        } => "path-velocity-constraint" {
+            subject: constraint,
+            cause: ("an equilibrium path has no velocities, which the {constraint} relates"),
+            remedy: "replace rolling joints by others, and remove latches or lock their joints",
+            meaning: "Rolling joints and latches are constraints between velocities, of which an equilibrium path has none.",
+            advice: "Replace rolling joints by others, and remove latches or lock their joints.",
+        }
         /// No load acts.
         NoLoad {} => "path-without-load" {
             cause: ("no load and no gravity acts at the time `start`, so a load factor has no effect"),
@@ -296,6 +307,12 @@ struct Solution {
     iterations: usize,
 }
 
+/// Rejects constraints between velocities.
+fn refuse_velocities(system: &System) -> Result<(), PathError> {
+    let constraint = system.layout().velocity_rows().next().map(|row| system.layout().subject_of(row));
+    constraint.map_or(Ok(()), |constraint| Err(PathError::VelocityConstraint { constraint }))
+}
+
 impl EquilibriumPath {
     /// Starts a path: equilibrium at load factor zero near `state`. `unloaded` is `loaded` without gravity and loads.
     ///
@@ -310,6 +327,7 @@ impl EquilibriumPath {
         if unloaded.has_feedback() || loaded.has_feedback() {
             return Err(PathError::Feedback {});
         }
+        refuse_velocities(&loaded)?;
         if !are_alike(&unloaded, &loaded) {
             return Err(PathError::NotAlike {});
         }
@@ -336,6 +354,7 @@ impl EquilibriumPath {
         if systems.any().has_feedback() {
             return Err(PathError::Feedback {});
         }
+        refuse_velocities(systems.any())?;
         Self::of_systems(systems, from, state, settings).map_err(|failed| match failed {
             NoStart::Failed(error) => PathError::StartAlong { name, value: from, error },
             NoStart::Nothing => PathError::NoEffect { name, value: from },

@@ -61,8 +61,8 @@ pub const KIND: JointKind = JointKind {
             "creep",
             ParameterType::NotNegative,
             "m/(N s)",
-            "Sliding velocity per force, a linear law of creep; default 0: no sliding. Required for several wheels on one axle, which \
-            constrain each other.",
+            "Sliding velocity per force, a linear law of creep; default 0: no sliding. Makes the forces of several wheels on one axle, \
+             which constrain each other, unique.",
         ),
     ],
     ports: Ports::ARM,

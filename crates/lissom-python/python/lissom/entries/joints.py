@@ -662,7 +662,7 @@ class Rolling(Joint):
         radius: Radius of the wheel, without the rounding of its rim; default: the one with which it touches the plane at the start; 0 for a ball of radius `rim` [m]; a number ≥ 0, or nothing.
         rim: Rounding radius of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of friction; a warning reports when rolling requires more; default: no limit; a number > 0, or nothing.
-        creep: Sliding velocity per force, a linear law of creep; default 0: no sliding. Required for several wheels on one axle, which constrain each other [m/(N s)]; a number ≥ 0, or nothing.
+        creep: Sliding velocity per force, a linear law of creep; default 0: no sliding. Makes the forces of several wheels on one axle, which constrain each other, unique [m/(N s)]; a number ≥ 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.

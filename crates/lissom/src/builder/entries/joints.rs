@@ -289,7 +289,7 @@ entry! {
     rim: f64 = "rim";
     /// Coefficient of friction; a warning reports when rolling requires more; default: no limit.
     friction_coefficient: f64 = "friction_coefficient";
-    /// Sliding velocity per force, a linear law of creep; default 0: no sliding. Required for several wheels on one axle, which constrain each other \[m/(N s)\].
+    /// Sliding velocity per force, a linear law of creep; default 0: no sliding. Makes the forces of several wheels on one axle, which constrain each other, unique \[m/(N s)\].
     creep: f64 = "creep";
 }
 

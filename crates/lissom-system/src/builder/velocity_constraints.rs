@@ -1,4 +1,4 @@
-//! Rolling joints: the constraint that prevents sliding, or the element that opposes it.
+//! Constraints between velocities: rolling and latches, and the element that opposes sliding instead.
 
 use super::Builder;
 use lissom_mechanics::contact::wheel_on_plane::Contact;
