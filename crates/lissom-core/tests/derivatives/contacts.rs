@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use lissom_core::contact::compliance::Compliance;
+use lissom_core::contact::curves::Segment;
 use lissom_core::contact::gap::Pair;
+use lissom_core::contact::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
 use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::elements::Contribution;
 use lissom_core::elements::contact::{Contact, ContactFriction, Dissipation};
@@ -15,8 +17,12 @@ use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random, difference};
 
 /// Pairs of solids, and where the tip is in the axes of the base, so that they overlap.
-fn pairs() -> Vec<(Pair, Vector3)> {
-    let point = |surface: Arc<dyn Surface>| Pair::PointOnSurface { rounding: 3.0, surface };
+fn pairs() -> Vec<(Arc<dyn Pair>, Vector3)> {
+    let point =
+        |surface: Arc<dyn Surface>| -> Arc<dyn Pair> { Arc::new(PointOnSurface { rounding: 3.0, surface }) };
+    let segment = |surface: Arc<dyn Surface>| -> Arc<dyn Pair> {
+        Arc::new(CurveOnSurface { curve: Arc::new(Segment::new(12.0)), rounding: 3.0, surface })
+    };
     vec![
         (point(Arc::new(HalfSpace)), Vector3::new(0.2, 0.1, 2.3)),
         (point(Arc::new(Rod { half_length: 0.0, radius: 4.0 })), Vector3::new(3.0, 2.5, 3.5)),
@@ -24,12 +30,19 @@ fn pairs() -> Vec<(Pair, Vector3)> {
         (point(Arc::new(Cuboid { half_sides: [2.0, 2.0, 15.0] })), Vector3::new(4.0, 3.5, 1.5)),
         (point(Arc::new(Ring { radii: [0.0, 16.0], half_length: 25.0 })), Vector3::new(14.0, 10.5, 2.0)),
         (point(Arc::new(Ring { radii: [16.0, 30.0], half_length: 25.0 })), Vector3::new(12.0, 8.0, 1.5)),
-        (Pair::RimOnPlane { radius: 4.5, rounding: 0.5 }, Vector3::new(1.0, 0.5, 2.0)),
+        (Arc::new(RimOnPlane { radius: 4.5, rounding: 0.5 }), Vector3::new(1.0, 0.5, 2.0)),
+        (segment(Arc::new(HalfSpace)), Vector3::new(0.2, 0.1, 9.0)),
+        (segment(Arc::new(Rod { half_length: 15.0, radius: 4.0 })), Vector3::new(3.5, 3.5, 2.0)),
+        (segment(Arc::new(Cuboid { half_sides: [2.0, 2.0, 15.0] })), Vector3::new(3.0, 3.5, 1.5)),
     ]
 }
 
 /// Two bodies with a contact, which dissipates where `is_rough`.
-fn with_contact(seed: u64, (pair, place): (Pair, Vector3), is_rough: bool) -> (System, State, Random) {
+fn with_contact(
+    seed: u64,
+    (pair, place): (Arc<dyn Pair>, Vector3),
+    is_rough: bool,
+) -> (System, State, Random) {
     let mut random = Random::new(seed);
     let mut builder = Builder::new();
     let base = builder.add_node("base", random.motion(), Freedoms::Full);

@@ -2,7 +2,9 @@
 
 pub mod compliance;
 pub mod creep_law;
+pub mod curves;
 pub mod gap;
+pub mod pairs;
 pub mod profile;
 pub mod surfaces;
 pub mod wheel_on_plane;

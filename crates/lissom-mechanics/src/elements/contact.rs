@@ -16,6 +16,8 @@
 //! [Dupont, Armstrong and Hayward 2000; here in two directions]. The term with d damps vibrations of a sticking part, and vanishes
 //! where bristles slip. Without contact bristles keep their deflection.
 
+use std::sync::Arc;
+
 use lissom_motion::{
     Matrix3, Matrix6, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew, translation_part,
 };
@@ -24,14 +26,12 @@ use nalgebra::SMatrix;
 use super::force_law::Response;
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
-use crate::contact::gap::{Gap, Pair};
+use crate::contact::gap::{Gap, Matrix3x6, Pair, side_by_side};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw, scaled, sum};
 use crate::signals::measurement::{Gradient, MAX_COMPONENTS, Measurement};
-
-type Matrix3x6 = SMatrix<f64, 3, 6>;
 
 /// Rows of the states of the bristles, after two nodes.
 const BRISTLES: usize = 12;
@@ -40,6 +40,9 @@ const BRISTLES: usize = 12;
 const ELASTIC_SHARE: f64 = 0.8;
 /// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
 const SMALL_DEPTH: f64 = 1e-6;
+
+/// Position and rotation of the tip as arguments of a law.
+const MAX_GAP_ARGUMENTS: usize = 12;
 
 /// Dissipation of the normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +148,7 @@ impl ContactFriction {
 #[derive(Clone, Debug)]
 pub struct Contact {
     frames: FramePair,
-    pair: Pair,
+    pair: Arc<dyn Pair>,
     compliance: Compliance,
     dissipation: Dissipation,
     friction: Option<ContactFriction>,
@@ -239,18 +242,11 @@ struct Variations {
     sliding: [Matrix3x6; 2],
 }
 
-fn side_by_side(left: &Matrix3, right: &Matrix3) -> Matrix3x6 {
-    let mut both = Matrix3x6::zeros();
-    both.fixed_columns_mut::<3>(0).copy_from(left);
-    both.fixed_columns_mut::<3>(3).copy_from(right);
-    both
-}
-
 impl Contact {
     /// Between the frames of two solids: base and tip.
     pub fn new(
         frames: [CarriedFrame; 2],
-        pair: Pair,
+        pair: Arc<dyn Pair>,
         (compliance, dissipation): (Compliance, Dissipation),
         friction: Option<ContactFriction>,
     ) -> Self {
@@ -290,7 +286,7 @@ impl Contact {
 
     fn touch(&self, at: &Kinematics) -> Touch {
         let motion = self.frames.motion(at);
-        let gap = self.pair.gap(&motion.position, &motion.rotation.column(2).into());
+        let gap = self.pair.gap(&motion.position, &motion.rotation);
         let arm = motion.rotation.tr_mul(&(gap.point - motion.position));
         let carried = translation_part(&motion.twist) + rotation_part(&motion.twist).cross(&arm);
         let velocity = motion.rotation * carried;
@@ -330,12 +326,7 @@ impl Contact {
         let Touch { motion, gap, arm, carried, velocity, .. } = touch;
         let rotation = &motion.rotation;
         let n = gap.normal;
-        // δx = R η_v, δa = R (η_θ × e₃).
-        let axis_by = -rotation * skew(&Vector3::z());
-        let of = |[by_position, by_axis]: &[Matrix3; 2]| {
-            side_by_side(&(by_position * rotation), &(by_axis * axis_by))
-        };
-        let (normal, point) = (of(&gap.normal_by), of(&gap.point_by));
+        let (normal, point) = (gap.normal_by, gap.point_by);
         let arm_by = rotation.transpose() * point + side_by_side(&-Matrix3::identity(), &skew(arm));
         let by_twist = side_by_side(&Matrix3::identity(), &-skew(arm));
         // At fixed twists of the nodes: δη̇ = -ad(A V_base) η.
@@ -509,18 +500,18 @@ impl ForceLaws for Contact {
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         let motion = self.frames.motion(at);
-        out.push((-self.pair.gap(&motion.position, &motion.rotation.column(2).into()).value).into());
+        out.push((-self.pair.gap(&motion.position, &motion.rotation).value).into());
     }
 
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
         let motion = self.frames.motion(at);
-        let (x, a) = (motion.position, motion.rotation.column(2));
-        let law = ForceOverGap { pair: &self.pair, compliance: self.compliance };
-        if self.pair.reach() == 0.0 {
-            visit(&law, x.as_slice());
-        } else {
-            visit(&law, &[x.x, x.y, x.z, a.x, a.y, a.z]);
-        }
+        let mut arguments = [0.0; MAX_GAP_ARGUMENTS];
+        let (x, rotation) = arguments.split_at_mut(3);
+        x.copy_from_slice(motion.position.as_slice());
+        rotation.copy_from_slice(motion.rotation.as_slice());
+        let law = ForceOverGap { pair: &*self.pair, compliance: self.compliance };
+        let count = if self.pair.reach() == 0.0 { 3 } else { MAX_GAP_ARGUMENTS };
+        visit(&law, &arguments[..count]);
     }
 }
 
@@ -542,18 +533,20 @@ impl StrainSlopes for Contact {
     }
 }
 
-/// The elastic normal force as a scalar law of x, and of a where the gap depends on it. Two solids that pass each other within a
+/// The elastic normal force as a scalar law of x, and of R where the gap depends on it. Two solids that pass each other within a
 /// step are as far apart at its ends as if they had never met; the range of the gap follows from those of its arguments: it changes
 /// by no more than x does.
 struct ForceOverGap<'p> {
-    pair: &'p Pair,
+    pair: &'p dyn Pair,
     compliance: Compliance,
 }
 
 impl ForceOverGap<'_> {
     fn gap(&self, arguments: &[f64]) -> f64 {
-        let a = arguments.get(3..).filter(|a| !a.is_empty()).map_or(Vector3::z(), Vector3::from_column_slice);
-        self.pair.gap(&Vector3::from_column_slice(&arguments[..3]), &a).value
+        let (x, rotation) = arguments.split_at(3);
+        let rotation =
+            if rotation.is_empty() { Matrix3::identity() } else { Matrix3::from_column_slice(rotation) };
+        self.pair.gap(&Vector3::from_column_slice(x), &rotation).value
     }
 
     fn force(&self, gap: f64) -> f64 {
@@ -562,7 +555,7 @@ impl ForceOverGap<'_> {
 
     /// Range of the gap.
     fn gaps(&self, arguments: &[Interval]) -> Interval {
-        let middle: [f64; 6] =
+        let middle: [f64; MAX_GAP_ARGUMENTS] =
             std::array::from_fn(|k| arguments.get(k).map_or(0.0, |[low, high]| 0.5 * (low + high)));
         let half = |all: &[Interval]| {
             all.iter().map(|[low, high]| 0.25 * (high - low) * (high - low)).sum::<f64>().sqrt()
@@ -595,7 +588,7 @@ impl ScalarLaw for ForceOverGap<'_> {
     }
 
     fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        let ranges: [Interval; 6] =
+        let ranges: [Interval; MAX_GAP_ARGUMENTS] =
             std::array::from_fn(|k| arguments.get(k).map_or([0.0; 2], |own| own.value));
         let [low, high] = self.gaps(&ranges[..arguments.len()]);
         if low > 0.0 {
@@ -605,7 +598,7 @@ impl ScalarLaw for ForceOverGap<'_> {
             return None;
         }
         // Of a point above a plane, in contact: g = n·x - r.
-        let n = self.pair.gap(&Vector3::zeros(), &Vector3::z()).normal;
+        let n = self.pair.gap(&Vector3::zeros(), &Matrix3::identity()).normal;
         let along = |of: fn(&Enclosure) -> Interval| {
             (0..3).fold([0.0; 2], |all, k| sum(all, scaled(n[k], of(&arguments[k]))))
         };

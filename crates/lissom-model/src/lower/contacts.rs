@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use lissom_core::contact::compliance::{Compliance, relative_dissipation};
 use lissom_core::contact::gap::Pair;
+use lissom_core::contact::pairs::{PointOnSurface, RimOnPlane};
 use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::elements::Contribution;
 use lissom_core::elements::contact::{Contact, ContactFriction, ContactMotion, Dissipation};
@@ -22,7 +23,7 @@ use crate::solid::{Form, PlacedSolid, Solid};
 
 /// Two solids that may touch at a point: base and tip, and whether the tip is that of the contact.
 struct Meeting {
-    pair: Pair,
+    pair: Arc<dyn Pair>,
     frames: [Motion; 2],
     is_in_order: bool,
 }
@@ -204,13 +205,13 @@ fn surface(form: &Form) -> Arc<dyn Surface> {
 /// The points at which two solids may touch; none if that is not available.
 fn meetings(one: &PlacedSolid, other: &PlacedSolid) -> Option<Vec<Meeting>> {
     let found = |base: &PlacedSolid, tip: &PlacedSolid, is_in_order: bool| {
-        let meeting = |pair: Pair, place: Vector3| Meeting {
+        let meeting = |pair: Arc<dyn Pair>, place: Vector3| Meeting {
             pair,
             frames: [base.frame, tip.frame * Motion::translation(place)],
             is_in_order,
         };
         let on_surface = |rounding: f64, place: Vector3| {
-            meeting(Pair::PointOnSurface { rounding, surface: surface(&base.form) }, place)
+            meeting(Arc::new(PointOnSurface { rounding, surface: surface(&base.form) }), place)
         };
         match (&base.form, &tip.form) {
             (_, Form::Solid(Solid::Sphere(radius))) => Some(vec![on_surface(*radius, Vector3::zeros())]),
@@ -225,8 +226,8 @@ fn meetings(one: &PlacedSolid, other: &PlacedSolid) -> Option<Vec<Meeting>> {
             }
             (Form::HalfSpace, Form::Solid(Solid::Tube { outer, length, .. })) => {
                 let rim = |side: f64| {
-                    let pair = Pair::RimOnPlane { radius: *outer, rounding: 0.0 };
-                    meeting(pair, Vector3::new(0.0, 0.0, 0.5 * side * length))
+                    let pair = RimOnPlane { radius: *outer, rounding: 0.0 };
+                    meeting(Arc::new(pair), Vector3::new(0.0, 0.0, 0.5 * side * length))
                 };
                 Some([-1.0, 1.0].map(rim).into())
             }

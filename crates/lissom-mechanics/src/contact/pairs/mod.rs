@@ -1,0 +1,96 @@
+//! Kinds of pairs of solids that touch in one point.
+
+mod curve_on_surface;
+mod point_on_surface;
+mod rim_on_plane;
+
+pub use curve_on_surface::CurveOnSurface;
+pub use point_on_surface::PointOnSurface;
+pub use rim_on_plane::RimOnPlane;
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use lissom_motion::{Matrix3, Rotation, Vector3};
+
+    use super::*;
+    use crate::contact::curves::Segment;
+    use crate::contact::gap::{Gap, Pair};
+    use crate::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+
+    fn pairs() -> Vec<Box<dyn Pair>> {
+        let point = |surface: Arc<dyn Surface>| -> Box<dyn Pair> {
+            Box::new(PointOnSurface { rounding: 0.1, surface })
+        };
+        let segment = |surface: Arc<dyn Surface>| -> Box<dyn Pair> {
+            let curve = Arc::new(Segment::new(0.4));
+            Box::new(CurveOnSurface { curve, rounding: 0.1, surface })
+        };
+        vec![
+            point(Arc::new(HalfSpace)),
+            point(Arc::new(Rod { half_length: 0.3, radius: 0.4 })),
+            point(Arc::new(Cuboid { half_sides: [0.3, 0.5, 0.8] })),
+            point(Arc::new(Ring { radii: [0.3, 0.6], half_length: 0.4 })),
+            Box::new(RimOnPlane { radius: 0.5, rounding: 0.02 }),
+            segment(Arc::new(HalfSpace)),
+            segment(Arc::new(Rod { half_length: 0.3, radius: 0.2 })),
+            segment(Arc::new(Cuboid { half_sides: [0.2, 0.3, 0.4] })),
+            segment(Arc::new(Ring { radii: [0.0, 0.3], half_length: 0.4 })),
+        ]
+    }
+
+    /// Derivatives of normal and point are those of differences, and the gap changes with the velocity of the point of contact along
+    /// the normal: its force then does the work of an energy.
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        let step = 1e-6;
+        for (index, pair) in pairs().iter().enumerate() {
+            let mut compared = 0;
+            for k in 0..160 {
+                let share = |factor: f64| (f64::from(k) * factor).fract() * 2.0 - 1.0;
+                let x = Vector3::new(share(0.754_877), share(0.569_840), share(0.430_159));
+                let turn =
+                    Rotation::exponential(&(3.0 * Vector3::new(share(0.31), share(0.77), share(0.13))));
+                let rotation = turn.matrix();
+                let at = pair.gap(&x, &rotation);
+                if at.value < -0.1 {
+                    // Within a solid its sides have edges.
+                    continue;
+                }
+                for column in 0..6 {
+                    let moved = |sign: f64| -> Gap {
+                        let unit = Vector3::ith(column % 3, sign * step);
+                        if column < 3 {
+                            pair.gap(&(x + rotation * unit), &rotation)
+                        } else {
+                            let turned: Matrix3 = (turn * Rotation::exponential(&unit)).matrix();
+                            pair.gap(&x, &turned)
+                        }
+                    };
+                    let (before, after) = (moved(-1.0), moved(1.0));
+                    // At the edges between two regions curvatures jump, and where an end becomes nearest.
+                    if (before.normal_by - after.normal_by).norm() > 0.1
+                        || (before.point_by - after.point_by).norm() > 0.1
+                    {
+                        continue;
+                    }
+                    compared += 1;
+                    let slope = |of: fn(&Gap) -> Vector3| (of(&after) - of(&before)) / (2.0 * step);
+                    let (normal, point) = (slope(|gap| gap.normal), slope(|gap| gap.point));
+                    let allowed = 1e-6 * (1.0 + at.point_by.norm_squared());
+                    assert!((normal - at.normal_by.column(column)).norm() < allowed, "{index} {k} {column}");
+                    assert!((point - at.point_by.column(column)).norm() < allowed, "{index} {k} {column}");
+                    // The velocity of the point of contact along the normal.
+                    let arm = rotation.tr_mul(&(at.point - x));
+                    let unit = Vector3::ith(column % 3, 1.0);
+                    let local = if column < 3 { unit } else { unit.cross(&arm) };
+                    let wanted = at.normal.dot(&(rotation * local));
+                    let change = (after.value - before.value) / (2.0 * step);
+                    assert!((change - wanted).abs() < 1e-6, "{index} {k} {column}: {change} {wanted}");
+                }
+            }
+            assert!(compared > 200, "{index}: {compared}");
+        }
+    }
+}
