@@ -6,6 +6,7 @@
 pub mod beam;
 pub mod bushing;
 pub mod contact;
+pub mod contact_resistance;
 pub mod contribution;
 pub mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
