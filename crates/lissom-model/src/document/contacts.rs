@@ -1,7 +1,9 @@
 //! Contacts between parts, and the shape of the ground.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use lissom_core::contact::compliance::RestitutionLaw;
 use lissom_motion::Vector3;
 
 use super::entries::each;
@@ -32,7 +34,7 @@ pub enum Restitution {
     /// Relative increase of the normal force per penetration velocity [s/m].
     Dissipation(f64),
     /// Velocity after an impact over that before, at every velocity above the second number [m/s].
-    Coefficient(f64, f64),
+    Coefficient(f64, f64, RestitutionLaw),
 }
 
 /// Two parts that may touch.
@@ -54,6 +56,8 @@ pub struct ContactEntry {
     pub stribeck: f64,
     /// Tangential deflection before it slips [m].
     pub deflection: f64,
+    /// Moments against rolling and spinning per normal force [m].
+    pub resistance: [f64; 2],
 }
 
 /// Keys of `[ground]`.
@@ -91,6 +95,12 @@ pub(super) fn keys() -> Vec<Key> {
             "slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution`",
         ),
         optional(
+            "restitution_law",
+            Shape::Choice(Cow::Borrowed(&["exact", "lankarani_nikravesh", "flores"])),
+            "",
+            "how the dissipation follows from `restitution`; default \"exact\", the others for comparison with publications",
+        ),
+        optional(
             "dissipation",
             Shape::NotNegative,
             "s/m",
@@ -110,6 +120,18 @@ pub(super) fn keys() -> Vec<Key> {
             "sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01",
         ),
         optional("deflection", Shape::Positive, "m", "tangential deflection before it slips; default 1e-5"),
+        optional(
+            "rolling_friction",
+            Shape::NotNegative,
+            "m",
+            "moment against rolling per normal force; default 0",
+        ),
+        optional(
+            "torsional_friction",
+            Shape::NotNegative,
+            "m",
+            "moment against spinning about the normal per normal force; default 0",
+        ),
     ]
 }
 
@@ -183,6 +205,7 @@ pub(super) fn contacts(
             friction: (at_rest > 0.0).then_some([friction, at_rest]),
             stribeck: number_or(reader, "stribeck", 0.01),
             deflection: number_or(reader, "deflection", 1e-5),
+            resistance: ["rolling_friction", "torsional_friction"].map(|key| number_or(reader, key, 0.0)),
         })
     })
 }
@@ -225,19 +248,26 @@ fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]
 
 fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
     let context = reader.context;
-    match (reader.node("restitution"), reader.node("dissipation"), reader.node("rest_velocity")) {
+    let fine = reader.node("rest_velocity").or_else(|| reader.node("restitution_law"));
+    match (reader.node("restitution"), reader.node("dissipation"), fine) {
         (None, None, None) => Some(Restitution::Dissipation(0.0)),
         (None, Some(_), None) => Some(Restitution::Dissipation(reader.number("dissipation")?.value)),
         (Some(_), None, _) => Some(Restitution::Coefficient(
             reader.number("restitution")?.value,
             number_or(reader, "rest_velocity", 1e-3),
+            match reader.choice("restitution_law").map(|law| law.value) {
+                Some("lankarani_nikravesh") => RestitutionLaw::LankaraniNikravesh,
+                Some("flores") => RestitutionLaw::Flores,
+                _ => RestitutionLaw::Exact,
+            },
         )),
         (Some(_), Some(node), _) => {
             let message = format!("{} has both `restitution` and `dissipation`", reader.what);
             context.fail(node.span, message, "remove one of them")
         }
         (None, _, Some(node)) => {
-            let message = format!("{} has `rest_velocity` without `restitution`", reader.what);
+            let key = if reader.has("rest_velocity") { "rest_velocity" } else { "restitution_law" };
+            let message = format!("{} has `{key}` without `restitution`", reader.what);
             context.fail(node.span, message, "add `restitution`, or remove this")
         }
     }

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from ._entry import Entry, Number, Table
 
@@ -22,11 +22,14 @@ class Contact(Entry):
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
         restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; a number from 0.0100 to 1, or nothing.
         rest_velocity: slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` [m/s]; a number > 0, or nothing.
+        restitution_law: how the dissipation follows from `restitution`; default "exact", the others for comparison with publications; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
         stribeck: sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 [m/s]; a number > 0, or nothing.
         deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
+        rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
+        torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
     """
 
     _table: ClassVar[str] = "contacts"
@@ -39,11 +42,14 @@ class Contact(Entry):
     tip_material: str | None = None
     restitution: Number | None = None
     rest_velocity: Number | None = None
+    restitution_law: Literal["exact", "lankarani_nikravesh", "flores"] | None = None
     dissipation: Number | None = None
     friction: Number | None = None
     static_friction: Number | None = None
     stribeck: Number | None = None
     deflection: Number | None = None
+    rolling_friction: Number | None = None
+    torsional_friction: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
