@@ -1,5 +1,6 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
+mod beam_contacts;
 mod breakpoints;
 mod configuration;
 mod constraints;

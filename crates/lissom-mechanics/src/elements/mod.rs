@@ -4,6 +4,7 @@
 //! of time step, scheme and scaling.
 
 pub mod beam;
+pub mod beam_contact;
 pub mod bushing;
 pub mod contact;
 pub mod contact_resistance;

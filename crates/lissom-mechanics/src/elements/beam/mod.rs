@@ -21,6 +21,7 @@ mod blocks;
 mod forces;
 pub mod line;
 mod linearize;
+pub mod section;
 pub mod section_error;
 mod section_gradient;
 mod step_stages;
