@@ -22,10 +22,10 @@ use crate::report::Problem;
 use crate::solid::{Form, PlacedSolid, Solid};
 
 /// Two solids that may touch at a point: base and tip, and whether the tip is that of the contact.
-struct Meeting {
-    pair: Arc<dyn Pair>,
-    frames: [Motion; 2],
-    is_in_order: bool,
+pub(super) struct Meeting {
+    pub(super) pair: Arc<dyn Pair>,
+    pub(super) frames: [Motion; 2],
+    pub(super) is_in_order: bool,
 }
 
 /// Sets the velocities of impacts that begin at the start.
@@ -39,7 +39,7 @@ pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut
     }
 }
 
-fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [PlacedSolid] {
+pub(super) fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [PlacedSolid] {
     let found = match part {
         NodeReference::Body(name) => {
             document.bodies.iter().find(|body| body.name.value == *name).map(|body| &body.solids)
@@ -177,7 +177,7 @@ fn stiffness(document: &Document, entry: &ContactEntry, solids: [&PlacedSolid; 2
 }
 
 /// A solid in words.
-fn words(form: &Form) -> &'static str {
+pub(super) fn words(form: &Form) -> &'static str {
     match form {
         Form::HalfSpace => "a plane",
         Form::Solid(Solid::Box(_)) => "a box",
@@ -203,7 +203,7 @@ fn surface(form: &Form) -> Arc<dyn Surface> {
 }
 
 /// The points at which two solids may touch; none if that is not available.
-fn meetings(one: &PlacedSolid, other: &PlacedSolid) -> Option<Vec<Meeting>> {
+pub(super) fn meetings(one: &PlacedSolid, other: &PlacedSolid) -> Option<Vec<Meeting>> {
     let found = |base: &PlacedSolid, tip: &PlacedSolid, is_in_order: bool| {
         let meeting = |pair: Arc<dyn Pair>, place: Vector3| Meeting {
             pair,
