@@ -28,6 +28,7 @@ pub mod moment;
 pub(crate) mod point_spring;
 pub mod quadrature;
 mod reactions;
+pub mod rigid_friction;
 pub mod rolling;
 pub mod rolling_contact;
 pub mod rope;

@@ -8,6 +8,7 @@ use lissom_motion::Vector3;
 
 use super::entries::each;
 use super::ports::two_nodes;
+use super::rigid_contacts::{self, RigidEntry};
 use super::solids::shape;
 use super::tables::variants;
 use super::{Body, NodeReference, PointMass};
@@ -18,6 +19,9 @@ use crate::registry::Registry;
 use crate::report::Located;
 use crate::solid::PlacedSolid;
 use crate::surface::Surface;
+
+/// Smallest restitution of contacts that are not rigid.
+const LEAST_RESTITUTION: f64 = 0.01;
 
 /// Solids that are fixed in space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +62,8 @@ pub struct ContactEntry {
     pub deflection: f64,
     /// Moments against rolling and spinning per normal force [m].
     pub resistance: [f64; 2],
+    /// If it is rigid, its law; stiffness and friction of this entry are then unused.
+    pub rigid: Option<RigidEntry>,
 }
 
 /// Keys of `[ground]`.
@@ -73,6 +79,12 @@ pub(super) fn keys() -> Vec<Key> {
     vec![
         required("base", Shape::Node, "", "a body or point mass with a `shape`, or \"ground\""),
         required("tip", Shape::Node, "", "the other part that may touch it"),
+        optional(
+            "rigid",
+            Shape::Flag,
+            "",
+            "instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`",
+        ),
         optional("stiffness", Shape::Positive, "N/m^n", "normal force at a penetration of 1 m"),
         optional("exponent", Shape::Positive, "", "exponent n of the penetration, at least 1; default 1"),
         optional(
@@ -84,15 +96,17 @@ pub(super) fn keys() -> Vec<Key> {
         optional("tip_material", Shape::Name("materials"), "", "material of the tip, if it is another one"),
         optional(
             "restitution",
-            Shape::Between(0.01, 1.0),
+            Shape::Between(0.0, 1.0),
             "",
-            "velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1",
+            "velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, \
+             default 0",
         ),
         optional(
             "rest_velocity",
             Shape::Positive,
             "m/s",
-            "slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution`",
+            "slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires \
+             `restitution` or `rigid`",
         ),
         optional(
             "restitution_law",
@@ -182,6 +196,9 @@ pub(super) fn contacts(
                 return context.fail(part.span, message, help);
             }
         }
+        if let Some(rigid) = rigid_contacts::rigid(reader)? {
+            return Some(rigid_contacts::entry(name, reader, between, rigid));
+        }
         let stiffness = stiffness(reader)?;
         let exponent = number_or(reader, "exponent", 1.0);
         if exponent < 1.0 {
@@ -206,6 +223,7 @@ pub(super) fn contacts(
             stribeck: number_or(reader, "stribeck", 0.01),
             deflection: number_or(reader, "deflection", 1e-5),
             resistance: ["rolling_friction", "torsional_friction"].map(|key| number_or(reader, key, 0.0)),
+            rigid: None,
         })
     })
 }
@@ -218,7 +236,7 @@ pub(crate) fn words(node: &NodeReference) -> String {
     }
 }
 
-fn number_or(reader: &Reader<'_, '_>, key: &str, default: f64) -> f64 {
+pub(super) fn number_or(reader: &Reader<'_, '_>, key: &str, default: f64) -> f64 {
     reader.number(key).map_or(default, |number| number.value)
 }
 
@@ -248,6 +266,12 @@ fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]
 
 fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
     let context = reader.context;
+    if let Some(node) = reader.node("restitution")
+        && reader.number("restitution")?.value < LEAST_RESTITUTION
+    {
+        let message = format!("`restitution` of {} is below 0.01", reader.what);
+        return context.fail(node.span, message, "set `rigid = true`, whose impacts may be without rebound");
+    }
     let fine = reader.node("rest_velocity").or_else(|| reader.node("restitution_law"));
     match (reader.node("restitution"), reader.node("dissipation"), fine) {
         (None, None, None) => Some(Restitution::Dissipation(0.0)),

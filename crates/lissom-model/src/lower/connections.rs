@@ -64,6 +64,13 @@ pub(super) fn add(
         let nodes = entry.between.each_ref().map(|part| names.node(part));
         let [base, tip] = nodes;
         let added = base.and_then(|base| Ok([base, tip?]));
+        if let Some(law) = &entry.rigid {
+            match added.and_then(|nodes| super::rigid_contacts::add(document, (entry, law), nodes, builder)) {
+                Ok(points) => drop(names.rigid_contacts.insert(entry.name.value.clone(), points)),
+                Err(problem) => problems.push(problem),
+            }
+            continue;
+        }
         match added.and_then(|nodes| super::contacts::add(document, entry, nodes, builder)) {
             Ok(points) => drop(names.contacts.insert(entry.name.value.clone(), points)),
             Err(problem) => problems.push(problem),

@@ -34,10 +34,10 @@ const YIELD_ANGLE: f64 = 1e-4;
 const YIELD_RATE: f64 = 0.1;
 
 /// Two solids that may touch at a point: base and tip, and whether the tip is that of the contact.
-struct Meeting {
-    pair: Arc<dyn Pair>,
-    frames: [Motion; 2],
-    is_in_order: bool,
+pub(super) struct Meeting {
+    pub(super) pair: Arc<dyn Pair>,
+    pub(super) frames: [Motion; 2],
+    pub(super) is_in_order: bool,
 }
 
 /// Sets the velocities of impacts that begin at the start.
@@ -72,27 +72,10 @@ pub(super) fn add(
     builder: &mut Builder,
 ) -> Result<Vec<ContactPoint>, Problem> {
     let name = &entry.name.value;
-    let [first, second] = entry.between.each_ref().map(|part| solids(document, &part.value));
     let mut points = Vec::new();
-    for one in first {
-        for other in second {
-            let meetings = meetings(one, other).map_err(|error| {
-                let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
-                Problem::error(entry.name.span, message)
-                    .help("repair the file, or use solids that have its shape")
-            })?;
-            let meetings = meetings.ok_or_else(|| {
-                let message = format!(
-                    "contact `{name}`: {} against {} is not available",
-                    words(&one.form),
-                    words(&other.form)
-                );
-                Problem::error(entry.name.span, message)
-                    .help("one of them can be made of spheres, or be a plane")
-            })?;
-            let stiffness = stiffness(document, entry, [one, other])?;
-            points.extend(meetings.into_iter().map(|meeting| (meeting, stiffness)));
-        }
+    for (solids, meetings) in meetings_of(document, entry)? {
+        let stiffness = stiffness(document, entry, solids)?;
+        points.extend(meetings.into_iter().map(|meeting| (meeting, stiffness)));
     }
     let mut all = Vec::new();
     for (number, (meeting, stiffness)) in points.into_iter().enumerate() {
@@ -270,6 +253,30 @@ fn hull_corners(form: &Form) -> Result<Option<Vec<Vector3>>, MeshError> {
         }
         _ => Ok(None),
     }
+}
+
+/// The pairs of solids of a contact, with the points at which they may touch.
+pub(super) fn meetings_of<'d>(
+    document: &'d Document,
+    entry: &ContactEntry,
+) -> Result<Vec<([&'d PlacedSolid; 2], Vec<Meeting>)>, Problem> {
+    let name = &entry.name.value;
+    let [first, second] = entry.between.each_ref().map(|part| solids(document, &part.value));
+    let pairs = first.iter().flat_map(|one| second.iter().map(move |other| [one, other]));
+    let found = pairs.map(|pair| {
+        let found = meetings(pair[0], pair[1]).map_err(|error| {
+            let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
+            Problem::error(entry.name.span, message)
+                .help("repair the file, or use solids that have its shape")
+        })?;
+        let found = found.ok_or_else(|| {
+            let [one, other] = pair.map(|solid| words(&solid.form));
+            let message = format!("contact `{name}`: {one} against {other} is not available");
+            Problem::error(entry.name.span, message).help("one of them can be made of spheres, or be a plane")
+        })?;
+        Ok((pair, found))
+    });
+    found.collect()
 }
 
 /// The points at which two solids may touch; none if that is not available.
