@@ -330,6 +330,7 @@ impl Shape {
                 "of a plane, body axes: out of the solid half-space; default z",
             ),
             optional("file", Self::Text, "", "of a mesh: an STL or glTF file; path relative to this file"),
+            optional("touches", Self::Flag, "", "whether contacts of the part include it, default `true`"),
             optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres; default 1"),
             optional(
                 "position",
