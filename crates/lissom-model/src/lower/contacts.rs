@@ -39,7 +39,7 @@ pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut
     }
 }
 
-fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [PlacedSolid] {
+pub(super) fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [PlacedSolid] {
     let found = match part {
         NodeReference::Body(name) => {
             document.bodies.iter().find(|body| body.name.value == *name).map(|body| &body.solids)
@@ -108,7 +108,11 @@ pub(super) fn add(
             touch(&own, &contact, held, builder)
                 .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
         }
-        all.push(ContactPoint { contact, sign: if meeting.is_in_order { 1.0 } else { -1.0 }, velocity });
+        all.push(ContactPoint {
+            contact: Arc::new(contact),
+            sign: if meeting.is_in_order { 1.0 } else { -1.0 },
+            velocity,
+        });
     }
     Ok(all)
 }
@@ -177,7 +181,7 @@ fn stiffness(document: &Document, entry: &ContactEntry, solids: [&PlacedSolid; 2
 }
 
 /// A solid in words.
-fn words(form: &Form) -> &'static str {
+pub(super) fn words(form: &Form) -> &'static str {
     match form {
         Form::HalfSpace => "a plane",
         Form::Solid(Solid::Box(_)) => "a box",
@@ -188,7 +192,7 @@ fn words(form: &Form) -> &'static str {
     }
 }
 
-fn surface(form: &Form) -> Arc<dyn Surface> {
+pub(super) fn surface(form: &Form) -> Arc<dyn Surface> {
     match *form {
         Form::HalfSpace => Arc::new(HalfSpace),
         Form::Solid(Solid::Box(sides)) => Arc::new(Cuboid { half_sides: sides.map(|side| 0.5 * side) }),

@@ -8,7 +8,7 @@ use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
 use crate::contact_point::ContactPoint;
 use crate::document::{Declaration, Output, Subject};
 use crate::report::Problem;
-use lissom_core::elements::{Element, Unknowns};
+use lissom_core::elements::Unknowns;
 use lissom_core::system::System;
 use lissom_motion::Vector3;
 
