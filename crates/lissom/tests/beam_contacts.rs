@@ -112,14 +112,13 @@ fn the_stiffness_of_a_rod_on_a_plane_is_that_of_its_length() {
     for points in [1, 3] {
         let text = rod_on_plane(2, &format!("points = {points}"))
             .replace("0.0102", "0.0099")
-            .replace("length = 1e6", "length = 2e5");
+            .replace("length = 1e6", "length = 200");
         // Held at its middle, so that nothing but the plane resists to its stretch and turns.
         let held = "[joints.hold]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"rod@0.5\"\n";
         let record = run(&format!("{text}{held}[analysis]\nkind = \"statics\"\nsteps = 1\n"), &[]);
-        let wanted = 2e5 * 1e-4;
+        let wanted = 200.0 * 1e-4;
         let found = last(&record, "floor.normal");
-        // The ends give way.
-        assert!(found < wanted && found > 0.9 * wanted, "{points}: {found} {wanted}");
+        assert!((found - wanted).abs() < 5e-3 * wanted, "{points}: {found} {wanted}");
     }
 }
 
@@ -193,10 +192,11 @@ fn crossing_beams_share_the_load() {
         let (sine, cosine) = angle.to_radians().sin_cos();
         let beam = |name: &str, height: f64, [x, y]: [f64; 2], shift: f64, load: &str| {
             let mut text = format!(
-                "[beams.{name}]\nsection = \"rod\"\nfrom = [{}, {}, {height}]\nto = [{x}, {y}, {height}]\n\
+                "[beams.{name}]\nsection = \"rod\"\nfrom = [{}, {}, {height}]\nto = [{}, {y}, {height}]\n\
                  elements = {elements}\n{load}\n",
                 shift - x,
-                -y
+                -y,
+                shift + x
             );
             for end in ["start", "end"] {
                 text += &format!(
@@ -418,8 +418,9 @@ end = {end}
     assert!(changed < 1e-2 * weight(1.0) * 0.03, "{changed}");
     let (across, up) = (series(&record, "middle.u2"), series(&record, "middle.u3"));
     let distance = across.iter().zip(up).map(|(y, z)| (0.02 + y).hypot(*z)).fold(0.0, f64::max);
-    // The axis of the rod is within 4 cm of that of the tube, except for the penetration.
-    assert!(distance > 0.0399 && distance < 0.0405, "{distance}");
+    // The axis of the rod is within 4 cm of that of the tube, except for the penetration of a fall by 4 cm.
+    let depth = (2.0 * weight(1.0) * 0.04 / 1e6).sqrt();
+    assert!(distance > 0.0399 && distance < 0.04 + 1.2 * depth, "{distance}");
     let record = run(
         &text("1e-4", "20000", "3").replace("-0.5, 0.02", "-0.5, 0").replace("[0.5, 0.02", "[0.5, 0"),
         &[],
@@ -449,7 +450,7 @@ fn wrong_contacts_of_beams_are_rejected() {
         ),
         ("tip = \"rod\"", "tip = \"rod\"\nbase_radius = 0.5", "is for a beam as base"),
         ("base = \"ground\"\ntip = \"rod\"", "base = \"rod\"\ntip = \"ground\"", "the beam is the tip"),
-        ("tip = \"rod\"", "tip = \"rod.end\"", "names a node that is no body"),
+        ("tip = \"rod\"", "tip = \"rod.end\"", "is for beams"),
         ("{ kind = \"plane\" }", "{ sphere = 0.02 }", "the points of the beam are"),
         (
             "stiffness_per_length = 1e6",
