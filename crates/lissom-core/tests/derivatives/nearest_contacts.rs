@@ -66,7 +66,7 @@ fn model(kind: usize, seed: u64, dissipation: f64) -> (System, State, NearestCon
         }
     };
     let compliance = Compliance { stiffness: 3.0, exponent: if seed.is_multiple_of(2) { 1.0 } else { 1.5 } };
-    let contact = NearestContact::new([base, tip], RADIUS, (compliance, dissipation));
+    let contact = NearestContact::new([base, tip], [0.4 * RADIUS, 0.6 * RADIUS], (compliance, dissipation));
     builder.add(Contribution::of(builder.model(), contact.clone()));
     let (system, state) = builder.build(0.0).expect("valid");
     (system, state, contact, random)
@@ -115,7 +115,7 @@ fn intervals_hand_a_contact_over() {
                 CarriedCurve::of_interval(&line, k, &points),
             ];
             let law = (Compliance { stiffness: 10.0, exponent: 1.0 }, 0.0);
-            NearestContact::new(curves, RADIUS, law)
+            NearestContact::new(curves, [0.0, RADIUS], law)
         })
         .collect();
     let (_, state) = builder.build(0.0).expect("valid");

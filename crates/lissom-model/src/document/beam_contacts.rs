@@ -65,25 +65,29 @@ fn beam_of(reader: &Reader<'_, '_>, key: &str) -> Option<Located<String>> {
     reader.context.has("beams", &name).then(|| Located::new(name, node.span))
 }
 
-/// A contact in which a beam is named; the first none is that there is no beam, the second an error.
+/// Whether a contact names a beam, or has keys that only beams have.
+pub(super) fn is_of_beam(reader: &Reader<'_, '_>) -> bool {
+    ["base", "tip"].iter().any(|key| beam_of(reader, key).is_some())
+        || OF_BEAMS.iter().any(|key| reader.node(key).is_some())
+}
+
+/// A contact of a beam.
 pub(super) fn entry(
     reader: &Reader<'_, '_>,
     name: &str,
     is_solid: &dyn Fn(&Located<NodeReference>) -> Option<()>,
-) -> Option<Option<ContactEntry>> {
+) -> Option<ContactEntry> {
     match (beam_of(reader, "base"), beam_of(reader, "tip")) {
         (None, None) => {
-            let own = OF_BEAMS.iter().find_map(|key| Some((key, reader.node(key)?)));
-            own.map(|(key, node)| {
-                let message = format!("`{key}` of {} is for beams", reader.what);
-                reader.context.fail(node.span, message, "name a beam as `tip`, or remove this")
-            })
+            let (key, node) = OF_BEAMS.iter().find_map(|key| Some((key, reader.node(key)?)))?;
+            let message = format!("`{key}` of {} is for beams", reader.what);
+            reader.context.fail(node.span, message, "name a beam as `tip`, or remove this")
         }
         (Some(base), None) => {
             let message = format!("{} has a beam as `base` and none as `tip`", reader.what);
-            Some(reader.context.fail(base.span, message, "exchange them: the beam is the tip"))
+            reader.context.fail(base.span, message, "exchange them: the beam is the tip")
         }
-        (base, Some(beam)) => Some(of_beam(reader, name, (base, beam), is_solid)),
+        (base, Some(beam)) => of_beam(reader, name, (base, beam), is_solid),
     }
 }
 

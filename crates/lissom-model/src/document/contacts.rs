@@ -166,7 +166,8 @@ pub(super) fn contacts(
         Some(())
     };
     each(context, "contacts", |reader, name| {
-        if let Some(entry) = beam_contacts::entry(reader, name, &|part| is_solid(part, &reader.what)) {
+        if beam_contacts::is_of_beam(reader) {
+            let entry = beam_contacts::entry(reader, name, &|part| is_solid(part, &reader.what));
             return check_law(reader, entry?);
         }
         let between = two_nodes(reader)?;

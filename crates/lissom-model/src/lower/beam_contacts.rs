@@ -145,7 +145,7 @@ impl OfBeam<'_> {
                 );
                 if contact.unknowns().nodes.len() > MAX_NODES {
                     return Err(self.fault(
-                        "beams of order 3 touch moving parts at no points within their elements".to_owned(),
+                        "beams of order 3 touch moving parts at no points within their elements",
                         "add `order = 1` or `order = 2` to the beam",
                     ));
                 }
@@ -206,7 +206,7 @@ impl OfBeam<'_> {
                     let message = format!("`stiffness` of a beam on {} is not available", words(&form));
                     let help =
                         "give `stiffness_per_length` instead; `stiffness` is for spheres, capsules and beams";
-                    return Err(self.fault(message, help));
+                    return Err(self.fault(&message, help));
                 }
             };
             self.add_pairs((&[curve], radius), (&tips, |_| stiffness), (builder, &mut all))?;
@@ -252,13 +252,13 @@ impl OfBeam<'_> {
         if count > MAX_PAIRS {
             let message =
                 format!("{count} pairs of intervals between nodes may touch, more than {MAX_PAIRS}");
-            return Err(self.fault(message, "use fewer elements or points, or divide the beams"));
+            return Err(self.fault(&message, "use fewer elements or points, or divide the beams"));
         }
         for base in bases {
             for (k, tip) in tips.iter().enumerate() {
                 let law = Compliance { stiffness: stiffness(k), exponent: self.entry.exponent };
                 let curves = [base.clone(), tip.clone()];
-                let contact = NearestContact::new(curves, self.radius + radius, (law, self.dissipation));
+                let contact = NearestContact::new(curves, [radius, self.radius], (law, self.dissipation));
                 builder.add(Contribution::of(builder.model(), contact.clone()));
                 all.push(ContactPoint { contact: Arc::new(contact), sign: 1.0, velocity: None });
             }
@@ -279,7 +279,7 @@ impl OfBeam<'_> {
         })
     }
 
-    fn fault(&self, message: String, help: &str) -> Problem {
+    fn fault(&self, message: &str, help: &str) -> Problem {
         let name = &self.entry.name.value;
         Problem::error(self.entry.name.span, format!("contact `{name}`: {message}")).help(help)
     }
@@ -312,6 +312,6 @@ impl OfBeam<'_> {
             written(most, 3)
         );
         let help = "increase `points` or the number of elements; for contact where the beam is nearest give `stiffness`";
-        Err(self.fault(message, help))
+        Err(self.fault(&message, help))
     }
 }

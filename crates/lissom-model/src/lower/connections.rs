@@ -61,13 +61,12 @@ pub(super) fn add(
         }
     }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
-        let added = match &entry.beams {
-            Some(sides) => super::beam_contacts::add(document, (entry, sides), names, builder),
-            None => {
-                let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
-                let nodes = base.and_then(|base| Ok([base, tip?]));
-                nodes.and_then(|nodes| super::contacts::add(document, entry, nodes, builder))
-            }
+        let added = if let Some(sides) = &entry.beams {
+            super::beam_contacts::add(document, (entry, sides), names, builder)
+        } else {
+            let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
+            let nodes = base.and_then(|base| Ok([base, tip?]));
+            nodes.and_then(|nodes| super::contacts::add(document, entry, nodes, builder))
         };
         match added {
             Ok(points) => drop(names.contacts.insert(entry.name.value.clone(), points)),

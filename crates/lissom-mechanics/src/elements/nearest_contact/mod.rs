@@ -43,7 +43,8 @@ const PARALLEL: f64 = 1e-10;
 pub struct NearestContact {
     /// Tip and base.
     curves: [CarriedCurve; 2],
-    /// r [m].
+    /// Radius of the base, and r [m].
+    base_radius: f64,
     radius: f64,
     compliance: Compliance,
     /// Relative increase of the normal force per penetration velocity [s/m].
@@ -61,6 +62,8 @@ struct Touch {
     weights: [f64; MAX_POINTS],
     weights_by: [[f64; 2]; MAX_POINTS],
     distance: f64,
+    /// y [m].
+    base: Vector3,
     /// n.
     normal: Vector3,
     /// Q D_p/h + terms along n: the parts of h_ap by W_a.
@@ -79,12 +82,13 @@ struct Touch {
 }
 
 impl NearestContact {
-    /// Between the curves of base and tip with the sum of their radii [m].
+    /// Between the curves of base and tip with their radii [m].
     pub fn new(
         [base, tip]: [CarriedCurve; 2],
-        radius: f64,
+        [base_radius, tip_radius]: [f64; 2],
         (compliance, dissipation): (Compliance, f64),
     ) -> Self {
+        let radius = base_radius + tip_radius;
         let mut nodes: Vec<NodeId> = Vec::new();
         let all = tip.points().iter().chain(base.points());
         for (node, _) in all.clone() {
@@ -94,7 +98,16 @@ impl NearestContact {
         }
         let slots = all.map(|(node, _)| nodes.iter().position(|own| own == node)).collect();
         let switch_states = SwitchStates::default();
-        Self { curves: [tip, base], radius, compliance, dissipation, nodes, slots, switch_states }
+        Self {
+            curves: [tip, base],
+            base_radius,
+            radius,
+            compliance,
+            dissipation,
+            nodes,
+            slots,
+            switch_states,
+        }
     }
 
     fn points(&self) -> impl Iterator<Item = &(NodeId, Vector3)> {
@@ -158,6 +171,7 @@ impl NearestContact {
             weights,
             weights_by,
             distance,
+            base: on[1].place[0],
             normal,
             across_by,
             inverse,
@@ -179,6 +193,9 @@ impl NearestContact {
             force: normal * touch.normal,
             friction: Vector3::zeros(),
             slip: (touch.velocity - touch.rate * touch.normal).norm(),
+            point: touch.base + self.base_radius * touch.normal,
+            is_touching: touch.is_touching && touch.share[0] > 0.5,
+            is_sliding: touch.is_touching && touch.share[0] > 0.5,
         }
     }
 
