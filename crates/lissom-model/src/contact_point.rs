@@ -6,6 +6,7 @@ use lissom_core::elements::Element;
 use lissom_core::elements::beam_contact::BeamContact;
 use lissom_core::elements::contact::{Contact, ContactForces};
 use lissom_core::elements::nearest_contact::NearestContact;
+use lissom_core::joints::rigid_contact::RigidContact;
 use lissom_core::kinematics::{DiscreteValueId, Kinematics};
 
 /// An element of a contact.
@@ -56,4 +57,13 @@ pub(crate) struct ContactPoint {
     pub(crate) sign: f64,
     /// The discrete value with the velocity of the impact [m/s].
     pub(crate) velocity: Option<DiscreteValueId>,
+}
+
+/// One point of a rigid contact.
+#[derive(Clone, Debug)]
+pub(crate) struct RigidPoint {
+    /// The contact at the point.
+    pub(crate) contact: Arc<RigidContact>,
+    /// 1 if its tip is that of the entry, otherwise -1.
+    pub(crate) sign: f64,
 }

@@ -101,6 +101,8 @@ pub(crate) enum Shape {
     Interfaces,
     /// A list of pairs of numbers.
     Rows,
+    /// A list of lists of equally many numbers.
+    NumberRows,
     /// Two numbers.
     Pair,
     /// Two texts.
@@ -192,6 +194,7 @@ impl Shape {
             | Self::Shear
             | Self::Stations
             | Self::Rows
+            | Self::NumberRows
             | Self::Pair
             | Self::Words
             | Self::Force(_)
@@ -252,7 +255,7 @@ impl Shape {
         vec![
             optional(
                 "kind",
-                choice(&["box", "cylinder", "tube", "sphere", "capsule"]),
+                choice(&["box", "cylinder", "tube", "sphere", "capsule", "ellipsoid"]),
                 "",
                 "which solid it is",
             ),
@@ -271,6 +274,7 @@ impl Shape {
                 "of a cylinder or tube; of a capsule between the centres of its ends",
             ),
             optional("axis", Self::BodyDirection, "", "of a cylinder, tube or capsule, body axes; default z"),
+            optional("semi_axes", Self::Vector, "m", "of an ellipsoid, along the body axes"),
             optional("box", Self::Vector, "m", "sides along the body axes, instead of `kind` and dimensions"),
             optional("cylinder", Self::Pair, "m", "[radius, length], instead of `kind` and dimensions"),
             optional(
@@ -286,8 +290,39 @@ impl Shape {
     /// Keys of what is drawn of a body.
     pub(crate) fn drawn_keys() -> Vec<Key> {
         let mut keys = Self::solid_keys();
-        keys[0].holds = choice(&["box", "cylinder", "tube", "sphere", "capsule", "plane", "mesh"]);
+        keys[0].holds = choice(&[
+            "box",
+            "cylinder",
+            "tube",
+            "sphere",
+            "capsule",
+            "ellipsoid",
+            "plane",
+            "outline",
+            "hull",
+            "height_field",
+            "mesh",
+        ]);
         keys.extend([
+            optional(
+                "points",
+                Self::NumberRows,
+                "m",
+                "of an outline [x, y], the corners of a prism along z in their order, or of a hull [x, y, z], its corners",
+            ),
+            optional(
+                "smooth",
+                Self::Flag,
+                "",
+                "of an outline: whether a smooth curve passes through its points, as for a cam; default `false`",
+            ),
+            optional(
+                "heights",
+                Self::NumberRows,
+                "m",
+                "of a height field: by row along y, in each row along x",
+            ),
+            optional("extent", Self::Pair, "m", "of a height field: its sides along x and y"),
             optional(
                 "normal",
                 Self::BodyDirection,

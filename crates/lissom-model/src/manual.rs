@@ -234,6 +234,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Places => "a list of `{ on, at }`, `at` may be omitted",
         Shape::Interfaces => "a list of `{ name, at }`",
         Shape::Rows => "a list of pairs",
+        Shape::NumberRows => "a list of lists of equally many numbers",
         Shape::Pair => "two numbers",
         Shape::Words => "two texts",
         Shape::Force([first, second]) => {

@@ -175,7 +175,7 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Force(_)
         | Shape::Signal
         | Shape::Mass => "Function",
-        Shape::Axes | Shape::Rows => "list[Vector]",
+        Shape::Axes | Shape::Rows | Shape::NumberRows => "list[Vector]",
         Shape::Stiffness => "Vector | list[Vector]",
         Shape::SquareMatrix => "Number | Vector | list[Vector]",
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",

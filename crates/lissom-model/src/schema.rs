@@ -169,6 +169,10 @@ fn of_shape(shape: &Shape) -> Value {
             json!({ "type": "array", "minItems": 1, "items": of_keys(&Shape::interface_keys()) })
         }
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
+        Shape::NumberRows => {
+            let row = json!({ "type": "array", "minItems": 2, "items": plain() });
+            json!({ "type": "array", "minItems": 2, "items": row })
+        }
         Shape::Pair | Shape::Range => list(&plain(), 2),
         Shape::Words => list(&text(), 2),
         Shape::Numbers => json!({ "type": "array", "minItems": 1, "items": plain() }),

@@ -1,6 +1,11 @@
 //! Volume and inertia of homogeneous solids.
 
+use std::sync::Arc;
+
+use lissom_core::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Matrix3, Motion, Vector3};
+
+use crate::surface::Surface;
 
 /// A homogeneous solid about its centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,17 +34,31 @@ pub(crate) enum Solid {
         /// Direction of the axis, a unit vector.
         axis: Vector3,
     },
+    /// Semi-axes [m].
+    Ellipsoid([f64; 3]),
 }
 
-/// What touches: a solid about its centre, or everything below the plane z = 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What touches.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form {
+    /// A solid about its centre.
     Solid(Solid),
+    /// Everything below the plane z = 0.
     HalfSpace,
+    /// A prism along the third axis with a smooth outline.
+    Outline(Arc<Outline>),
+    /// A prism along the third axis with straight sides.
+    Polygon(Arc<Polygon>),
+    /// A convex polyhedron.
+    Hull(Arc<Mesh>),
+    /// Everything below a surface.
+    HeightField(Arc<HeightField>),
+    /// Triangles of a file, which may enclose a solid.
+    Mesh(Arc<Surface>),
 }
 
 /// A solid at its position in a part.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlacedSolid {
     pub(crate) form: Form,
     /// Its axes in those of the part; the third is the axis of a round one and the normal of a plane.
@@ -54,6 +73,16 @@ impl Solid {
             Self::Tube { outer, inner, length, .. } => inner >= 0.0 && outer > inner && length > 0.0,
             Self::Sphere(radius) => radius > 0.0,
             Self::Capsule { radius, length, .. } => radius > 0.0 && length > 0.0,
+            Self::Ellipsoid(axes) => axes.iter().all(|axis| *axis > 0.0),
+        }
+    }
+
+    /// Whether it contains the line between any two of its points, and the distance from it is known.
+    pub(crate) fn has_convex_surface(&self) -> bool {
+        match self {
+            Self::Tube { inner, .. } => *inner == 0.0,
+            Self::Ellipsoid(_) => false,
+            Self::Box(_) | Self::Sphere(_) | Self::Capsule { .. } => true,
         }
     }
 
@@ -68,6 +97,7 @@ impl Solid {
             Self::Capsule { radius, length, .. } => {
                 std::f64::consts::PI * radius * radius * (length + 4.0 / 3.0 * radius)
             }
+            Self::Ellipsoid([a, b, c]) => 4.0 / 3.0 * std::f64::consts::PI * a * b * c,
         }
     }
 
@@ -82,6 +112,7 @@ impl Solid {
                 return across * (Matrix3::identity() - along) + 0.5 * radii * along;
             }
             Self::Sphere(radius) => Vector3::repeat(0.4 * radius * radius),
+            Self::Ellipsoid([a, b, c]) => Vector3::new(b * b + c * c, a * a + c * c, a * a + b * b) / 5.0,
             Self::Capsule { radius, length, axis } => {
                 // Cylinder and two half balls, whose centres are 3/8 of the radius from their faces.
                 let ends = 4.0 / 3.0 * radius / (length + 4.0 / 3.0 * radius);
@@ -129,6 +160,10 @@ mod tests {
             (rod, summed(|x| beyond(x) < 0.25, 1.0)),
             (Solid::Sphere(0.5), summed(|x| x.norm() < 0.5, 1.0)),
             (tube, summed(|x| x.x.abs() < 0.4 && (0.2..0.5).contains(&across(x)), 1.0)),
+            (
+                Solid::Ellipsoid([0.5, 0.3, 0.4]),
+                summed(|x| (x.x / 0.5).powi(2) + (x.y / 0.3).powi(2) + (x.z / 0.4).powi(2) < 1.0, 1.0),
+            ),
             (Solid::Box(sides), summed(|x| (0..3).all(|k| x[k].abs() < 0.5 * sides[k]), 1.0)),
         ] {
             assert!((solid.volume() - volume).abs() < 1e-2 * volume, "{solid:?} {volume}");

@@ -230,7 +230,12 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         // A signal, an input or a state.
         Shape::Text if key.name == "of" => "Quantity",
         Shape::Text => "String",
-        Shape::Version | Shape::Entries(_) | Shape::Rows | Shape::Words | Shape::Table => return None,
+        Shape::Version
+        | Shape::Entries(_)
+        | Shape::Rows
+        | Shape::NumberRows
+        | Shape::Words
+        | Shape::Table => return None,
         Shape::Number | Shape::Positive | Shape::NotNegative | Shape::Between(..) => "f64",
         Shape::Count(..) => "usize",
         Shape::Flag => "bool",

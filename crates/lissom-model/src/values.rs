@@ -184,6 +184,27 @@ impl Context<'_> {
         read.into_iter().collect()
     }
 
+    /// Lists of `length` numbers, or of as many as the first holds.
+    pub(crate) fn number_rows(
+        &self,
+        node: &Node,
+        length: Option<usize>,
+        what: &str,
+    ) -> Option<Vec<Vec<f64>>> {
+        let Value::List(rows) = &node.value else {
+            return self.wrong_type(node, what, "a list of lists of numbers");
+        };
+        let what = format!("each entry of {what}");
+        let mut read: Vec<Vec<f64>> = Vec::with_capacity(rows.len());
+        for row in rows {
+            if let Some(length) = length.or(read.first().map(Vec::len)) {
+                self.list(row, length, &what)?;
+            }
+            read.push(self.number_list(row, &what)?);
+        }
+        Some(read)
+    }
+
     /// A number, a diagonal or a square matrix by rows.
     pub(crate) fn square_matrix(&self, node: &Node, what: &str) -> Option<DMatrix<f64>> {
         let Value::List(rows) = &node.value else {

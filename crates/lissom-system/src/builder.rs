@@ -6,6 +6,7 @@ mod drawn;
 mod groups;
 mod joint;
 mod motion;
+mod rigid_contact;
 mod signals;
 mod slider;
 mod velocity_constraints;
@@ -479,7 +480,9 @@ impl Builder {
     }
 
     fn initial_state(&self, layout: &Layout, time: f64, held: Vec<f64>) -> State {
-        let sees_multipliers = self.batches.iter().any(|batch| batch.sees_multipliers());
+        // Events of rigid contacts depend on normal forces.
+        let sees_multipliers = self.batches.iter().any(|batch| batch.sees_multipliers())
+            || !self.constraints.rigid_contacts.is_empty();
         let coordinates = self
             .model
             .coordinates

@@ -7,7 +7,6 @@ use super::{StepPoint, System};
 use lissom_mechanics::evaluation::scatter_map::position_of;
 use lissom_mechanics::evaluation::scratch::with_scratch;
 use lissom_mechanics::evaluation::tangent_assembler::TangentAssembler;
-use lissom_mechanics::joints::Drive;
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::constraint::{
     Constraint, Level, Port, Visit, ports_of, rates, violation_rates,
@@ -16,8 +15,10 @@ use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
 use lissom_mechanics::joints::latch::Latch;
 use lissom_mechanics::joints::no_slip::NoSlip;
+use lissom_mechanics::joints::rigid_contact::{NonPenetration, Sticking};
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
+use lissom_mechanics::joints::{Drive, MAX_EQUATIONS};
 use lissom_mechanics::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 
 /// The constraints by family, because outputs depend on the type.
@@ -29,6 +30,10 @@ pub struct Constraints {
     pub sliders: Vec<Slider>,
     pub wheels: Vec<NoSlip>,
     pub latches: Vec<Latch>,
+    pub rigid_contacts: Vec<NonPenetration>,
+    pub stickings: Vec<Sticking>,
+    /// Events of rigid contacts, each with the index of its contact.
+    pub contact_events: Vec<(usize, usize)>,
 }
 
 /// Constraints of one type.
@@ -49,12 +54,21 @@ impl<C: Constraint> Family for Vec<C> {
 
 impl Constraints {
     /// All families, enumerated only here.
-    fn families(&self) -> [&dyn Family; 6] {
-        [&self.joints, &self.drives, &self.couplings, &self.sliders, &self.wheels, &self.latches]
+    fn families(&self) -> [&dyn Family; 8] {
+        [
+            &self.joints,
+            &self.drives,
+            &self.couplings,
+            &self.sliders,
+            &self.wheels,
+            &self.latches,
+            &self.rigid_contacts,
+            &self.stickings,
+        ]
     }
 
     /// Number of constraints of each family, for comparing models.
-    pub fn counts(&self) -> [usize; 6] {
+    pub fn counts(&self) -> [usize; 8] {
         self.families().map(Family::count)
     }
 
@@ -208,8 +222,10 @@ fn slips(
         return;
     }
     rates(constraint, at, gradient, out);
-    for value in out {
-        *value *= scale.lapse;
+    let mut explicit = [0.0; MAX_EQUATIONS];
+    constraint.time_derivative(at, &mut explicit[..out.len()]);
+    for (value, explicit) in out.iter_mut().zip(explicit) {
+        *value = (*value + explicit) * scale.lapse;
     }
 }
 

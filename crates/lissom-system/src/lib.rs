@@ -44,6 +44,7 @@ use lissom_mechanics::joints::blocks::{Batches, JointBatch};
 use lissom_mechanics::joints::constraint::{Port, ports_of};
 use lissom_mechanics::joints::coupling::Coupling;
 use lissom_mechanics::joints::latch::Latch;
+use lissom_mechanics::joints::rigid_contact::{NonPenetration, RigidContact};
 use lissom_mechanics::joints::slider::Slider;
 use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, Subject, Switch};
@@ -141,6 +142,21 @@ impl System {
     /// All latches.
     pub fn latches(&self) -> &[Latch] {
         &self.constraints.latches
+    }
+
+    /// All rigid contacts.
+    pub fn rigid_contacts(&self) -> impl ExactSizeIterator<Item = &RigidContact> {
+        self.constraints.rigid_contacts.iter().map(|NonPenetration(contact)| &**contact)
+    }
+
+    /// Events at which the modes of rigid contacts may change, each with the index of its contact.
+    pub fn contact_events(&self) -> &[(usize, usize)] {
+        &self.constraints.contact_events
+    }
+
+    /// Whether there are rigid contacts.
+    pub fn has_rigid_contacts(&self) -> bool {
+        !self.constraints.rigid_contacts.is_empty()
     }
 
     /// Inertia of every node that has mass.

@@ -85,6 +85,43 @@ diagnostics! {
             meaning: "The iteration for the normal forces of wheels on rails, on which creep forces depend, does not converge at the start.",
             advice: "Check `friction_coefficient` and the constraints of the wheels.",
         }
+        /// Rigid contacts without consistent forces.
+        ContactForces {
+            /// One of the contacts that touch.
+            contact: Subject,
+        } => "rigid-contact-forces" {
+            subject: contact,
+            cause: ("no forces or impulses were found that satisfy the conditions of all rigid contacts that touch, the {contact} among \
+                    them"),
+            remedy: "reduce `friction`, or give one of the contacts a `stiffness` instead of `rigid`",
+            meaning: "The conditions of rigid contacts that touch at the same instant have no solution, or the iteration does not find it.",
+            advice: "Reduce `friction`, or give a contact a `stiffness` instead of `rigid`.",
+        }
+        /// A rigid contact with friction at which a normal force does not push the solids apart.
+        ContactParadox {
+            /// The contact.
+            contact: Subject,
+        } => "rigid-contact-paradox" {
+            subject: contact,
+            cause: ("the {contact} slides in Painlevé's paradox: with the friction that it causes, a normal force does not push the \
+                    parts apart, and the forces are not determined"),
+            remedy: "reduce `friction`, or give the contact a `stiffness` instead of `rigid`",
+            meaning: "A rigid part slides such that no unique normal force exists (Painlevé's paradox).",
+            advice: "Reduce `friction`, or give the contact a `stiffness` instead of `rigid`.",
+        }
+        /// A rigid contact that begins with a penetration.
+        ContactPenetration {
+            /// The contact.
+            contact: Subject,
+            /// The penetration [m].
+            depth: f64,
+        } => "rigid-contact-penetrates" {
+            subject: contact,
+            cause: ("at the start the parts of the rigid {contact} penetrate each other by {depth:.3e} m"),
+            remedy: "move one of them apart",
+            meaning: "The parts of a rigid contact penetrate each other at the start.",
+            advice: "Move one of the parts.",
+        }
         /// A number is not finite.
         NotFinite {
             /// Name of the unknown.

@@ -31,6 +31,24 @@ diagnostics! {
             advice: "The step does not resolve the motion, or the scheme adds energy to a motion that it does not resolve: use a smaller step, \
                 `relative_tolerance`, or `scheme = \"radau-iia\"`.",
         }
+        /// The restitution of an impact was reduced.
+        RestitutionReduced {
+            /// Time [s].
+            time: f64,
+            /// One of the contacts.
+            contact: Subject,
+            /// The fraction of it that is used.
+            factor: f64,
+        } => "restitution-reduced" {
+            time: *time,
+            subject: contact,
+            cause: ("at t = {time} s an impact at the {contact} would gain energy with the given coefficients of restitution and \
+                    friction: its restitution is multiplied by {factor:.3}"),
+            remedy: "use a smaller `restitution` or `friction`, or a contact with a `stiffness`",
+            meaning: "An impact at several rigid contacts, or at one with friction, would gain energy by Newton's law of restitution. The restitution \
+                was reduced until it does not.",
+            advice: "Use a smaller `restitution` or `friction`, or a contact with a `stiffness`.",
+        }
         /// An equilibrium is unstable.
         Unstable {
             /// Time, or load parameter, of the first unstable equilibrium [s].

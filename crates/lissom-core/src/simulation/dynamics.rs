@@ -44,6 +44,7 @@ impl Simulation {
         settings: Settings,
     ) -> Result<Self, InitialError> {
         let mut simulation = Self::start(system.into(), state, settings, None)?;
+        simulation.begin_contacts()?;
         simulation.begin_behind_jumps()?;
         Ok(simulation)
     }

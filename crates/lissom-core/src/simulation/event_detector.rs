@@ -60,6 +60,17 @@ pub(crate) struct EventState {
     recent: (f64, usize),
 }
 
+impl EventState {
+    /// Sets the branches of these functions above zero.
+    pub(crate) fn rise(&mut self, indices: impl Iterator<Item = usize>) {
+        for index in indices {
+            if let Some(side) = self.sides.get_mut(index) {
+                *side = 1.0;
+            }
+        }
+    }
+}
+
 /// An instant within a step at which switching functions cross zero.
 #[derive(Clone, Debug)]
 pub(crate) struct LocatedRoot {

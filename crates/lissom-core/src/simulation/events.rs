@@ -87,6 +87,7 @@ impl Simulation {
         if self.events.is_empty() {
             return Ok(());
         }
+        self.turn_friction();
         let happened = self
             .events
             .accept(&self.system, &self.state, located, longest)
@@ -103,13 +104,20 @@ impl Simulation {
                 at.held[held.index()] = graph.value(signal, &self.state.kinematics);
             }
         }
-        if at.held == self.state.kinematics.held {
+        let contacts = self.contacts_of(&happened);
+        if at.held == self.state.kinematics.held && contacts.is_empty() {
             return Ok(());
         }
         graph.check(&at).map_err(StepError::Signal)?;
         let time = at.time;
-        self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })?;
+        let changed = if contacts.is_empty() {
+            self.change_held_values(at)
+        } else {
+            self.change_contacts(&contacts, Some(at.held), [time; 2])
+        };
+        changed.map_err(|error| StepError::Velocities { time, error })?;
         self.events.renew(&self.system, &self.state, &happened);
+        self.rearm_contacts();
         self.freeze_switches()
     }
 

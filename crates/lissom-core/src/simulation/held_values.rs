@@ -131,7 +131,7 @@ impl Simulation {
         }
         self.previous.clone_from(&state);
         self.state = state;
-        Ok(())
+        self.begin_contacts().map_err(InputError::Initial)
     }
 
     /// Whether a latch that was free engages with the held values of `at`.
@@ -158,6 +158,10 @@ impl Simulation {
     /// # Errors
     /// If there are no consistent accelerations; the state is then unchanged.
     pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
+        if self.system.has_rigid_contacts() {
+            let time = self.state.kinematics.time;
+            return self.change_contacts(&[], Some(at.held), [time; 2]);
+        }
         let engages = self.engages(&at);
         let switches = self.switches_latch(&at);
         if switches {
@@ -204,6 +208,9 @@ impl Simulation {
     /// # Errors
     /// If there are no consistent accelerations.
     pub(crate) fn jump_between(&mut self, earlier: f64, later: f64) -> Result<(), InitialError> {
+        if self.system.has_rigid_contacts() {
+            return self.change_contacts(&[], None, [earlier, later]);
+        }
         let Some(initial) = &mut self.held_values else { return Ok(()) };
         let time = self.state.kinematics.time;
         let mut at = |instant: f64| {
@@ -219,7 +226,7 @@ impl Simulation {
     }
 
     /// Adds the jump of accelerations, multipliers and rates of states.
-    fn add_jump(&mut self, mut jump: Vec<f64>) {
+    pub(super) fn add_jump(&mut self, mut jump: Vec<f64>) {
         let layout = self.system.layout();
         let kinematics = &mut self.state.kinematics;
         for (rows, node) in layout.node_rows.iter().zip(&mut kinematics.nodes) {

@@ -9,6 +9,7 @@ use lissom_core::contact::pairs::{CurveOnSurface, PointOnSurface, RimOnPlane};
 use lissom_core::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 use lissom_core::elements::Contribution;
 use lissom_core::elements::contact::{Contact, ContactFriction, Dissipation};
+use lissom_core::elements::contact_resistance::ContactResistance;
 use lissom_core::kinematics::{CarriedFrame, Freedoms};
 use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};
@@ -65,7 +66,18 @@ fn with_contact(
     let dissipation = Dissipation::Factor(if is_rough { 0.1 } else { 0.0 });
     let exponent = if seed.is_multiple_of(2) { 1.0 } else { 1.5 };
     let law = (Compliance { stiffness: 3.0, exponent }, dissipation);
-    builder.add(contribution.with(Contact::new(frames, pair, law, friction)));
+    let resistance = is_rough.then(|| {
+        let states = (0..3).map(|k| contribution.add_state(format!("angle {k}"), 0.2, 1.0));
+        let (sliding, at_rest) = (1.0, 1.0);
+        let bristles = states.collect();
+        let bristles = ContactFriction { bristles, sliding, at_rest, stribeck: 30.0, deflection: 3.0 };
+        ContactResistance { bristles, rolling: 0.6, spinning: 0.9 }
+    });
+    let mut contact = Contact::new(frames, pair, law, friction);
+    if let Some(resistance) = resistance {
+        contact = contact.with_resistance(resistance);
+    }
+    builder.add(contribution.with(contact));
     let (system, state) = builder.build(0.0).expect("valid");
     (system, state, random)
 }

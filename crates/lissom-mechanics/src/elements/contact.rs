@@ -23,6 +23,7 @@ use lissom_motion::{
 };
 use nalgebra::SMatrix;
 
+use super::contact_resistance::ContactResistance;
 use super::force_law::Response;
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
@@ -86,10 +87,10 @@ struct Yielding {
 }
 
 /// Friction per normal force, with its derivatives by the sliding velocity and by the tangential deflection of the bristles.
-struct Share {
-    force: Vector3,
-    by_sliding: Matrix3,
-    by_bristles: Matrix3,
+pub(super) struct Share {
+    pub(super) force: Vector3,
+    pub(super) by_sliding: Matrix3,
+    pub(super) by_bristles: Matrix3,
 }
 
 impl ContactFriction {
@@ -121,7 +122,7 @@ impl ContactFriction {
     }
 
     /// Opposed to the sliding of the tip.
-    fn share(&self, bristles: &Vector3, sliding: &Vector3, normal: &Vector3) -> Share {
+    pub(super) fn share(&self, bristles: &Vector3, sliding: &Vector3, normal: &Vector3) -> Share {
         let velocity = self.stribeck;
         let squared = sliding.norm_squared() / (velocity * velocity);
         let more = (self.at_rest - self.sliding) * (-squared).exp();
@@ -154,6 +155,9 @@ pub struct Contact {
     compliance: Compliance,
     dissipation: Dissipation,
     friction: Option<ContactFriction>,
+    resistance: Option<ContactResistance>,
+    /// Deflections of the bristles, those of friction first.
+    bristles: Vec<CoordinateId>,
     switch_states: SwitchStates,
 }
 
@@ -184,7 +188,7 @@ pub struct ContactMotion(Contact);
 impl ContactMotion {
     /// Of this contact.
     pub fn new(contact: &Contact) -> Self {
-        Self(Contact { friction: None, ..contact.clone() })
+        Self(Contact { friction: None, resistance: None, bristles: Vec::new(), ..contact.clone() })
     }
 }
 
@@ -228,6 +232,20 @@ struct Touch {
     deflecting: Vector3,
     /// f, on the tip in the base's axes.
     force: Vector3,
+    /// Against rolling and spinning; zero without.
+    rotation: Rotating,
+}
+
+/// Relative rotation at the point of contact, in the axes of the base.
+#[derive(Default)]
+struct Rotating {
+    /// Angular velocity of the tip relative to the base.
+    spin: Vector3,
+    bristles: Vector3,
+    /// Rate of the bristles as the law determines it.
+    deflecting: Vector3,
+    /// Moment on the tip.
+    moment: Vector3,
 }
 
 impl Touch {
@@ -237,8 +255,9 @@ impl Touch {
 
     /// The wrench on the tip's frame.
     fn wrench(&self) -> Vector6 {
-        let force = self.motion.rotation.tr_mul(&self.force);
-        screw(&force, &self.arm.cross(&force))
+        let turned = |vector: &Vector3| self.motion.rotation.tr_mul(vector);
+        let force = turned(&self.force);
+        screw(&force, &(self.arm.cross(&force) + turned(&self.rotation.moment)))
     }
 }
 
@@ -259,7 +278,16 @@ impl Contact {
         friction: Option<ContactFriction>,
     ) -> Self {
         let frames = FramePair::new(frames);
-        Self { frames, pair, compliance, dissipation, friction, switch_states: SwitchStates::default() }
+        let bristles = friction.as_ref().map_or_else(Vec::new, |friction| friction.bristles.clone());
+        let (resistance, switch_states) = (None, SwitchStates::default());
+        Self { frames, pair, compliance, dissipation, friction, resistance, bristles, switch_states }
+    }
+
+    /// The same with resistance to rolling and spinning.
+    pub fn with_resistance(mut self, resistance: ContactResistance) -> Self {
+        self.bristles.extend(&resistance.bristles.bristles);
+        self.resistance = Some(resistance);
+        self
     }
 
     /// Gap [m], its rate [m/s] and the normal force [N].
@@ -322,6 +350,7 @@ impl Contact {
                 force -= normal_force[0] * friction.share(&bristles, &sliding, &n).force;
             }
         }
+        let rotation = self.rotating(&motion, (&n, is_touching.then_some(normal_force[0])), at);
         Touch {
             motion,
             gap,
@@ -334,7 +363,26 @@ impl Contact {
             bristles,
             deflecting,
             force,
+            rotation,
         }
+    }
+
+    fn rotating(
+        &self,
+        motion: &RelativeMotion,
+        (normal, force): (&Vector3, Option<f64>),
+        at: &Kinematics,
+    ) -> Rotating {
+        let Some(resistance) = &self.resistance else { return Rotating::default() };
+        let of = &resistance.bristles;
+        let bristles = Vector3::from_fn(|k, _| at.coordinates[of.bristles[k]].value);
+        let spin = motion.rotation * rotation_part(&motion.twist);
+        let mut rotating = Rotating { spin, bristles, ..Rotating::default() };
+        if let Some(force) = force {
+            rotating.deflecting = spin - of.yielding(&bristles, &spin).rate;
+            rotating.moment = force * resistance.moment(&bristles, &spin, normal).value;
+        }
+        rotating
     }
 
     fn variations(touch: &Touch) -> Variations {
@@ -363,9 +411,65 @@ impl Contact {
 
     /// Energy of the bristles per normal force [m].
     fn deflected(&self, touch: &Touch) -> f64 {
-        self.friction.as_ref().map_or(0.0, |friction| {
+        let of_friction = self.friction.as_ref().map_or(0.0, |friction| {
             0.5 * friction.at_rest / friction.deflection * touch.bristles.norm_squared()
-        })
+        });
+        let rotation = &touch.rotation;
+        let resistance = self.resistance.as_ref();
+        of_friction + resistance.map_or(0.0, |resistance| resistance.deflected(&rotation.bristles))
+    }
+
+    /// First row of the bristles against rotation.
+    fn first_rotation(&self) -> usize {
+        BRISTLES + if self.friction.is_some() { 3 } else { 0 }
+    }
+
+    /// Adds the derivatives of the moment against rotation and of the rates of its bristles.
+    fn add_resistance(
+        &self,
+        touch: &Touch,
+        by: &Variations,
+        force_by: &[nalgebra::RowVector6<f64>; 2],
+        out: &mut Tangents,
+    ) {
+        let Some(resistance) = &self.resistance else { return };
+        let (motion, rotating) = (&touch.motion, &touch.rotation);
+        let (n, force) = (&touch.gap.normal, touch.normal_force[0]);
+        let of = resistance.moment(&rotating.bristles, &rotating.spin, n);
+        let yielding = resistance.bristles.yielding(&rotating.bristles, &rotating.spin);
+        let rotation = &motion.rotation;
+        let own = side_by_side(&Matrix3::zeros(), &Matrix3::identity());
+        // At fixed twists of the nodes.
+        let turning = skew(&rotation_part(&motion.twist));
+        let spin_by = [
+            rotation
+                * (-own * lie_bracket_matrix(&motion.carried) - side_by_side(&Matrix3::zeros(), &turning)),
+            rotation * own,
+        ];
+        let mut moment_by = [0, 1].map(|k| of.value * force_by[k] + force * of.by_spin * spin_by[k]);
+        moment_by[0] += force * of.by_normal * by.normal;
+        let local = rotation.tr_mul(&rotating.moment);
+        let mut wrench_by = moment_by.map(|of| rotation.transpose() * of);
+        wrench_by[0] += side_by_side(&Matrix3::zeros(), &skew(&local));
+        let full = |by: &Matrix3x6| {
+            let mut both = Matrix6::zeros();
+            both.fixed_rows_mut::<3>(3).copy_from(by);
+            both
+        };
+        let (size, wrench) = (out.size(), screw(&Vector3::zeros(), &local));
+        self.frames.add_stiffness(motion, (&-wrench, &-full(&wrench_by[0])), (size, &mut out.stiffness));
+        self.frames.add_damping(motion, &-full(&wrench_by[1]), (size, &mut out.damping));
+        let first = self.first_rotation();
+        let by_bristles = rotation.transpose() * of.by_bristles * force;
+        let deflecting_by = Matrix3::identity() - yielding.by_sliding;
+        for (j, columns) in self.frames.columns(motion).iter().enumerate() {
+            let block = -columns.fixed_rows::<3>(3).transpose() * by_bristles;
+            add_block(&mut out.stiffness, size, (6 * j, first), &block);
+            let rows = [-deflecting_by * spin_by[0] * columns, -deflecting_by * spin_by[1] * columns];
+            add_block(&mut out.stiffness, size, (first, 6 * j), &rows[0]);
+            add_block(&mut out.damping, size, (first, 6 * j), &rows[1]);
+        }
+        add_block(&mut out.stiffness, size, (first, first), &yielding.by_bristles);
     }
 
     /// Derivatives of the gap with respect to η.
@@ -377,11 +481,7 @@ impl Contact {
 
 impl Element for Contact {
     fn unknowns(&self) -> Unknowns<'_> {
-        Unknowns {
-            nodes: &self.frames.nodes,
-            coordinates: self.friction.as_ref().map_or(&[], |friction| &friction.bristles),
-            multipliers: &[],
-        }
+        Unknowns { nodes: &self.frames.nodes, coordinates: &self.bristles, multipliers: &[] }
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -389,15 +489,17 @@ impl Element for Contact {
         if touch.is_touching {
             self.frames.add_wrench(&touch.motion, &-touch.wrench(), out);
         }
-        for (k, &bristle) in self.unknowns().coordinates.iter().enumerate() {
-            out[BRISTLES + k] += at.coordinates[bristle].rate - touch.deflecting[k];
+        for (k, &bristle) in self.bristles.iter().enumerate() {
+            let first = self.first_rotation() - BRISTLES;
+            let of = if k < first { touch.deflecting[k] } else { touch.rotation.deflecting[k - first] };
+            out[BRISTLES + k] += at.coordinates[bristle].rate - of;
         }
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let touch = self.touch(at);
         let size = out.size();
-        for k in 0..self.unknowns().coordinates.len() {
+        for k in 0..self.bristles.len() {
             out.damping[(BRISTLES + k) * size + BRISTLES + k] += 1.0;
         }
         if !touch.is_touching {
@@ -426,6 +528,7 @@ impl Element for Contact {
         for (of, own) in force_derivatives.iter_mut().zip(&force_by) {
             *of += direction * own;
         }
+        self.add_resistance(&touch, &by, &force_by, out);
         // The wrench and its derivatives, on the right-hand side.
         let local = rotation.tr_mul(&touch.force);
         let mut wrench_by = force_derivatives.map(|of| rotation.transpose() * of);
@@ -438,7 +541,8 @@ impl Element for Contact {
         };
         let [by_place, by_rate] = [full(&wrench_by[0], &by.arm), full(&wrench_by[1], &Matrix3x6::zeros())];
         let size = out.size();
-        self.frames.add_stiffness(&touch.motion, (&-touch.wrench(), &-by_place), (size, &mut out.stiffness));
+        let wrench = screw(&local, &touch.arm.cross(&local));
+        self.frames.add_stiffness(&touch.motion, (&-wrench, &-by_place), (size, &mut out.stiffness));
         self.frames.add_damping(&touch.motion, &-by_rate, (size, &mut out.damping));
         let Some(friction) = &self.friction else { return };
         let columns = self.frames.columns(&touch.motion);
@@ -543,6 +647,11 @@ impl StrainSlopes for Contact {
         if let Some(friction) = &self.friction {
             for (k, bristle) in touch.bristles.iter().enumerate() {
                 out[BRISTLES + k] += force * friction.at_rest / friction.deflection * bristle;
+            }
+        }
+        if let Some(resistance) = &self.resistance {
+            for (k, bristle) in touch.rotation.bristles.iter().enumerate() {
+                out[self.first_rotation() + k] += force * resistance.stiffness() * bristle;
             }
         }
     }

@@ -44,6 +44,7 @@ pub mod prismatic;
 pub mod relative_increment;
 pub(crate) mod relative_jets;
 pub mod revolute;
+pub mod rigid_contact;
 pub mod rigid_link;
 pub mod rolling;
 pub(crate) mod scalar_batch;

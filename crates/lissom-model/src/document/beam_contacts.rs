@@ -120,6 +120,10 @@ fn of_beam(
         ("tip_material", "give `stiffness` or `stiffness_per_length` instead"),
         ("restitution", "give `dissipation` instead: waves in the beam determine how it rebounds"),
         ("rest_velocity", "remove it, and give `dissipation`"),
+        ("restitution_law", "remove it, and give `dissipation`"),
+        ("rigid", "give `stiffness` or `stiffness_per_length` instead"),
+        ("rolling_friction", "remove it"),
+        ("torsional_friction", "remove it"),
     ] {
         if let Some(span) = given(key) {
             let message = format!("`{key}` of {} is not available for beams", reader.what);
@@ -177,5 +181,7 @@ fn of_beam(
         friction: (at_rest > 0.0).then_some([friction, at_rest]),
         stribeck: number_or(reader, "stribeck", 0.01),
         deflection: number_or(reader, "deflection", 1e-5),
+        resistance: [0.0; 2],
+        rigid: None,
     })
 }

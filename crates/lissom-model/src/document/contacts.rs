@@ -1,12 +1,15 @@
 //! Contacts between parts, and the shape of the ground.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
+use lissom_core::contact::compliance::RestitutionLaw;
 use lissom_motion::Vector3;
 
 use super::beam_contacts::{self, BeamSides};
 use super::entries::each;
 use super::ports::two_nodes;
+use super::rigid_contacts::{self, RigidEntry};
 use super::solids::shape;
 use super::tables::variants;
 use super::{Body, NodeReference, PointMass};
@@ -17,6 +20,9 @@ use crate::registry::Registry;
 use crate::report::Located;
 use crate::solid::PlacedSolid;
 use crate::surface::Surface;
+
+/// Smallest restitution of contacts that are not rigid.
+const LEAST_RESTITUTION: f64 = 0.01;
 
 /// Solids that are fixed in space.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,7 +39,7 @@ pub enum Restitution {
     /// Relative increase of the normal force per penetration velocity [s/m].
     Dissipation(f64),
     /// Velocity after an impact over that before, at every velocity above the second number [m/s].
-    Coefficient(f64, f64),
+    Coefficient(f64, f64, RestitutionLaw),
 }
 
 /// Two parts that may touch.
@@ -57,6 +63,10 @@ pub struct ContactEntry {
     pub stribeck: f64,
     /// Tangential deflection before it slips [m].
     pub deflection: f64,
+    /// Moments against rolling and spinning per normal force [m].
+    pub resistance: [f64; 2],
+    /// If it is rigid, its law; stiffness and friction of this entry are then unused.
+    pub rigid: Option<RigidEntry>,
 }
 
 /// Keys of `[ground]`.
@@ -77,6 +87,12 @@ pub(super) fn keys() -> Vec<Key> {
             "a body or point mass with a `shape`, or \"ground\"; a beam, if the tip is one",
         ),
         required("tip", Shape::Node, "", "the other part that may touch it; or the name of a beam"),
+        optional(
+            "rigid",
+            Shape::Flag,
+            "",
+            "instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`",
+        ),
         optional("stiffness", Shape::Positive, "N/m^n", "normal force at a penetration of 1 m"),
         optional("exponent", Shape::Positive, "", "exponent n of the penetration, at least 1; default 1"),
         optional(
@@ -88,15 +104,23 @@ pub(super) fn keys() -> Vec<Key> {
         optional("tip_material", Shape::Name("materials"), "", "material of the tip, if it is another one"),
         optional(
             "restitution",
-            Shape::Between(0.01, 1.0),
+            Shape::Between(0.0, 1.0),
             "",
-            "velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1",
+            "velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, \
+             default 0",
         ),
         optional(
             "rest_velocity",
             Shape::Positive,
             "m/s",
-            "slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution`",
+            "slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires \
+             `restitution` or `rigid`",
+        ),
+        optional(
+            "restitution_law",
+            Shape::Choice(Cow::Borrowed(&["exact", "lankarani_nikravesh", "flores"])),
+            "",
+            "how the dissipation follows from `restitution`; default \"exact\", the others for comparison with publications",
         ),
         optional(
             "dissipation",
@@ -118,6 +142,18 @@ pub(super) fn keys() -> Vec<Key> {
             "sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01",
         ),
         optional("deflection", Shape::Positive, "m", "tangential deflection before it slips; default 1e-5"),
+        optional(
+            "rolling_friction",
+            Shape::NotNegative,
+            "m",
+            "moment against rolling per normal force; default 0",
+        ),
+        optional(
+            "torsional_friction",
+            Shape::NotNegative,
+            "m",
+            "moment against spinning about the normal per normal force; default 0",
+        ),
     ];
     keys.extend(beam_contacts::keys());
     keys
@@ -174,6 +210,9 @@ pub(super) fn contacts(
         for part in &between {
             is_solid(part, &reader.what)?;
         }
+        if let Some(rigid) = rigid_contacts::rigid(reader)? {
+            return Some(rigid_contacts::entry(name, reader, between, rigid));
+        }
         let stiffness = stiffness(reader)?;
         let exponent = number_or(reader, "exponent", 1.0);
         let friction = number_or(reader, "friction", 0.0);
@@ -188,6 +227,8 @@ pub(super) fn contacts(
             friction: (at_rest > 0.0).then_some([friction, at_rest]),
             stribeck: number_or(reader, "stribeck", 0.01),
             deflection: number_or(reader, "deflection", 1e-5),
+            resistance: ["rolling_friction", "torsional_friction"].map(|key| number_or(reader, key, 0.0)),
+            rigid: None,
         };
         check_law(reader, entry)
     })
@@ -249,19 +290,32 @@ fn stiffness(reader: &Reader<'_, '_>) -> Option<Result<f64, [Located<String>; 2]
 
 fn restitution(reader: &Reader<'_, '_>) -> Option<Restitution> {
     let context = reader.context;
-    match (reader.node("restitution"), reader.node("dissipation"), reader.node("rest_velocity")) {
+    if let Some(node) = reader.node("restitution")
+        && reader.number("restitution")?.value < LEAST_RESTITUTION
+    {
+        let message = format!("`restitution` of {} is below 0.01", reader.what);
+        return context.fail(node.span, message, "set `rigid = true`, whose impacts may be without rebound");
+    }
+    let fine = reader.node("rest_velocity").or_else(|| reader.node("restitution_law"));
+    match (reader.node("restitution"), reader.node("dissipation"), fine) {
         (None, None, None) => Some(Restitution::Dissipation(0.0)),
         (None, Some(_), None) => Some(Restitution::Dissipation(reader.number("dissipation")?.value)),
         (Some(_), None, _) => Some(Restitution::Coefficient(
             reader.number("restitution")?.value,
             number_or(reader, "rest_velocity", 1e-3),
+            match reader.choice("restitution_law").map(|law| law.value) {
+                Some("lankarani_nikravesh") => RestitutionLaw::LankaraniNikravesh,
+                Some("flores") => RestitutionLaw::Flores,
+                _ => RestitutionLaw::Exact,
+            },
         )),
         (Some(_), Some(node), _) => {
             let message = format!("{} has both `restitution` and `dissipation`", reader.what);
             context.fail(node.span, message, "remove one of them")
         }
         (None, _, Some(node)) => {
-            let message = format!("{} has `rest_velocity` without `restitution`", reader.what);
+            let key = if reader.has("rest_velocity") { "rest_velocity" } else { "restitution_law" };
+            let message = format!("{} has `{key}` without `restitution`", reader.what);
             context.fail(node.span, message, "add `restitution`, or remove this")
         }
     }

@@ -22,6 +22,7 @@ mod outputs;
 pub(crate) mod part_tables;
 mod places;
 mod ports;
+mod rigid_contacts;
 mod signals;
 mod solids;
 mod superelements;
@@ -57,6 +58,7 @@ pub use events::EventEntry;
 pub use output_kinds::OutputKind;
 pub(crate) use output_kinds::{Declaration, Feature, Feeds, OutputComponent, Subject};
 pub use outputs::{Output, OutputSource, ReactionAxes};
+pub use rigid_contacts::RigidEntry;
 pub use signals::{SignalEntry, StateEntry};
 pub use top_level::VERSION;
 

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use lissom_core::contact::curves::Spline;
+use lissom_core::contact::surfaces::{HeightField, Mesh, Outline, Polygon};
 use lissom_motion::{Motion, Rotation, Vector3};
 
 use crate::keys::{Key, Shape};
@@ -13,19 +15,38 @@ use crate::surface::Surface;
 use crate::text::{Node, Value};
 
 /// Kinds of solids with their dimensions.
-const KINDS: [(&str, &[&str]); 7] = [
+const KINDS: [(&str, &[&str]); 11] = [
     ("box", &["sides"]),
     ("cylinder", &["radius", "length", "axis"]),
     ("tube", &["radius", "inner_radius", "length", "axis"]),
     ("sphere", &["radius"]),
     ("capsule", &["radius", "length", "axis"]),
+    ("ellipsoid", &["semi_axes"]),
     ("plane", &["normal"]),
+    ("outline", &["points", "smooth", "length", "axis"]),
+    ("hull", &["points"]),
+    ("height_field", &["heights", "extent"]),
     ("mesh", &["file", "scale"]),
 ];
 /// All dimensions; those that may be omitted.
-const DIMENSIONS: [&str; 8] =
-    ["sides", "radius", "inner_radius", "length", "axis", "normal", "file", "scale"];
-const OPTIONAL: [&str; 3] = ["axis", "normal", "scale"];
+const DIMENSIONS: [&str; 13] = [
+    "sides",
+    "radius",
+    "inner_radius",
+    "length",
+    "axis",
+    "semi_axes",
+    "normal",
+    "points",
+    "smooth",
+    "heights",
+    "extent",
+    "file",
+    "scale",
+];
+const OPTIONAL: [&str; 4] = ["axis", "normal", "smooth", "scale"];
+/// Most corners of a hull: with each of them it may touch a plane.
+const MAX_CORNERS: usize = 200;
 /// Kinds whose name may be the key of their dimensions instead.
 const SHORT: [&str; 4] = ["box", "cylinder", "tube", "sphere"];
 
@@ -117,21 +138,84 @@ fn drawn(
     if kind == "mesh" {
         let scale = vector("scale", Vector3::repeat(1.0))?;
         let surface = file(&own, own.node("file")?, "file")?;
-        return Some((surface.map_or_else(Surface::default, |surface| surface.moved(&frame, &scale)), None));
+        let scaled = surface.map_or_else(Surface::default, |own| own.moved(&Motion::IDENTITY, &scale));
+        let placed = PlacedSolid { form: Form::Mesh(Arc::new(scaled.clone())), frame };
+        return Some((scaled.moved(&frame, &Vector3::repeat(1.0)), Some(placed)));
     }
-    if kind == "plane" {
-        let normal = direction(&own, "normal")?;
-        let frame = frame * Motion::new(turned_to(&normal), Vector3::zeros());
-        return Some((Surface::default(), Some(PlacedSolid { form: Form::HalfSpace, frame })));
+    let other = match kind {
+        "plane" => Some((Form::HalfSpace, direction(&own, "normal")?)),
+        "outline" => Some((outline(&own)?, direction(&own, "axis")?)),
+        "hull" => Some((hull(&own)?, Vector3::z())),
+        "height_field" => Some((height_field(&own)?, Vector3::z())),
+        _ => None,
+    };
+    if let Some((form, axis)) = other {
+        let length = if kind == "outline" { own.number("length")?.value } else { 0.0 };
+        let frame = frame * Motion::new(turned_to(&axis), Vector3::zeros());
+        let surface = Surface::of_form(&form, length).moved(&frame, &Vector3::repeat(1.0));
+        return Some((surface, Some(PlacedSolid { form, frame })));
     }
     let solid = read(&own, node, kind)?;
     let surface = Surface::of_solid(&solid, &Vector3::zeros()).moved(&frame, &Vector3::repeat(1.0));
     let turn = match solid {
         Solid::Tube { axis, .. } | Solid::Capsule { axis, .. } => turned_to(&axis),
-        Solid::Box(_) | Solid::Sphere(_) => Rotation::IDENTITY,
+        Solid::Box(_) | Solid::Sphere(_) | Solid::Ellipsoid(_) => Rotation::IDENTITY,
     };
     let placed = PlacedSolid { form: Form::Solid(solid), frame: frame * Motion::new(turn, Vector3::zeros()) };
     Some((surface, Some(placed)))
+}
+
+/// The outline of a prism.
+fn outline(own: &Reader<'_, '_>) -> Option<Form> {
+    let (context, node) = (own.context, own.node("points")?);
+    let rows = context.number_rows(node, Some(2), &own.words("points"))?;
+    let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0], row[1]]).collect();
+    let is_smooth = own.has("smooth") && own.flag("smooth")?.value;
+    let form = if is_smooth {
+        Spline::new(&points).map(|curve| Form::Outline(Arc::new(Outline::new(curve))))
+    } else {
+        Polygon::new(&points).map(|polygon| Form::Polygon(Arc::new(polygon)))
+    };
+    form.or_else(|| {
+        let message = format!("{} enclose no area", own.words("points"));
+        context.fail(
+            node.span,
+            message,
+            "give at least three points in their order, each one apart from the next",
+        )
+    })
+}
+
+/// The convex hull of points.
+fn hull(own: &Reader<'_, '_>) -> Option<Form> {
+    let (context, node) = (own.context, own.node("points")?);
+    let rows = context.number_rows(node, Some(3), &own.words("points"))?;
+    let points: Vec<Vector3> = rows.iter().map(|row| Vector3::from_column_slice(row)).collect();
+    match Mesh::hull(&points) {
+        Ok(mesh) if mesh.corners().count() <= MAX_CORNERS => Some(Form::Hull(Arc::new(mesh))),
+        Ok(mesh) => {
+            let message =
+                format!("the hull of {} has {} corners", own.words("points"), mesh.corners().count());
+            context.fail(node.span, message, format!("give points whose hull has at most {MAX_CORNERS}"))
+        }
+        Err(error) => {
+            let message = format!("{} enclose no solid: {error}", own.words("points"));
+            context.fail(node.span, message, "give at least four points that are not in a plane")
+        }
+    }
+}
+
+fn height_field(own: &Reader<'_, '_>) -> Option<Form> {
+    let (context, node) = (own.context, own.node("heights")?);
+    let heights = context.number_rows(node, None, &own.words("heights"))?;
+    let [x, y] = context.numbers::<2>(own.node("extent")?, &own.words("extent"))?;
+    let is_valid = x > 0.0 && y > 0.0;
+    let field = HeightField::new(heights, [x, y]).filter(|_| is_valid);
+    let field = field.map(|field| Form::HeightField(Arc::new(field)));
+    field.or_else(|| {
+        let message = format!("{} is no surface", own.what);
+        context.fail(node.span, message, "give at least two rows of two heights, and sides greater than zero")
+    })
 }
 
 /// The shortest rotation of the third axis to a unit vector.
@@ -216,6 +300,7 @@ fn read(own: &Reader<'_, '_>, node: &Node, kind: &str) -> Option<Solid> {
             let [outer, inner, length] = context.numbers::<3>(value, &own.words(kind))?;
             Solid::Tube { outer, inner, length, axis }
         }
+        ("ellipsoid", _) => Solid::Ellipsoid(own.vector("semi_axes")?.value.into()),
         ("capsule", _) => Solid::Capsule { radius: number("radius")?, length: number("length")?, axis },
         (_, None) => Solid::Sphere(number("radius")?),
         (_, Some(_)) => Solid::Sphere(number("sphere")?),

@@ -127,7 +127,7 @@ impl OfBeam<'_> {
         let mut all = Vec::new();
         for solid in solids(self.document, &self.entry.between[0].value) {
             self.check_distance(solid, apart)?;
-            let surface = surface(&solid.form);
+            let surface = surface(&solid.form).ok().flatten().ok_or_else(|| self.no_pair(&solid.form))?;
             for k in 0..=count {
                 let before = if k > 0 { lengths[k - 1] } else { 0.0 };
                 let share = 0.5 * (before + lengths.get(k).copied().unwrap_or(0.0));
@@ -202,8 +202,8 @@ impl OfBeam<'_> {
                 Form::Solid(Solid::Capsule { radius, length, .. }) => {
                     (CarriedCurve::between([-0.5, 0.5].map(|share| point(share * length))), radius)
                 }
-                form => {
-                    let message = format!("`stiffness` of a beam on {} is not available", words(&form));
+                _ => {
+                    let message = format!("`stiffness` of a beam on {} is not available", words(&solid.form));
                     let help =
                         "give `stiffness_per_length` instead; `stiffness` is for spheres, capsules and beams";
                     return Err(self.fault(&message, help));
@@ -298,8 +298,14 @@ impl OfBeam<'_> {
             Form::Solid(Solid::Box(sides)) => {
                 0.5 * sides.into_iter().fold(f64::INFINITY, f64::min) + self.radius
             }
+            _ => return Err(self.no_pair(&solid.form)),
         };
         self.check_spacing((apart, most), words(&solid.form))
+    }
+
+    fn no_pair(&self, form: &Form) -> Problem {
+        let message = format!("a beam on {} is not available", words(form));
+        self.fault(&message, "use planes, boxes, cylinders, tubes, spheres and capsules that have its shape")
     }
 
     fn check_spacing(&self, (apart, most): (f64, f64), what: &str) -> Result<(), Problem> {

@@ -61,6 +61,15 @@ pub(super) fn add(
         }
     }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
+        if let Some(law) = &entry.rigid {
+            let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
+            let nodes = base.and_then(|base| Ok([base, tip?]));
+            match nodes.and_then(|nodes| super::rigid_contacts::add(document, (entry, law), nodes, builder)) {
+                Ok(points) => drop(names.rigid_contacts.insert(entry.name.value.clone(), points)),
+                Err(problem) => problems.push(problem),
+            }
+            continue;
+        }
         let added = if let Some(sides) = &entry.beams {
             super::beam_contacts::add(document, (entry, sides), names, builder)
         } else {

@@ -17,6 +17,7 @@ mod readings;
 mod redundancy;
 pub mod registry;
 mod resource_limits;
+mod rigid_contacts;
 mod signals;
 mod straight_line;
 mod superelements;
@@ -37,7 +38,7 @@ use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 
 use crate::channels::Channel;
-use crate::contact_point::ContactPoint;
+use crate::contact_point::{ContactPoint, RigidPoint};
 use crate::document::{
     Component, DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output,
     OutputSource, Subject, interface_name,
@@ -126,6 +127,8 @@ pub struct Names {
     pub powers: BTreeMap<String, ElementId>,
     /// Points of each contact.
     pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
+    /// Points of each rigid contact.
+    pub(crate) rigid_contacts: BTreeMap<String, Vec<RigidPoint>>,
     /// Loads on coordinates of joints; those of size zero have no element.
     pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.
@@ -332,6 +335,7 @@ impl Names {
             latches: &self.latches,
             powers: &self.powers,
             contacts: &self.contacts,
+            rigid_contacts: &self.rigid_contacts,
             signals: &self.signals,
         }
     }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::differences::Touched;
 use super::frames::name_of;
+use super::rigid_contact_force::RigidContactForce;
 use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
 use crate::contact_point::ContactPoint;
 use crate::document::{Declaration, Output, Subject};
@@ -42,6 +43,9 @@ struct ContactForce(Vec<ContactPoint>);
 
 fn quantity(output: &Output, _: &System, subjects: &Subjects<'_>) -> Found {
     let name = name_of(output)?;
+    if let Some(points) = subjects.names.rigid_contacts.get(&name.value) {
+        return Ok(Arc::new(RigidContactForce(points.clone())));
+    }
     let points = subjects.names.contacts.get(&name.value);
     let points =
         points.ok_or_else(|| Problem::error(name.span, format!("there is no contact `{}`", name.value)))?;

@@ -20,6 +20,7 @@ pub(crate) mod reaction;
 pub(crate) mod recovered;
 pub(crate) mod relative;
 pub(crate) mod relative_acceleration;
+mod rigid_contact_force;
 pub(crate) mod section;
 pub(crate) mod signal;
 pub(crate) mod spring;
@@ -41,7 +42,7 @@ use lissom_core::system::{ElementId, State, System};
 use nalgebra::DMatrix;
 
 use crate::channels::Channel;
-use crate::contact_point::ContactPoint;
+use crate::contact_point::{ContactPoint, RigidPoint};
 use crate::document::Output;
 use crate::report::Problem;
 
@@ -163,6 +164,7 @@ pub(crate) struct Resolver<'a> {
     pub(crate) powers: &'a BTreeMap<String, ElementId>,
     /// Points of each contact.
     pub(crate) contacts: &'a BTreeMap<String, Vec<ContactPoint>>,
+    pub(crate) rigid_contacts: &'a BTreeMap<String, Vec<RigidPoint>>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
 }

@@ -5,10 +5,12 @@ mod stl;
 
 use std::collections::HashMap;
 
+use lissom_core::contact::curves::Curve;
 use lissom_motion::{Motion, Vector3};
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 
-use crate::solid::Solid;
+use crate::solid::{Form, Solid};
 
 /// The corners of a triangle.
 type Triangle = [[f32; 3]; 3];
@@ -85,7 +87,52 @@ impl Surface {
             }
             Solid::Sphere(radius) => Self::of_rod((radius, 0.0), &Vector3::z(), center),
             Solid::Capsule { radius, length, axis } => Self::of_rod((radius, 0.5 * length), &axis, center),
+            Solid::Ellipsoid(axes) => {
+                let ball = Self::of_rod((1.0, 0.0), &Vector3::z(), &Vector3::zeros());
+                ball.moved(&Motion::translation(*center), &Vector3::from(axes))
+            }
         }
+    }
+
+    /// Of what is no solid about its centre; a prism has this length, and what is unbounded is not drawn.
+    pub(crate) fn of_form(form: &Form, length: f64) -> Self {
+        match form {
+            Form::Solid(solid) => Self::of_solid(solid, &Vector3::zeros()),
+            Form::HalfSpace => Self::default(),
+            Form::Outline(outline) => {
+                let curve = outline.curve();
+                let of = |&t: &f64| {
+                    [curve.at(t)[0], curve.at(t + 0.5 * curve.length() / curve.samples().len() as f64)[0]]
+                };
+                Self::of_prism(&curve.samples().iter().flat_map(of).collect::<Vec<_>>(), length)
+            }
+            Form::Polygon(polygon) => Self::of_prism(polygon.corners(), length),
+            Form::Hull(mesh) => Self {
+                points: mesh.corners().map(|corner| corner.cast::<f32>().into()).collect(),
+                triangles: mesh.triangles().to_vec(),
+            },
+            Form::HeightField(field) => {
+                let columns = field.columns() as u32;
+                let points: Vec<[f32; 3]> = field.points().map(|point| point.cast::<f32>().into()).collect();
+                let rows = points.len() as u32 / columns;
+                let cells =
+                    (0..rows - 1).flat_map(|row| (0..columns - 1).map(move |column| row * columns + column));
+                let of = |a: u32| [[a, a + 1, a + columns + 1], [a, a + columns + 1, a + columns]];
+                Self { points, triangles: cells.flat_map(of).collect() }
+            }
+            Form::Mesh(surface) => Self::clone(surface),
+        }
+    }
+
+    /// A prism along the third axis about the origin, over an outline counterclockwise.
+    fn of_prism(outline: &[Vector2<f64>], length: f64) -> Self {
+        let ring = |z: f64| outline.iter().map(|p| Vector3::new(p.x, p.y, z)).collect::<Vec<_>>();
+        let mut sides = Self::of_rings(&[ring(-0.5 * length), ring(0.5 * length)], &Vector3::zeros(), false);
+        let count = outline.len() as u32;
+        for [a, b, c] in ears(outline) {
+            sides.triangles.extend([[c, b, a], [a + count, b + count, c + count]]);
+        }
+        sides
     }
 
     /// A rod with hemispherical ends, by its radius and half its length.
@@ -184,9 +231,40 @@ impl Surface {
     }
 }
 
+/// Triangles of a polygon, counterclockwise: its ears are cut off one after the other [Meisters 1975].
+fn ears(outline: &[Vector2<f64>]) -> Vec<[u32; 3]> {
+    let turn = |a: usize, b: usize, c: usize| (outline[b] - outline[a]).perp(&(outline[c] - outline[b]));
+    let mut rest: Vec<usize> = (0..outline.len()).collect();
+    let mut triangles = Vec::new();
+    while rest.len() > 2 {
+        let count = rest.len();
+        let corners = |k: usize| (rest[(k + count - 1) % count], rest[k], rest[(k + 1) % count]);
+        let is_ear = |&k: &usize| {
+            let (a, b, c) = corners(k);
+            let is_inside = |&p: &usize| {
+                p != a
+                    && p != b
+                    && p != c
+                    && turn(a, b, p) >= 0.0
+                    && turn(b, c, p) >= 0.0
+                    && turn(c, a, p) >= 0.0
+            };
+            turn(a, b, c) > 0.0 && !rest.iter().any(is_inside)
+        };
+        // Of an outline that crosses itself nothing is an ear: any triangle is then drawn.
+        let ear = (0..count).find(is_ear).unwrap_or(0);
+        let (a, b, c) = corners(ear);
+        triangles.push([a, b, c].map(|corner| corner as u32));
+        rest.remove(ear);
+    }
+    triangles
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lissom_core::contact::surfaces::Polygon;
+    use std::sync::Arc;
 
     /// By the divergence theorem: positive where triangles are seen from outside.
     fn volume(surface: &Surface) -> f64 {
@@ -204,11 +282,21 @@ mod tests {
                 0.01,
             ),
             (Solid::Sphere(0.2), 0.02),
+            (Solid::Ellipsoid([0.2, 0.1, 0.3]), 0.02),
         ] {
             let surface = Surface::of_solid(&solid, &Vector3::new(0.3, -0.1, 0.2));
             let ratio = volume(&surface) / solid.volume();
             assert!((ratio - 1.0).abs() < slack, "{solid:?}: {ratio}");
         }
+    }
+
+    #[test]
+    fn prisms_with_notches_enclose_their_volume() {
+        let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.5], [0.0, 2.0]];
+        let polygon = Polygon::new(&corners).expect("valid");
+        let prism = Surface::of_form(&Form::Polygon(Arc::new(polygon)), 0.5);
+        // The square without its notch.
+        assert!((volume(&prism) - 0.5 * (4.0 - 1.5)).abs() < 1e-6, "{}", volume(&prism));
     }
 
     fn of_stl(bytes: &[u8]) -> Result<Surface, SurfaceError> {

@@ -31,7 +31,7 @@ impl Builder {
         self.constraints.latches.push(Latch { name, coordinate, quantity, engaged, multiplier });
     }
 
-    fn add_velocity_multiplier(&mut self, name: &str, equation: &'static str, quantity: Quantity) {
+    pub(super) fn add_velocity_multiplier(&mut self, name: &str, equation: &'static str, quantity: Quantity) {
         self.of_velocities.push(self.multipliers.len());
         self.multipliers.push((name.to_owned(), equation));
         self.multiplier_quantities.push(quantity);

@@ -1,8 +1,11 @@
 //! Curves of solids with which they touch surfaces. A kind of curve is one file.
 
 mod segment;
+mod spline;
 
 pub use segment::Segment;
+pub use spline::Spline;
+pub(crate) use spline::area;
 
 use lissom_motion::Vector3;
 
@@ -20,18 +23,10 @@ pub trait Curve: std::fmt::Debug + Send + Sync {
     /// if the whole curve is such an interval.
     fn samples(&self) -> &[f64];
 
-    /// Parameters around a sample between which it is the only one.
+    /// Parameters around a sample between which it is the only one. Default: those of an open curve.
     fn beside(&self, sample: usize) -> (f64, f64) {
         let samples = self.samples();
-        let last = samples.len() - 1;
-        if self.is_closed() {
-            let mean = (samples[last] - samples[0]) / last as f64;
-            let before = if sample > 0 { samples[sample - 1] } else { samples[0] - mean };
-            let after = if sample < last { samples[sample + 1] } else { samples[last] + mean };
-            (before, after)
-        } else {
-            (samples[sample.saturating_sub(1)], samples[(sample + 1).min(last)])
-        }
+        (samples[sample.saturating_sub(1)], samples[(sample + 1).min(samples.len() - 1)])
     }
 
     /// Whether it has no ends. Default: it has two.

@@ -74,47 +74,61 @@ impl CurveOnSurface {
     /// The nearest point, and whether it is between the ends of the curve.
     fn nearest(&self, x: &Vector3, rotation: &Matrix3) -> (Candidate, bool) {
         let samples = self.curve.samples();
-        let count = samples.len();
         let of = |t: f64| self.candidate(t, x, rotation);
-        let (mut best, mut least) = (0, f64::INFINITY);
-        if count > 2 {
-            for (index, &t) in samples.iter().enumerate() {
-                let value = of(t).value;
-                if value < least {
-                    (best, least) = (index, value);
+        if let [first, last] = *samples {
+            return self.between((first, last), 0.5 * (first + last), (x, rotation));
+        }
+        let count = samples.len();
+        let value = |k: usize| of(samples[k % count]).value;
+        let least = (0..count).map(value).fold(f64::INFINITY, f64::min);
+        let mut best: Option<(Candidate, bool)> = None;
+        let [mut before, mut own] = [value(count - 1), value(0)];
+        for k in 0..count {
+            let (interval, after) = (self.curve.beside(k), value(k + 1));
+            // Between samples the distance is smaller by at most the length of the curve there.
+            let is_candidate = own <= least + (interval.1 - interval.0) && own <= after && own <= before;
+            (before, own) = (own, after);
+            if is_candidate {
+                let found = self.between(interval, samples[k], (x, rotation));
+                if best.as_ref().is_none_or(|(best, _)| found.0.value < best.value) {
+                    best = Some(found);
                 }
             }
         }
-        // An interval in which the slope rises through zero; of two samples the curve is one interval.
-        let (mut low, mut high) = if count == 2 {
-            (of(samples[0]), of(samples[1]))
-        } else {
-            let (before, after) = self.curve.beside(best);
-            (of(before), of(after))
-        };
-        if low.slope >= 0.0 && !self.curve.is_closed() && low.t <= samples[0] {
+        best.unwrap_or_else(|| (of(samples[0]), false))
+    }
+
+    /// The nearest point between two parameters, from `start` on, and whether it is between the ends of the curve.
+    fn between(
+        &self,
+        (first, last): (f64, f64),
+        start: f64,
+        (x, rotation): (&Vector3, &Matrix3),
+    ) -> (Candidate, bool) {
+        let of = |t: f64| self.candidate(t, x, rotation);
+        let (low, high) = (of(first), of(last));
+        if low.slope >= 0.0 && !self.curve.is_closed() {
             return (low, false);
         }
-        if high.slope <= 0.0 && !self.curve.is_closed() && high.t >= samples[count - 1] {
+        if high.slope <= 0.0 && !self.curve.is_closed() {
             return (high, false);
         }
-        let mut middle = of(if count == 2 { 0.5 * (low.t + high.t) } else { samples[best] });
+        let (mut low, mut high, mut at) = (first, last, of(start));
         for _ in 0..MAX_CORRECTIONS {
-            let newton = middle.t - middle.slope / middle.bend;
-            if middle.slope < 0.0 {
-                low.t = middle.t;
-            } else {
-                high.t = middle.t;
-            }
-            let is_inside = middle.bend > 0.0 && newton > low.t && newton < high.t;
-            let next = if is_inside { newton } else { 0.5 * (low.t + high.t) };
-            let change = (next - middle.t).abs();
-            middle = of(next);
-            if change <= ROUND_OFF * (1.0 + next.abs()) || middle.slope == 0.0 {
+            let newton = at.t - at.slope / at.bend;
+            // At the solution Newton's correction is round-off, and a bisection would leave it.
+            if at.slope == 0.0 || (newton - at.t).abs() <= ROUND_OFF * (1.0 + at.t.abs()) {
                 break;
             }
+            if at.slope < 0.0 {
+                low = at.t;
+            } else {
+                high = at.t;
+            }
+            let is_inside = at.bend > 0.0 && newton > low && newton < high;
+            at = of(if is_inside { newton } else { 0.5 * (low + high) });
         }
-        (middle, true)
+        (at, true)
     }
 }
 

@@ -1,10 +1,12 @@
 //! Kinds of pairs of solids that touch in one point.
 
 mod curve_on_surface;
+mod ellipsoid_on_plane;
 mod point_on_surface;
 mod rim_on_plane;
 
 pub use curve_on_surface::CurveOnSurface;
+pub use ellipsoid_on_plane::EllipsoidOnPlane;
 pub use point_on_surface::PointOnSurface;
 pub use rim_on_plane::RimOnPlane;
 
@@ -15,7 +17,7 @@ mod tests {
     use lissom_motion::{Matrix3, Rotation, Vector3};
 
     use super::*;
-    use crate::contact::curves::Segment;
+    use crate::contact::curves::{Segment, Spline};
     use crate::contact::gap::{Gap, Pair};
     use crate::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
 
@@ -27,16 +29,29 @@ mod tests {
             let curve = Arc::new(Segment::new(0.4));
             Box::new(CurveOnSurface { curve, rounding: 0.1, surface })
         };
+        let egg: Vec<[f64; 2]> = (0..60)
+            .map(|k| {
+                let (s, c) = (std::f64::consts::TAU * f64::from(k) / 60.0).sin_cos();
+                [0.6 * c, 0.4 * s + 0.1 * c * c]
+            })
+            .collect();
+        let spline = |surface: Arc<dyn Surface>| -> Box<dyn Pair> {
+            let curve = Arc::new(Spline::new(&egg).expect("valid"));
+            Box::new(CurveOnSurface { curve, rounding: 0.1, surface })
+        };
         vec![
             point(Arc::new(HalfSpace)),
             point(Arc::new(Rod { half_length: 0.3, radius: 0.4 })),
             point(Arc::new(Cuboid { half_sides: [0.3, 0.5, 0.8] })),
             point(Arc::new(Ring { radii: [0.3, 0.6], half_length: 0.4 })),
             Box::new(RimOnPlane { radius: 0.5, rounding: 0.02 }),
+            Box::new(EllipsoidOnPlane { semi_axes: [0.3, 0.6, 0.2] }),
             segment(Arc::new(HalfSpace)),
             segment(Arc::new(Rod { half_length: 0.3, radius: 0.2 })),
             segment(Arc::new(Cuboid { half_sides: [0.2, 0.3, 0.4] })),
             segment(Arc::new(Ring { radii: [0.0, 0.3], half_length: 0.4 })),
+            spline(Arc::new(HalfSpace)),
+            spline(Arc::new(Rod { half_length: 0.3, radius: 0.2 })),
         ]
     }
 

@@ -4,11 +4,19 @@
 
 mod cuboid;
 mod half_space;
+mod height_field;
+mod mesh;
+mod outline;
+mod polygon;
 mod ring;
 mod rod;
 
 pub use cuboid::Cuboid;
 pub use half_space::HalfSpace;
+pub use height_field::HeightField;
+pub use mesh::{Mesh, MeshError};
+pub use outline::Outline;
+pub use polygon::Polygon;
 pub use ring::Ring;
 pub use rod::Rod;
 
@@ -42,19 +50,37 @@ pub trait Surface: std::fmt::Debug + Send + Sync {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::curves::Spline;
 
     /// Normals and curvatures are the derivatives of distances, and the foot of every point outside is on the surface.
     #[test]
     fn normals_and_curvatures_are_derivatives_of_distances() {
-        let surfaces: [&dyn Surface; 6] = [
+        let corners = [[-0.5, -0.4, -0.3], [0.6, -0.4, -0.3], [0.1, 0.7, -0.3], [0.0, 0.0, 0.6]];
+        let hull = Mesh::hull(&corners.map(Vector3::from)).expect("a tetrahedron");
+        let polygon = Polygon::new(&[[-0.5, -0.4], [0.6, -0.5], [0.1, 0.1], [0.0, 0.7]]).expect("valid");
+        let egg: Vec<[f64; 2]> = (0..60)
+            .map(|k| {
+                let (s, c) = (std::f64::consts::TAU * f64::from(k) / 60.0).sin_cos();
+                [0.6 * c, 0.4 * s + 0.1 * c * c]
+            })
+            .collect();
+        let outline = Outline::new(Spline::new(&egg).expect("valid"));
+        let heights =
+            (0..13).map(|j| (0..11).map(|i| 0.03 * (f64::from(i) * 0.7 + f64::from(j)).sin()).collect());
+        let field = HeightField::new(heights.collect(), [3.0, 3.0]).expect("valid");
+        let surfaces: [&dyn Surface; 10] = [
             &HalfSpace,
             &Rod { half_length: 0.0, radius: 0.4 },
             &Rod { half_length: 0.7, radius: 0.4 },
             &Cuboid { half_sides: [0.3, 0.5, 0.8] },
             &Ring { radii: [0.0, 0.6], half_length: 0.4 },
             &Ring { radii: [0.3, 0.6], half_length: 0.4 },
+            &hull,
+            &polygon,
+            &outline,
+            &field,
         ];
-        let step = 1e-5;
+        let step = 1e-6;
         for (index, surface) in surfaces.iter().enumerate() {
             for k in 0..400 {
                 let share = |factor: f64| (f64::from(k) * factor).fract() * 2.4 - 1.2;
@@ -65,8 +91,10 @@ mod tests {
                     aside[0][axis] -= step;
                     aside[1][axis] += step;
                     let [before, after] = aside.map(|y| surface.distance(&y));
-                    // At the edges between two regions the curvature jumps.
-                    if (before.curvature - after.curvature).norm() > 0.1 {
+                    // At the edges between two regions the curvature jumps, within a solid also the normal.
+                    if (before.curvature - after.curvature).norm() > 0.1
+                        || (before.normal - after.normal).norm() > 0.01
+                    {
                         continue;
                     }
                     let allowed = 1e-8 * (1.0 + at.curvature.norm_squared());

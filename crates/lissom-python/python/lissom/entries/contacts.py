@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from ._entry import Count, Entry, Number, Table
 
@@ -22,6 +22,7 @@ class Contact(Entry):
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
         restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; a number from 0.0100 to 1, or nothing.
         rest_velocity: slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` [m/s]; a number > 0, or nothing.
+        restitution_law: how the dissipation follows from `restitution`; default "exact", the others for comparison with publications; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
@@ -31,6 +32,8 @@ class Contact(Entry):
         base_radius: the same of a beam as base [m]; a number > 0, or nothing.
         stiffness_per_length: of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
         points: with `stiffness_per_length`: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
+        rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
+        torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
     """
 
     _table: ClassVar[str] = "contacts"
@@ -43,6 +46,7 @@ class Contact(Entry):
     tip_material: str | None = None
     restitution: Number | None = None
     rest_velocity: Number | None = None
+    restitution_law: Literal["exact", "lankarani_nikravesh", "flores"] | None = None
     dissipation: Number | None = None
     friction: Number | None = None
     static_friction: Number | None = None
@@ -52,6 +56,8 @@ class Contact(Entry):
     base_radius: Number | None = None
     stiffness_per_length: Number | None = None
     points: Count | None = None
+    rolling_friction: Number | None = None
+    torsional_friction: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -1,6 +1,7 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
 //! Parts that may touch, and the solids that are fixed in space.
 
+use super::words;
 use crate::builder::entry::entry;
 use crate::builder::ids::MaterialId;
 use crate::builder::values::{Node, Solid};
@@ -26,6 +27,8 @@ entry! {
     restitution: f64 = "restitution";
     /// Slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` \[m/s\].
     rest_velocity: f64 = "rest_velocity";
+    /// How the dissipation follows from `restitution`; default "exact", the others for comparison with publications.
+    restitution_law: words::RestitutionLaw = "restitution_law";
     /// Instead of `restitution`: relative increase of the normal force per penetration velocity \[s/m\].
     dissipation: f64 = "dissipation";
     /// Coefficient of sliding friction; default 0.
@@ -44,6 +47,10 @@ entry! {
     stiffness_per_length: f64 = "stiffness_per_length";
     /// With `stiffness_per_length`: number of intervals between points of contact in an element; default 2.
     points: usize = "points";
+    /// Moment against rolling per normal force; default 0 \[m\].
+    rolling_friction: f64 = "rolling_friction";
+    /// Moment against spinning about the normal per normal force; default 0 \[m\].
+    torsional_friction: f64 = "torsional_friction";
 }
 
 entry! {

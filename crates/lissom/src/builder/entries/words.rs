@@ -68,6 +68,14 @@ words! {
 }
 
 words! {
+    /// One of `exact`, `lankarani_nikravesh`, `flores`.
+    RestitutionLaw;
+    Exact = "exact";
+    LankaraniNikravesh = "lankarani_nikravesh";
+    Flores = "flores";
+}
+
+words! {
     /// One of `physical`, `unit`, `none`.
     Scaling;
     Physical = "physical";

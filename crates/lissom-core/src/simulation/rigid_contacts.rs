@@ -1,0 +1,488 @@
+//! Impacts at rigid contacts, and the modes of all rigid contacts between two steps.
+//!
+//! Legend: u velocity of the tip's point at a contact before (-) and after (+) an impact, n normal, e restitution.
+//!
+//! ```text
+//! 0 ≤ P_n ⊥ u_n⁺ + e u_n⁻ ≥ 0,      |P_t| ≤ μ P_n,    opposed to u_t⁺ where it is not zero
+//! ```
+//!
+//! at all contacts that touch, at once. Without restitution the impulses dissipate: ΔT = P·(u⁺ + u⁻)/2 = P·u⁺ - P·G P/2 with
+//! P·u⁺ ≤ 0. Restitution at some contacts and friction at others may add energy; e is then reduced until it does not.
+//!
+//! Between impacts the same conditions relate forces and accelerations of the contacts that touch and do not separate. They determine
+//! which contacts open, slide and stick. Forces of contacts that repeat each other are those of least size, as those of joints. If
+//! one of them pulls, it opens; if its friction is beyond its cone, it is saturated, and the others keep the part at rest.
+
+use nalgebra::{DMatrix, DVector, Matrix3, Vector2, Vector3};
+
+use super::Simulation;
+use super::contact_problem::{Condition, ContactProblem};
+use super::held_values::settle;
+use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
+use crate::errors::{InitialError, Warning, warn};
+use crate::joints::rigid_contact::{Mode, RigidContact, Touching};
+use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
+use crate::system::{State, System};
+
+/// Gaps below this fraction of the representative length are closed.
+const CLOSED: f64 = 1e-9;
+/// The same at the start, where positions are given.
+const CLOSED_AT_START: f64 = 1e-6;
+/// Forces and accelerations below this fraction of the largest are zero.
+const ZERO: f64 = 1e-8;
+/// Energy beyond this fraction of that before is not round-off.
+const GAIN: f64 = 1e-12;
+/// Bisections of the restitution.
+const BISECTIONS: usize = 50;
+
+/// A contact that touches.
+struct Candidate<'s> {
+    index: usize,
+    contact: &'s RigidContact,
+    touching: Touching,
+    /// Normal and two tangents.
+    axes: Matrix3<f64>,
+    /// Velocities along them [m/s].
+    velocity: Vector3<f64>,
+    /// Rows of these velocities.
+    rows: Vec<DVector<f64>>,
+}
+
+/// Normal and two tangents.
+fn axes(normal: &Vector3<f64>) -> Matrix3<f64> {
+    let least = normal.iamin();
+    let first = normal.cross(&Vector3::ith(least, 1.0)).normalize();
+    Matrix3::from_columns(&[*normal, first, normal.cross(&first)])
+}
+
+impl<'s> Candidate<'s> {
+    fn new(system: &System, (index, contact): (usize, &'s RigidContact), at: &Kinematics) -> Self {
+        let touching = contact.touching(at);
+        let axes = axes(&touching.gap.normal);
+        let layout = system.layout();
+        let local = contact.rows(&touching, &axes);
+        let rows = (0..3)
+            .map(|k| {
+                let mut row = DVector::zeros(layout.size());
+                for (j, &node) in contact.nodes().iter().enumerate() {
+                    for (i, &unknown) in layout.rows_of_node(node).iter().enumerate() {
+                        if unknown != LOCKED {
+                            row[unknown as usize] += local[(k, 6 * j + i)];
+                        }
+                    }
+                }
+                row
+            })
+            .collect();
+        let velocity = axes.tr_mul(&touching.velocity);
+        Self { index, contact, touching, axes, velocity, rows }
+    }
+
+    fn sliding(&self) -> Vector2<f64> {
+        Vector2::new(self.velocity[1], self.velocity[2])
+    }
+
+    /// A tangential direction in the axes of the base.
+    fn in_base(&self, tangential: &Vector2<f64>) -> Vector3<f64> {
+        self.axes.column(1) * tangential[0] + self.axes.column(2) * tangential[1]
+    }
+
+    fn subject(&self) -> Subject {
+        Subject::new("contact", &self.contact.name)
+    }
+}
+
+fn set_mode(contact: &RigidContact, mode: Mode, at: &mut Kinematics) {
+    at.held[contact.held.mode.index()] = mode.number();
+}
+
+fn set_direction(contact: &RigidContact, direction: &Vector3<f64>, at: &mut Kinematics) {
+    for (held, value) in contact.held.direction.iter().zip(direction.iter()) {
+        at.held[held.index()] = *value;
+    }
+}
+
+/// Adds changes of velocities, by row.
+fn add_velocities(layout: &Layout, changes: &DVector<f64>, at: &mut Kinematics) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.twist[k] += changes[row as usize];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
+        coordinate.rate += changes[row as usize];
+    }
+}
+
+/// Change of velocities with the multipliers of joints, for unit impulses at the contacts, by column.
+fn responses(
+    system: &System,
+    initial: &mut ConsistentInitialConditions,
+    candidates: &[Candidate<'_>],
+) -> Vec<DVector<f64>> {
+    let rows = candidates.iter().flat_map(|candidate| &candidate.rows);
+    rows.map(|row| {
+        let mut response = row.clone();
+        initial.solve(system, response.as_mut_slice());
+        response
+    })
+    .collect()
+}
+
+fn compliance(candidates: &[Candidate<'_>], responses: &[DVector<f64>]) -> DMatrix<f64> {
+    let rows: Vec<_> = candidates.iter().flat_map(|candidate| &candidate.rows).collect();
+    let mut found = DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i].dot(&responses[j]));
+    let transposed = found.transpose();
+    found += transposed;
+    found * 0.5
+}
+
+/// What changed at an instant.
+#[derive(Default)]
+pub(super) struct Outcome {
+    has_impact: bool,
+    warnings: Vec<Warning>,
+}
+
+/// Solves impacts at `state`, and determines the modes of all contacts. `touched` are known to touch; gaps below `closed` [m] are
+/// closed.
+pub(super) fn resolve(
+    system: &System,
+    initial: &mut ConsistentInitialConditions,
+    state: &mut State,
+    (touched, closed): (&[usize], f64),
+) -> Result<Outcome, InitialError> {
+    let mut outcome = Outcome::default();
+    let mut free = state.clone();
+    for contact in system.rigid_contacts() {
+        set_mode(contact, Mode::Open, &mut free.kinematics);
+    }
+    let at = &state.kinematics;
+    let is_candidate = |index: usize, contact: &RigidContact| {
+        contact.mode(at) != Mode::Open
+            || touched.contains(&index)
+            || contact.touching(at).gap.value - contact.offset(at) <= closed
+    };
+    let of_state = |at: &Kinematics, kept: &dyn Fn(usize, &RigidContact) -> bool| -> Vec<Candidate<'_>> {
+        let all = system.rigid_contacts().enumerate().filter(|&(index, contact)| kept(index, contact));
+        all.map(|(index, contact)| Candidate::new(system, (index, contact), at)).collect()
+    };
+    let mut candidates = of_state(at, &is_candidate);
+    if candidates.is_empty() {
+        return Ok(outcome);
+    }
+    initial.factor(system, &free, Inertias::All)?;
+    let responses = responses(system, initial, &candidates);
+    let compliance = compliance(&candidates, &responses);
+    if candidates.iter().any(|candidate| candidate.velocity[0] < -candidate.contact.still()) {
+        impact(system, (&candidates, &responses, &compliance), state, &mut outcome)?;
+        for candidate in &mut candidates {
+            *candidate = Candidate::new(system, (candidate.index, candidate.contact), &state.kinematics);
+        }
+        let held = std::mem::take(&mut free.kinematics.held);
+        free.kinematics.clone_from(&state.kinematics);
+        free.kinematics.held = held;
+    }
+    let accelerations = initial.acceleration_with_factors(system, &free)?;
+    let resting: Vec<usize> = (0..candidates.len())
+        .filter(|&k| candidates[k].velocity[0] <= candidates[k].contact.still())
+        .collect();
+    let modes = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
+    for candidate in &candidates {
+        let gap = candidate.touching.gap.value;
+        state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
+        set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
+    }
+    for (k, mode, direction) in modes {
+        set_mode(candidates[k].contact, mode, &mut state.kinematics);
+        set_direction(candidates[k].contact, &direction, &mut state.kinematics);
+    }
+    share(system, initial, (&candidates, &resting), state)?;
+    Ok(outcome)
+}
+
+/// Solves an impact at all contacts.
+fn impact(
+    system: &System,
+    (candidates, responses, compliance): (&[Candidate<'_>], &[DVector<f64>], &DMatrix<f64>),
+    state: &mut State,
+    outcome: &mut Outcome,
+) -> Result<(), InitialError> {
+    let before = DVector::from_iterator(
+        3 * candidates.len(),
+        candidates.iter().flat_map(|own| own.velocity.iter().copied()),
+    );
+    let kinetic = system.energy(&state.kinematics).kinetic;
+    let solve = |share: f64| {
+        let condition = |candidate: &Candidate<'_>| {
+            let law = &candidate.contact.law;
+            let approach = candidate.velocity[0];
+            let rebounds = approach < -law.rest_velocity;
+            let rebound = if rebounds { share * law.restitution * approach } else { 0.0 };
+            Condition { friction: law.friction, rebound, sliding: None }
+        };
+        let conditions = candidates.iter().map(condition).collect();
+        let problem = ContactProblem { compliance: compliance.clone(), free: before.clone(), conditions };
+        let impulses = problem.solve()?;
+        let gain = 0.5 * impulses.dot(&(problem.velocities(&impulses) + &before));
+        Some((impulses, gain))
+    };
+    let unsolved = || InitialError::ContactForces { contact: candidates[0].subject() };
+    let (mut impulses, gain) = solve(1.0).ok_or_else(unsolved)?;
+    if gain > GAIN * kinetic {
+        let (mut low, mut high) = (0.0, 1.0);
+        (impulses, _) = solve(0.0).ok_or_else(unsolved)?;
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            match solve(middle) {
+                Some((found, gain)) if gain <= GAIN * kinetic => (low, impulses) = (middle, found),
+                _ => high = middle,
+            }
+        }
+        outcome.warnings.push(Warning::RestitutionReduced {
+            time: state.kinematics.time,
+            contact: candidates[0].subject(),
+            factor: low,
+        });
+    }
+    let mut changes = DVector::zeros(system.layout().size());
+    for (response, impulse) in responses.iter().zip(impulses.iter()) {
+        changes += response * *impulse;
+    }
+    add_velocities(system.layout(), &changes, &mut state.kinematics);
+    outcome.has_impact = true;
+    Ok(())
+}
+
+/// Modes of the contacts that touch and do not separate, with the direction against which their friction acts; those without a
+/// force are omitted.
+fn select(
+    candidates: &[Candidate<'_>],
+    resting: &[usize],
+    (compliance, accelerations): (&DMatrix<f64>, &[f64]),
+    at: &Kinematics,
+) -> Result<Vec<(usize, Mode, Vector3<f64>)>, InitialError> {
+    if resting.is_empty() {
+        return Ok(Vec::new());
+    }
+    let index: Vec<usize> = resting.iter().flat_map(|k| 3 * k..3 * k + 3).collect();
+    let compliance = DMatrix::from_fn(index.len(), index.len(), |i, j| compliance[(index[i], index[j])]);
+    let mut free = DVector::zeros(index.len());
+    let mut conditions = Vec::new();
+    let accelerations = DVector::from_column_slice(accelerations);
+    for (row, &k) in resting.iter().enumerate() {
+        let Candidate { contact, touching, axes, rows, .. } = &candidates[k];
+        let remaining = contact.remaining_acceleration(at, touching, axes);
+        for i in 0..3 {
+            free[3 * row + i] = rows[i].dot(&accelerations) + remaining[i];
+        }
+        let sliding = candidates[k].sliding();
+        let slides = contact.has_friction() && sliding.norm() > contact.still();
+        let sliding = slides.then(|| sliding.normalize());
+        conditions.push(Condition { friction: contact.law.friction, rebound: 0.0, sliding });
+    }
+    let problem = ContactProblem { compliance, free, conditions };
+    if let Some(row) = problem.paradox() {
+        return Err(InitialError::ContactParadox { contact: candidates[resting[row]].subject() });
+    }
+    let forces = problem
+        .solve()
+        .ok_or_else(|| InitialError::ContactForces { contact: candidates[resting[0]].subject() })?;
+    let after = problem.velocities(&forces);
+    let largest = problem.free.amax();
+    let mut modes = Vec::new();
+    let is_pressed = |row: usize| problem.compliance[(3 * row, 3 * row)] * forces[3 * row] > ZERO * largest;
+    if !(0..resting.len()).any(is_pressed) {
+        return Ok(modes);
+    }
+    for (row, &k) in resting.iter().enumerate() {
+        let Candidate { contact, .. } = &candidates[k];
+        if after[3 * row] > ZERO * largest {
+            continue;
+        }
+        let begins = Vector2::new(after[3 * row + 1], after[3 * row + 2]);
+        let (mode, direction) = match problem.conditions[row].sliding {
+            Some(direction) => (Mode::Sliding, direction),
+            None if !contact.has_friction() => (Mode::Sliding, Vector2::zeros()),
+            None if begins.norm() > ZERO * largest => (Mode::Sliding, begins.normalize()),
+            None => (Mode::Sticking, Vector2::zeros()),
+        };
+        modes.push((k, mode, candidates[k].in_base(&direction)));
+    }
+    Ok(modes)
+}
+
+/// Makes velocities consistent with the modes, and the modes with the shares that contacts have in the forces.
+fn share(
+    system: &System,
+    initial: &mut ConsistentInitialConditions,
+    (candidates, resting): (&[Candidate<'_>], &[usize]),
+    state: &mut State,
+) -> Result<(), InitialError> {
+    let is_closed = |k: usize, at: &Kinematics| candidates[k].contact.mode(at) != Mode::Open;
+    if !resting.iter().any(|&k| is_closed(k, &state.kinematics)) {
+        return Ok(());
+    }
+    let count = system.layout().coordinate_count();
+    // Every contact opens or is saturated once.
+    for _ in 0..=2 * resting.len() {
+        initial.velocities(system, state)?;
+        let found = initial.acceleration_at(system, state)?;
+        let multipliers = &found[count..];
+        let at = &state.kinematics;
+        let forces: Vec<_> = resting.iter().map(|&k| candidates[k].contact.forces(at, multipliers)).collect();
+        let largest = forces.iter().fold(0.0_f64, |most, (normal, _)| most.max(normal.abs()));
+        let worst = resting
+            .iter()
+            .zip(&forces)
+            .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO * largest)
+            .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
+        if let Some((&k, _)) = worst {
+            set_mode(candidates[k].contact, Mode::Open, &mut state.kinematics);
+            continue;
+        }
+        let excess = |k: usize, (normal, friction): &(f64, Vector3<f64>)| {
+            friction.norm() - candidates[k].contact.law.friction * normal
+        };
+        let slips = resting
+            .iter()
+            .zip(&forces)
+            .filter(|(k, _)| candidates[**k].contact.mode(at) == Mode::Sticking)
+            .filter(|(k, force)| excess(**k, force) > ZERO * largest)
+            .max_by(|a, b| excess(*a.0, a.1).total_cmp(&excess(*b.0, b.1)));
+        let Some((&k, (_, friction))) = slips else { return Ok(()) };
+        let direction = -friction.normalize();
+        set_mode(candidates[k].contact, Mode::Saturated, &mut state.kinematics);
+        set_direction(candidates[k].contact, &direction, &mut state.kinematics);
+    }
+    Err(InitialError::ContactForces { contact: candidates[resting[0]].subject() })
+}
+
+impl Simulation {
+    /// Indices of the contacts whose events these are.
+    pub(super) fn contacts_of(&self, happened: &[usize]) -> Vec<usize> {
+        let of = self.system.contact_events();
+        let found = happened.iter().filter_map(|event| of.iter().find(|(own, _)| own == event));
+        found.map(|&(_, contact)| contact).collect()
+    }
+
+    /// Determines the modes of the contacts that touch at the start.
+    ///
+    /// # Errors
+    /// If there are no consistent forces.
+    pub(crate) fn begin_contacts(&mut self) -> Result<(), InitialError> {
+        if !self.system.has_rigid_contacts() {
+            return Ok(());
+        }
+        let Some(initial) = &mut self.held_values else { return Ok(()) };
+        let length = self.integrator.representative.length;
+        for contact in self.system.rigid_contacts() {
+            let gap = contact.touching(&self.state.kinematics).gap.value;
+            if gap < -CLOSED_AT_START * length {
+                let contact = Subject::new("contact", &contact.name);
+                return Err(InitialError::ContactPenetration { contact, depth: -gap });
+            }
+        }
+        let before = self.state.kinematics.clone();
+        let outcome = resolve(&self.system, initial, &mut self.state, (&[], CLOSED_AT_START * length))?;
+        settle(&self.system, &mut self.state, initial, &self.settings)?;
+        self.finish_contacts(&before, outcome);
+        self.previous.clone_from(&self.state);
+        self.origin.kinematics.clone_from(&self.state.kinematics);
+        Ok(())
+    }
+
+    /// Changes held values, or the time at which functions of time are evaluated, and solves impacts of contacts that `touched`;
+    /// accelerations, multipliers and the rates of states jump.
+    ///
+    /// # Errors
+    /// If there are no consistent forces; the state is then unchanged.
+    pub(super) fn change_contacts(
+        &mut self,
+        touched: &[usize],
+        held: Option<Vec<f64>>,
+        [earlier, later]: [f64; 2],
+    ) -> Result<(), InitialError> {
+        self.integrator.jacobian_state.has_tangent = false;
+        let Some(initial) = &mut self.held_values else { return Ok(()) };
+        let kept = self.state.clone();
+        let time = self.state.kinematics.time;
+        let closed = CLOSED * self.integrator.representative.length;
+        let (system, state) = (&self.system, &mut self.state);
+        let change = || {
+            state.kinematics.time = earlier;
+            let before = initial.acceleration_at(system, state)?;
+            state.kinematics.time = later;
+            if let Some(held) = held {
+                state.kinematics.held = held;
+            }
+            let outcome = resolve(system, initial, state, (touched, closed))?;
+            let mut jump = initial.acceleration_at(system, state)?;
+            jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+            Ok((outcome, jump))
+        };
+        let changed = change();
+        self.state.kinematics.time = time;
+        match changed {
+            Ok((outcome, jump)) => {
+                self.add_jump(jump);
+                self.finish_contacts(&kept.kinematics, outcome);
+                Ok(())
+            }
+            Err(error) => {
+                self.state = kept;
+                Err(error)
+            }
+        }
+    }
+
+    /// Records an impact, and makes all events of contacts possible.
+    fn finish_contacts(&mut self, before: &Kinematics, outcome: Outcome) {
+        if outcome.has_impact {
+            self.energy_balance.record_impact(&self.system, before, &self.state.kinematics);
+        }
+        for warning in outcome.warnings {
+            warn(&mut self.warnings, warning);
+        }
+        for contact in self.system.rigid_contacts() {
+            let mode = contact.mode(&self.state.kinematics);
+            let first = contact.first_multiplier;
+            let sticks = mode == Mode::Sticking;
+            let own = &mut self.state.multipliers[first..first + contact.multiplier_count()];
+            // Of constraints that are released only round-off remains.
+            if mode == Mode::Open || sticks {
+                own[0] = 0.0;
+            }
+            if !sticks {
+                own[1..].fill(0.0);
+            }
+        }
+        self.state.kinematics.show_multipliers(&self.state.multipliers);
+        self.events.known.has_switched = true;
+        self.rearm_contacts();
+    }
+
+    /// Makes all events of contacts possible.
+    pub(super) fn rearm_contacts(&mut self) {
+        let events = self.system.contact_events().iter().map(|&(event, _)| event);
+        self.events.known.rise(events);
+    }
+
+    /// Updates the directions of friction at contacts whose sliding has turned.
+    pub(super) fn turn_friction(&mut self) {
+        for contact in self.system.rigid_contacts() {
+            let at = &self.state.kinematics;
+            if contact.mode(at) != Mode::Sliding || !contact.has_friction() {
+                continue;
+            }
+            let sliding = contact.touching(at).sliding();
+            let speed = sliding.norm();
+            if speed > contact.still() && sliding.dot(&contact.direction(at)) < TURNED * speed {
+                set_direction(contact, &(sliding / speed), &mut self.state.kinematics);
+            }
+        }
+    }
+}
+
+/// Cosine of the angle between sliding and its reference from which the reference is updated.
+const TURNED: f64 = 0.95;

@@ -1,0 +1,142 @@
+//! A smooth closed curve through points of a plane: a periodic cubic spline over the sum of chords.
+//!
+//! Legend: t sum of the chords up to a point, h_k chord from point k to the next, p_k points, M_k second derivatives.
+//!
+//! ```text
+//! h_{k-1} M_{k-1} + 2 (h_{k-1} + h_k) M_k + h_k M_{k+1} = 6 ((p_{k+1} - p_k)/h_k - (p_k - p_{k-1})/h_{k-1})
+//! ```
+
+use lissom_motion::Vector3;
+use nalgebra::Vector2;
+
+use super::Curve;
+
+/// Sweeps after which the diagonally dominant equations of the second derivatives are solved to round-off: each at least halves
+/// the error.
+const SWEEPS: usize = 60;
+
+/// A closed curve in the plane z = 0, counterclockwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spline {
+    points: Vec<Vector2<f64>>,
+    bends: Vec<Vector2<f64>>,
+    /// Parameters of the points.
+    knots: Vec<f64>,
+    length: f64,
+}
+
+impl Spline {
+    /// Through at least three points, each apart from the next [m]; none otherwise.
+    pub fn new(points: &[[f64; 2]]) -> Option<Self> {
+        let mut points: Vec<Vector2<f64>> = points.iter().copied().map(Vector2::from).collect();
+        if area(&points) < 0.0 {
+            points.reverse();
+        }
+        let count = points.len();
+        let chords: Vec<f64> = (0..count).map(|k| (points[(k + 1) % count] - points[k]).norm()).collect();
+        if count < 3 || chords.iter().any(|chord| !chord.is_normal()) {
+            return None;
+        }
+        let mut bends = vec![Vector2::zeros(); count];
+        for _ in 0..SWEEPS {
+            for k in 0..count {
+                let (before, after) = ((k + count - 1) % count, (k + 1) % count);
+                let (h, next) = (chords[before], chords[k]);
+                let slopes = (points[after] - points[k]) / next - (points[k] - points[before]) / h;
+                bends[k] = (6.0 * slopes - h * bends[before] - next * bends[after]) / (2.0 * (h + next));
+            }
+        }
+        let mut sum = 0.0;
+        let knots = chords.iter().map(|chord| {
+            sum += chord;
+            sum - chord
+        });
+        let knots = knots.collect();
+        Some(Self { points, bends, knots, length: sum })
+    }
+
+    /// The points through which it passes.
+    pub fn points(&self) -> &[Vector2<f64>] {
+        &self.points
+    }
+
+    /// Length of its chords [m].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The point at t, and its first and second derivative.
+    pub fn at(&self, t: f64) -> [Vector2<f64>; 3] {
+        let t = t.rem_euclid(self.length);
+        let k = self.knots.partition_point(|&knot| knot <= t).saturating_sub(1);
+        let next = (k + 1) % self.points.len();
+        let end = self.knots.get(k + 1).copied().unwrap_or(self.length);
+        let h = end - self.knots[k];
+        let (b, a) = ((t - self.knots[k]) / h, (end - t) / h);
+        let ([p, q], [m, n]) = ([self.points[k], self.points[next]], [self.bends[k], self.bends[next]]);
+        [
+            a * p + b * q + ((a * a * a - a) * m + (b * b * b - b) * n) * (h * h / 6.0),
+            (q - p) / h + ((3.0 * b * b - 1.0) * n - (3.0 * a * a - 1.0) * m) * (h / 6.0),
+            a * m + b * n,
+        ]
+    }
+}
+
+/// Area inside a polygon, negative where it is clockwise [m²].
+pub(crate) fn area(points: &[Vector2<f64>]) -> f64 {
+    let next = points.iter().cycle().skip(1);
+    0.5 * points.iter().zip(next).map(|(p, q)| p.perp(q)).sum::<f64>()
+}
+
+impl Curve for Spline {
+    fn point(&self, t: f64) -> [Vector3; 3] {
+        self.at(t).map(|of| Vector3::new(of.x, of.y, 0.0))
+    }
+
+    fn samples(&self) -> &[f64] {
+        &self.knots
+    }
+
+    fn beside(&self, sample: usize) -> (f64, f64) {
+        let last = self.knots.len() - 1;
+        let before = if sample > 0 { self.knots[sample - 1] } else { self.knots[last] - self.length };
+        let after = if sample < last { self.knots[sample + 1] } else { self.length + self.knots[0] };
+        (before, after)
+    }
+
+    fn is_closed(&self) -> bool {
+        true
+    }
+
+    fn reach(&self) -> f64 {
+        self.points.iter().map(Vector2::norm).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spline_through_points_of_a_circle_is_almost_a_circle() {
+        let points: Vec<[f64; 2]> = (0..40)
+            .map(|k| {
+                let (s, c) = (-std::f64::consts::TAU * f64::from(k) / 40.0).sin_cos();
+                [2.0 * c, 2.0 * s]
+            })
+            .collect();
+        let spline = Spline::new(&points).expect("valid");
+        assert!(area(spline.points()) > 0.0);
+        let step = 1e-5;
+        for k in 0..50 {
+            let t = spline.length() * 0.0213 * f64::from(k);
+            let [p, first, second] = spline.at(t);
+            assert!((p.norm() - 2.0).abs() < 1e-5, "{t} {p}");
+            let slope = (spline.at(t + step)[0] - spline.at(t - step)[0]) / (2.0 * step);
+            let bend = (spline.at(t + step)[1] - spline.at(t - step)[1]) / (2.0 * step);
+            assert!((slope - first).norm() < 1e-8 && (bend - second).norm() < 1e-6, "{t} {slope} {bend}");
+        }
+        assert_eq!(Spline::new(&points[..2]), None);
+        assert_eq!(Spline::new(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0]]), None);
+    }
+}

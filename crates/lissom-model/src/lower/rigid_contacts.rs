@@ -1,0 +1,77 @@
+//! Rigid contacts: the points of the solids that may touch, and the events at which their modes change.
+
+use std::sync::Arc;
+
+use lissom_core::elements::rigid_friction::{ContactGuard, Guard};
+use lissom_core::joints::rigid_contact::{RigidContact, RigidLaw};
+use lissom_core::kinematics::{CarriedFrame, NodeId, Subject};
+use lissom_core::registry::ParameterError;
+use lissom_core::signals::event::{Direction, Event};
+use lissom_core::signals::{Argument, Signal};
+use lissom_core::system::Builder;
+
+use super::contacts::meetings_of;
+use super::straight_line::Line;
+use crate::contact_point::RigidPoint;
+use crate::document::{ContactEntry, Document, RigidEntry};
+use crate::report::Problem;
+
+/// Adds a rigid contact between two nodes.
+pub(super) fn add(
+    document: &Document,
+    (entry, law): (&ContactEntry, &RigidEntry),
+    nodes: [NodeId; 2],
+    builder: &mut Builder,
+) -> Result<Vec<RigidPoint>, Problem> {
+    let name = &entry.name.value;
+    if builder.latch_count() > 0 {
+        let message = format!("contact `{name}`: a model with a latch can have no rigid contacts");
+        return Err(Problem::error(entry.name.span, message).help("remove the latch, or `rigid`"));
+    }
+    let law =
+        RigidLaw { restitution: law.restitution, friction: law.friction, rest_velocity: law.rest_velocity };
+    let mut all: Vec<RigidPoint> = Vec::new();
+    for (_, found) in meetings_of(document, entry)? {
+        for meeting in found {
+            let order = if meeting.is_in_order { [0, 1] } else { [1, 0] };
+            let frames =
+                [0, 1].map(|side| CarriedFrame { node: nodes[order[side]], offset: meeting.frames[side] });
+            let own = if all.is_empty() { name.clone() } else { format!("{name} {}", all.len() + 1) };
+            let contact = builder.add_rigid_contact(&own, frames, meeting.pair, law);
+            guards(&contact, builder)
+                .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
+            all.push(RigidPoint { contact, sign: if meeting.is_in_order { 1.0 } else { -1.0 } });
+        }
+    }
+    Ok(all)
+}
+
+/// The events at which its mode may change.
+fn guards(contact: &Arc<RigidContact>, builder: &mut Builder) -> Result<(), ParameterError> {
+    let all = [
+        (Guard::Touch, "touch", "gap"),
+        (Guard::Release, "release", "normal force"),
+        (Guard::Slip, "slip", "friction"),
+    ];
+    for (guard, word, text) in all {
+        if guard == Guard::Slip && !contact.has_friction() {
+            continue;
+        }
+        let measured = builder.add_measurement(ContactGuard::new(Arc::clone(contact), guard));
+        let root = builder.add_signal(Signal {
+            subject: Subject::new("contact", &contact.name).component(word),
+            text: text.to_owned(),
+            function: Arc::new(Line { at_zero: 0.0, slope: 1.0 }),
+            arguments: vec![Argument::Measured(measured)],
+            sampling: None,
+        })?;
+        builder.add_contact_event(Event {
+            name: format!("{}, {word}", contact.name),
+            root,
+            direction: Direction::Falling,
+            stops: false,
+            sets: Vec::new(),
+        })?;
+    }
+    Ok(())
+}
