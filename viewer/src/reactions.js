@@ -34,7 +34,11 @@ export class Reactions {
     const r = 0.004 * size;
     this.head = 8 * r;
     const columnsOf = (name, components) => components.map((component) => history.columns.find((column) => column.name === `${name}.${component}`));
-    const kinds = { reaction: (output) => this.ofJoint(output, scene, columnsOf), spring: (output) => this.ofSpring(output, scene, columnsOf) };
+    const kinds = {
+      reaction: (output) => this.ofJoint(output, scene, columnsOf),
+      spring: (output) => this.ofSpring(output, scene, columnsOf),
+      contact_force: (output) => this.ofContact(output, columnsOf),
+    };
     this.arrows = scene.outputs.map((output) => kinds[output.kind]?.(output)).filter((arrow) => arrow?.columns.every(Boolean));
     for (const arrow of this.arrows) {
       arrow.group = new THREE.Group();
@@ -73,6 +77,13 @@ export class Reactions {
     const centre = () => new THREE.Vector3(...this.kinematics.point({ node: tip.node, position: [0, 0, 0] }));
     const contact = (row) => contactPoint(centre(), force(row), moment(row), new THREE.Vector3(...this.kinematics.point(base)), carried(this.kinematics, base, normal));
     return { of, columns: [...forces, ...moments], count: 3, force, at: contact };
+  }
+
+  /** The force of a contact on its tip, at the centre of the normal forces. */
+  ofContact({ name, of }, columnsOf) {
+    const columns = columnsOf(name, ["f1", "f2", "f3", "x1", "x2", "x3"]);
+    const vector = (first, row) => new THREE.Vector3(...columns.slice(first, first + 3).map(({ values }) => values[row]));
+    return { of, columns, count: 3, force: (row) => vector(0, row), at: (row) => vector(3, row) };
   }
 
   /** The force of a spring on its tip: along the line between its ends, or along the axis of the joint on which it acts. */

@@ -2,15 +2,57 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::contact::Contact;
+use lissom_core::elements::Element;
+use lissom_core::elements::beam_contact::BeamContact;
+use lissom_core::elements::contact::{Contact, ContactForces};
+use lissom_core::elements::nearest_contact::NearestContact;
 use lissom_core::joints::rigid_contact::RigidContact;
-use lissom_core::kinematics::DiscreteValueId;
+use lissom_core::kinematics::{DiscreteValueId, Kinematics};
+
+/// An element of a contact.
+pub(crate) trait ContactElement: Element {
+    /// What acts on its tip.
+    fn forces_at(&self, at: &Kinematics) -> ContactForces;
+
+    /// Gap [m], its rate [m/s] and the normal force [N].
+    fn motion(&self, at: &Kinematics) -> [f64; 3];
+}
+
+impl ContactElement for Contact {
+    fn forces_at(&self, at: &Kinematics) -> ContactForces {
+        Self::forces_at(self, at)
+    }
+
+    fn motion(&self, at: &Kinematics) -> [f64; 3] {
+        Self::motion(self, at)
+    }
+}
+
+impl ContactElement for BeamContact {
+    fn forces_at(&self, at: &Kinematics) -> ContactForces {
+        Self::forces_at(self, at)
+    }
+
+    fn motion(&self, at: &Kinematics) -> [f64; 3] {
+        Self::motion(self, at)
+    }
+}
+
+impl ContactElement for NearestContact {
+    fn forces_at(&self, at: &Kinematics) -> ContactForces {
+        Self::forces_at(self, at)
+    }
+
+    fn motion(&self, at: &Kinematics) -> [f64; 3] {
+        Self::motion(self, at)
+    }
+}
 
 /// One point of a contact.
 #[derive(Clone, Debug)]
 pub(crate) struct ContactPoint {
     /// The element.
-    pub(crate) contact: Contact,
+    pub(crate) contact: Arc<dyn ContactElement>,
     /// 1 if the tip of the element is that of the contact, otherwise -1.
     pub(crate) sign: f64,
     /// The discrete value with the velocity of the impact [m/s].

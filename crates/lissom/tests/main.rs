@@ -1,6 +1,7 @@
 //! All tests of the crate that need no process of their own, in one program: it is linked once.
 
 mod assembly;
+mod beam_contacts;
 mod beam_outputs;
 mod branch;
 mod branches;

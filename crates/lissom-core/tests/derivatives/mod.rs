@@ -10,6 +10,7 @@ mod energies;
 mod feedback;
 mod joint_lanes;
 mod locks;
+mod nearest_contacts;
 mod neighbours;
 mod ports;
 mod rolling;

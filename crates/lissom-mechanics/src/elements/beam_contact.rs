@@ -249,7 +249,7 @@ impl Element for BeamContact {
 
 impl Spring for BeamContact {
     fn dissipates(&self) -> bool {
-        true
+        self.contact.dissipates()
     }
 
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {

@@ -39,6 +39,8 @@ const BRISTLES: usize = 12;
 
 /// r₀: share of the deflection at slip below which bristles are elastic.
 const ELASTIC_SHARE: f64 = 0.8;
+/// Share of the deflection at slip from which bristles are reported to slip.
+const SLIPPING: f64 = 0.95;
 /// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
 const SMALL_DEPTH: f64 = 1e-6;
 
@@ -172,6 +174,12 @@ pub struct ContactForces {
     pub friction: Vector3,
     /// |s| [m/s].
     pub slip: f64,
+    /// Point of contact on the base, global axes [m].
+    pub point: Vector3,
+    /// Whether the solids touch.
+    pub is_touching: bool,
+    /// Whether they touch and bristles slip, or there is no friction.
+    pub is_sliding: bool,
 }
 
 /// Gap and rate of a contact, for events.
@@ -300,6 +308,13 @@ impl Contact {
             force: base * touch.force,
             friction: base * (touch.force - along),
             slip: touch.sliding.norm(),
+            point: self.frames.base_frame(at).transform_point(&touch.gap.point),
+            is_touching: touch.is_touching,
+            is_sliding: touch.is_touching
+                && self
+                    .friction
+                    .as_ref()
+                    .is_none_or(|friction| touch.bristles.norm() > SLIPPING * friction.deflection),
         }
     }
 

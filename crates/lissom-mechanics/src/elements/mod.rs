@@ -25,6 +25,7 @@ mod kinds;
 pub mod latch;
 mod law_of_distance;
 pub mod moment;
+pub mod nearest_contact;
 pub(crate) mod point_spring;
 pub mod quadrature;
 mod reactions;

@@ -62,6 +62,11 @@ impl Centerline {
         self.knots.len() - 1
     }
 
+    /// Arc lengths of both ends of an interval [m].
+    pub(crate) fn ends(&self, interval: usize) -> [f64; 2] {
+        [self.knots[interval], self.knots[interval + 1]]
+    }
+
     /// The interval that contains `s`; beyond the ends the first or the last.
     pub fn interval(&self, s: f64) -> usize {
         let inner = &self.knots[1..self.knots.len() - 1];
@@ -87,7 +92,7 @@ impl Centerline {
     }
 
     /// Weights at `s` by the formula of an interval.
-    fn within(&self, interval: usize, s: f64) -> Support {
+    pub(crate) fn within(&self, interval: usize, s: f64) -> Support {
         let (first, count) = self.nodes_of(interval);
         let mut support = Support { first, count, ..Support::default() };
         let length = self.knots[interval + 1] - self.knots[interval];

@@ -7,7 +7,7 @@
 //! η = ξ_tip - A ξ_base,      wrench on the base's frame -Aᵀ w,      δ(Aᵀ w) = Aᵀ (δw - ad(η)ᵀ w)
 //! ```
 
-use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, rotation_part, skew, translation_part};
+use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6, rotation_part, skew, translation_part};
 
 use crate::kinematics::local_derivatives::add_block;
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
@@ -55,6 +55,11 @@ impl FramePair {
     /// From the axes of the base's frame to global ones.
     pub(crate) fn base_rotation(&self, at: &Kinematics) -> Matrix3 {
         (at.nodes[self.nodes[0]].frame.rotation * self.frames[0].offset.rotation).matrix()
+    }
+
+    /// The base's frame in the inertial frame.
+    pub(crate) fn base_frame(&self, at: &Kinematics) -> Motion {
+        self.frames[0].frame(at)
     }
 
     /// Inverse Ad of the frames' offsets: from variations of the nodes to those of the frames.

@@ -278,6 +278,11 @@ impl RigidContact {
         self.frames.base_rotation(at) * vector
     }
 
+    /// A point of the base's axes in global ones [m].
+    pub fn point_in_space(&self, at: &Kinematics, point: &Vector3) -> Vector3 {
+        self.frames.base_frame(at).transform_point(point)
+    }
+
     /// Rows of three velocities of the tip's point, along the orthonormal columns of `axes` in the base's axes, by the unknowns of
     /// both nodes.
     pub fn rows(&self, touching: &Touching, axes: &Matrix3) -> SMatrix<f64, 3, SIZE> {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lissom_core::contact::compliance::RestitutionLaw;
 use lissom_motion::Vector3;
 
+use super::beam_contacts::{self, BeamSides};
 use super::entries::each;
 use super::ports::two_nodes;
 use super::rigid_contacts::{self, RigidEntry};
@@ -46,8 +47,10 @@ pub enum Restitution {
 pub struct ContactEntry {
     /// Name.
     pub name: Located<String>,
-    /// Base and tip.
+    /// Base and tip; of a beam its start.
     pub between: [Located<NodeReference>; 2],
+    /// The beams that touch, if there are any.
+    pub beams: Option<BeamSides>,
     /// Force at a penetration of 1 m [N/mⁿ], or the materials of both parts, from which it follows.
     pub stiffness: Result<f64, [Located<String>; 2]>,
     /// Exponent n of the penetration.
@@ -76,9 +79,14 @@ pub(super) fn ground_keys() -> Vec<Key> {
 
 /// Keys of a contact.
 pub(super) fn keys() -> Vec<Key> {
-    vec![
-        required("base", Shape::Node, "", "a body or point mass with a `shape`, or \"ground\""),
-        required("tip", Shape::Node, "", "the other part that may touch it"),
+    let mut keys = vec![
+        required(
+            "base",
+            Shape::Node,
+            "",
+            "a body or point mass with a `shape`, or \"ground\"; a beam, if the tip is one",
+        ),
+        required("tip", Shape::Node, "", "the other part that may touch it; or the name of a beam"),
         optional(
             "rigid",
             Shape::Flag,
@@ -146,7 +154,9 @@ pub(super) fn keys() -> Vec<Key> {
             "m",
             "moment against spinning about the normal per normal force; default 0",
         ),
-    ]
+    ];
+    keys.extend(beam_contacts::keys());
+    keys
 }
 
 /// The shape of the ground; none stands for an error.
@@ -175,47 +185,42 @@ pub(super) fn contacts(
             .is_none_or(|mass| !mass.solids.is_empty()),
         _ => false,
     };
+    let is_solid = |part: &Located<NodeReference>, what: &str| {
+        if !matches!(part.value, NodeReference::Ground | NodeReference::Body(_) | NodeReference::PointMass(_))
+        {
+            let message = format!("{what} names a node that is no body");
+            return context.fail(part.span, message, "name bodies, point masses or \"ground\"");
+        }
+        if !has_solids(&part.value) {
+            let message = format!("{} has no solid that could touch", words(&part.value));
+            let help = match part.value {
+                NodeReference::Ground => "add [ground] with shape = { kind = \"plane\" }",
+                _ => "add a `shape` to it, such as { kind = \"sphere\", radius = 0.1 }; a mesh is only drawn",
+            };
+            return context.fail(part.span, message, help);
+        }
+        Some(())
+    };
     each(context, "contacts", |reader, name| {
+        if beam_contacts::is_of_beam(reader) {
+            let entry = beam_contacts::entry(reader, name, &|part| is_solid(part, &reader.what));
+            return check_law(reader, entry?);
+        }
         let between = two_nodes(reader)?;
         for part in &between {
-            if !matches!(
-                part.value,
-                NodeReference::Ground | NodeReference::Body(_) | NodeReference::PointMass(_)
-            ) {
-                let message = format!("{} names a node that is no body", reader.what);
-                return context.fail(part.span, message, "name bodies, point masses or \"ground\"");
-            }
-            if !has_solids(&part.value) {
-                let message = format!("{} has no solid that could touch", words(&part.value));
-                let help = match part.value {
-                    NodeReference::Ground => "add [ground] with shape = { kind = \"plane\" }",
-                    _ => {
-                        "add a `shape` to it, such as { kind = \"sphere\", radius = 0.1 }; a mesh is only drawn"
-                    }
-                };
-                return context.fail(part.span, message, help);
-            }
+            is_solid(part, &reader.what)?;
         }
         if let Some(rigid) = rigid_contacts::rigid(reader)? {
             return Some(rigid_contacts::entry(name, reader, between, rigid));
         }
         let stiffness = stiffness(reader)?;
         let exponent = number_or(reader, "exponent", 1.0);
-        if exponent < 1.0 {
-            let span = reader.node("exponent").map_or(reader.name, |node| node.span);
-            let message = format!("`exponent` of {} is below 1", reader.what);
-            return context.fail(span, message, "the stiffness at touch would be infinite");
-        }
         let friction = number_or(reader, "friction", 0.0);
         let at_rest = number_or(reader, "static_friction", friction);
-        if at_rest < friction {
-            let span = reader.node("static_friction").map_or(reader.name, |node| node.span);
-            let message = format!("`static_friction` of {} is below `friction`", reader.what);
-            return context.fail(span, message, "static friction must not be smaller than sliding friction");
-        }
-        Some(ContactEntry {
+        let entry = ContactEntry {
             name: Located::new(name.to_owned(), reader.name),
             between,
+            beams: None,
             exponent: if stiffness.is_err() { 1.5 } else { exponent },
             stiffness,
             restitution: restitution(reader)?,
@@ -224,8 +229,27 @@ pub(super) fn contacts(
             deflection: number_or(reader, "deflection", 1e-5),
             resistance: ["rolling_friction", "torsional_friction"].map(|key| number_or(reader, key, 0.0)),
             rigid: None,
-        })
+        };
+        check_law(reader, entry)
     })
+}
+
+/// Checks the exponent and the coefficients of friction.
+fn check_law(reader: &Reader<'_, '_>, entry: ContactEntry) -> Option<ContactEntry> {
+    let context = reader.context;
+    if entry.exponent < 1.0 {
+        let span = reader.node("exponent").map_or(reader.name, |node| node.span);
+        let message = format!("`exponent` of {} is below 1", reader.what);
+        return context.fail(span, message, "the stiffness at touch would be infinite");
+    }
+    if let Some([friction, at_rest]) = entry.friction
+        && at_rest < friction
+    {
+        let span = reader.node("static_friction").map_or(reader.name, |node| node.span);
+        let message = format!("`static_friction` of {} is below `friction`", reader.what);
+        return context.fail(span, message, "static friction must not be smaller than sliding friction");
+    }
+    Some(entry)
 }
 
 /// A part in words.

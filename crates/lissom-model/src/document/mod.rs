@@ -4,6 +4,7 @@
 pub(crate) mod analysis;
 mod analysis_tables;
 mod assembly;
+mod beam_contacts;
 mod beams;
 mod bodies;
 mod components;
@@ -50,6 +51,7 @@ pub(crate) use bodies::body_axes;
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
+pub use beam_contacts::{BeamSides, Touching};
 pub use contacts::{ContactEntry, Ground, Restitution};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;

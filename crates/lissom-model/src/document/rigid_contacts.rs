@@ -67,6 +67,7 @@ pub(super) fn entry(
     ContactEntry {
         name: Located::new(name.to_owned(), reader.name),
         between,
+        beams: None,
         stiffness: Ok(0.0),
         exponent: 1.0,
         restitution: Restitution::Dissipation(0.0),

@@ -61,17 +61,23 @@ pub(super) fn add(
         }
     }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
-        let nodes = entry.between.each_ref().map(|part| names.node(part));
-        let [base, tip] = nodes;
-        let added = base.and_then(|base| Ok([base, tip?]));
         if let Some(law) = &entry.rigid {
-            match added.and_then(|nodes| super::rigid_contacts::add(document, (entry, law), nodes, builder)) {
+            let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
+            let nodes = base.and_then(|base| Ok([base, tip?]));
+            match nodes.and_then(|nodes| super::rigid_contacts::add(document, (entry, law), nodes, builder)) {
                 Ok(points) => drop(names.rigid_contacts.insert(entry.name.value.clone(), points)),
                 Err(problem) => problems.push(problem),
             }
             continue;
         }
-        match added.and_then(|nodes| super::contacts::add(document, entry, nodes, builder)) {
+        let added = if let Some(sides) = &entry.beams {
+            super::beam_contacts::add(document, (entry, sides), names, builder)
+        } else {
+            let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
+            let nodes = base.and_then(|base| Ok([base, tip?]));
+            nodes.and_then(|nodes| super::contacts::add(document, entry, nodes, builder))
+        };
+        match added {
             Ok(points) => drop(names.contacts.insert(entry.name.value.clone(), points)),
             Err(problem) => problems.push(problem),
         }

@@ -51,7 +51,7 @@ pub(super) fn start<'p>(points: impl Iterator<Item = &'p ContactPoint>, at: &mut
     }
 }
 
-fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [PlacedSolid] {
+pub(super) fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [PlacedSolid] {
     let found = match part {
         NodeReference::Body(name) => {
             document.bodies.iter().find(|body| body.name.value == *name).map(|body| &body.solids)
@@ -112,7 +112,11 @@ pub(super) fn add(
             touch(&own, &contact, held, builder)
                 .map_err(|error| Problem::error(entry.name.span, format!("contact `{name}`: {error}")))?;
         }
-        all.push(ContactPoint { contact, sign: if meeting.is_in_order { 1.0 } else { -1.0 }, velocity });
+        all.push(ContactPoint {
+            contact: Arc::new(contact),
+            sign: if meeting.is_in_order { 1.0 } else { -1.0 },
+            velocity,
+        });
     }
     Ok(all)
 }
@@ -202,7 +206,7 @@ fn stiffness(document: &Document, entry: &ContactEntry, solids: [&PlacedSolid; 2
 }
 
 /// A solid in words.
-fn words(form: &Form) -> &'static str {
+pub(super) fn words(form: &Form) -> &'static str {
     match form {
         Form::HalfSpace => "a plane",
         Form::Outline(_) | Form::Polygon(_) => "an outline",
@@ -219,7 +223,7 @@ fn words(form: &Form) -> &'static str {
 }
 
 /// The surface of a solid; none where the distance from it is not known.
-fn surface(form: &Form) -> Result<Option<Arc<dyn Surface>>, MeshError> {
+pub(super) fn surface(form: &Form) -> Result<Option<Arc<dyn Surface>>, MeshError> {
     let found: Arc<dyn Surface> = match form {
         Form::HalfSpace => Arc::new(HalfSpace),
         Form::Solid(Solid::Box(sides)) => Arc::new(Cuboid { half_sides: sides.map(|side| 0.5 * side) }),

@@ -2,6 +2,7 @@
 
 mod analysis;
 mod assembly;
+mod beam_contacts;
 mod connections;
 mod contacts;
 mod couplings;

@@ -9,7 +9,7 @@ use super::{Build, Evaluation, Found, OutputQuantity, Subjects, WHOLE_MODEL};
 use crate::contact_point::ContactPoint;
 use crate::document::{Declaration, Output, Subject};
 use crate::report::Problem;
-use lissom_core::elements::{Element, Unknowns};
+use lissom_core::elements::Unknowns;
 use lissom_core::system::System;
 use lissom_motion::Vector3;
 
@@ -17,7 +17,8 @@ use lissom_motion::Vector3;
 pub(crate) const CONTACT_FORCE: Declaration = Declaration {
     word: "contact_force",
     summary: "Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, \
-              and sliding velocity.",
+              sliding velocity, numbers of points that touch and of those that slide, and the centre of the normal forces in global \
+              axes.",
     subject: Subject::Contact,
     features: &[],
     components: &[
@@ -28,6 +29,11 @@ pub(crate) const CONTACT_FORCE: Declaration = Declaration {
         ("f2", "N"),
         ("f3", "N"),
         ("slip", "m/s"),
+        ("points", ""),
+        ("sliding", ""),
+        ("x1", "m"),
+        ("x2", "m"),
+        ("x3", "m"),
     ],
     build: Build::System(WHOLE_MODEL, quantity),
 };
@@ -51,9 +57,17 @@ impl OutputQuantity for ContactForce {
         let (mut gap, mut normal, mut force, mut friction) =
             (f64::INFINITY, 0.0, Vector3::zeros(), Vector3::zeros());
         let (mut largest, mut slip) = (0.0, 0.0);
+        let (mut touching, mut sliding) = (0.0, 0.0);
+        // Without contact the point with the smallest gap.
+        let (mut center, mut nearest) = (Vector3::zeros(), Vector3::zeros());
         for point in &self.0 {
             let found = point.contact.forces_at(at.motion());
-            gap = gap.min(found.gap);
+            if found.gap < gap {
+                (gap, nearest) = (found.gap, found.point);
+            }
+            touching += f64::from(u8::from(found.is_touching));
+            sliding += f64::from(u8::from(found.is_sliding));
+            center += found.normal * found.point;
             normal += found.normal;
             force += point.sign * found.force;
             friction += point.sign * found.friction;
@@ -61,7 +75,9 @@ impl OutputQuantity for ContactForce {
                 (largest, slip) = (found.normal, found.slip);
             }
         }
-        out.extend([gap, normal, friction.norm(), force.x, force.y, force.z, slip]);
+        let center = if normal > 0.0 { center / normal } else { nearest };
+        out.extend([gap, normal, friction.norm(), force.x, force.y, force.z, slip, touching, sliding]);
+        out.extend(center.iter());
     }
 
     fn touched(&self, _: &System) -> Option<Touched> {

@@ -1,5 +1,6 @@
 //! Gap and force of a rigid contact between two parts.
 
+use lissom_core::joints::rigid_contact::Mode;
 use lissom_core::kinematics::NodeId;
 use lissom_core::system::System;
 use lissom_motion::Vector3;
@@ -16,10 +17,20 @@ impl OutputQuantity for RigidContactForce {
         let (mut gap, mut normal, mut force, mut friction) =
             (f64::INFINITY, 0.0, Vector3::zeros(), Vector3::zeros());
         let (mut largest, mut slip) = (0.0, 0.0);
+        let (mut count, mut sliding) = (0.0, 0.0);
+        // Without contact the point with the smallest gap.
+        let (mut center, mut nearest) = (Vector3::zeros(), Vector3::zeros());
         for RigidPoint { contact, sign } in &self.0 {
             let touching = contact.touching(at.motion());
             let (own, tangential) = contact.forces(at.motion(), &at.state.multipliers);
-            gap = gap.min(touching.gap.value);
+            let point = contact.point_in_space(at.motion(), &touching.gap.point);
+            if touching.gap.value < gap {
+                (gap, nearest) = (touching.gap.value, point);
+            }
+            let mode = contact.mode(at.motion());
+            count += f64::from(u8::from(mode != Mode::Open));
+            sliding += f64::from(u8::from(mode == Mode::Sliding));
+            center += own * point;
             normal += own;
             let global = |vector: &Vector3| *sign * contact.to_global(at.motion(), vector);
             force += global(&(own * touching.gap.normal + tangential));
@@ -28,7 +39,9 @@ impl OutputQuantity for RigidContactForce {
                 (largest, slip) = (own, touching.sliding().norm());
             }
         }
-        out.extend([gap, normal, friction.norm(), force.x, force.y, force.z, slip]);
+        let center = if normal > 0.0 { center / normal } else { nearest };
+        out.extend([gap, normal, friction.norm(), force.x, force.y, force.z, slip, count, sliding]);
+        out.extend(center.iter());
     }
 
     fn touched(&self, _: &System) -> Option<Touched> {

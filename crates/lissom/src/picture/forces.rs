@@ -1,4 +1,4 @@
-//! Recorded forces as arrows: reactions of joints and contacts on the tip, and forces of springs. As on the page.
+//! Recorded forces as arrows: reactions of joints and forces of contacts on the tip, and forces of springs. As on the page.
 
 use lissom_core::kinematics::NodeId;
 use lissom_model::output::Record;
@@ -29,6 +29,8 @@ struct Force {
 enum Effect {
     /// At a position, with components in global axes.
     At(Anchor),
+    /// At a recorded position in global axes, which follows the components.
+    Placed,
     /// Where the line of action meets a plane through a position with this normal; moments follow the components. They are about
     /// the origin of the node.
     Contact { node: NodeId, base: Anchor, normal: Vector3 },
@@ -84,6 +86,10 @@ impl RecordedForces {
         let force = |output: &Output| match output.kind.as_str() {
             "reaction" if output.is_global => reaction(output),
             "spring" => spring(output),
+            "contact_force" => {
+                let components = ["f1", "f2", "f3", "x1", "x2", "x3"];
+                Some(Force { effect: Effect::Placed, columns: columns(output, &components)? })
+            }
             _ => None,
         };
         let forces: Vec<Force> = scene.outputs.iter().filter_map(force).collect();
@@ -125,6 +131,7 @@ impl Force {
         }
         Some(match &self.effect {
             Effect::At(tip) => (place(tip), self.vector(0, row)),
+            Effect::Placed => (self.vector(3, row), self.vector(0, row)),
             Effect::Contact { node, base, normal } => {
                 let (force, moment) = (self.vector(0, row), self.vector(3, row));
                 let centre = poses[*node].position;

@@ -130,9 +130,9 @@ impl SectionMotion {
     }
 
     /// From derivatives with respect to η_i to those with respect to variations of the nodes.
-    fn spread(&self, by_relative: &[Matrix6; MAX_NODES], by_reference: Matrix6) -> [Matrix6; MAX_NODES] {
+    fn spread(&self, by_relative: &[Matrix6; MAX_NODES], by_reference: &Matrix6) -> [Matrix6; MAX_NODES] {
         let mut all = *by_relative;
-        all[self.reference] = by_reference;
+        all[self.reference] = *by_reference;
         for i in self.others() {
             all[self.reference] -= by_relative[i] * self.adjoints[i];
         }
@@ -146,7 +146,7 @@ impl SectionMotion {
         for i in self.others() {
             own[i] = self.weights[i] * turned * inverse_tangent(&self.relative[i]);
         }
-        self.spread(&own, self.carried)
+        self.spread(&own, &self.carried)
     }
 
     /// Derivatives of the section's twist with respect to variations of the nodes, at constant twists of these.
@@ -163,7 +163,7 @@ impl SectionMotion {
                 - inverse * lie_bracket_matrix(&seen);
             own[i] = self.weights[i] * (by_d * inverse + turned * rate_by);
         }
-        self.spread(&own, Matrix6::zeros())
+        self.spread(&own, &Matrix6::zeros())
     }
 
     /// Derivatives of the forces on the nodes from a constant wrench on the section: by node of the force, then of the variation.
@@ -195,7 +195,7 @@ impl SectionMotion {
         }
         std::array::from_fn(|i| {
             let carry = self.to_section[i].transpose();
-            self.spread(&blocks[i], Matrix6::zeros()).map(|block| carry * block)
+            self.spread(&blocks[i], &Matrix6::zeros()).map(|block| carry * block)
         })
     }
 }

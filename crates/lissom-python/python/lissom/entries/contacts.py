@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ._entry import Entry, Number, Table
+from ._entry import Count, Entry, Number, Table
 
 
 @dataclass(kw_only=True, slots=True)
@@ -14,8 +14,8 @@ class Contact(Entry):
     """Pairs of parts that may touch, by their shapes.
 
     Args:
-        base: a body or point mass with a `shape`, or "ground"; a node.
-        tip: the other part that may touch it; a node.
+        base: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one; a node.
+        tip: the other part that may touch it; or the name of a beam; a node.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
         material: instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz; the name of an entry of `[materials]`, or nothing.
@@ -28,6 +28,10 @@ class Contact(Entry):
         static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
         stribeck: sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 [m/s]; a number > 0, or nothing.
         deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
+        radius: of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal [m]; a number > 0, or nothing.
+        base_radius: the same of a beam as base [m]; a number > 0, or nothing.
+        stiffness_per_length: of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
+        points: with `stiffness_per_length`: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
         rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
         torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
     """
@@ -48,6 +52,10 @@ class Contact(Entry):
     static_friction: Number | None = None
     stribeck: Number | None = None
     deflection: Number | None = None
+    radius: Number | None = None
+    base_radius: Number | None = None
+    stiffness_per_length: Number | None = None
+    points: Count | None = None
     rolling_friction: Number | None = None
     torsional_friction: Number | None = None
 

@@ -12,8 +12,8 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `base`: a body or point mass with a `shape`, or "ground"
-    /// - `tip`: the other part that may touch it
+    /// - `base`: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one
+    /// - `tip`: the other part that may touch it; or the name of a beam
     new(base: Node = "base", tip: Node = "tip")
     /// Normal force at a penetration of 1 m \[N/m^n\].
     stiffness: f64 = "stiffness";
@@ -39,6 +39,14 @@ entry! {
     stribeck: f64 = "stribeck";
     /// Tangential deflection before it slips; default 1e-5 \[m\].
     deflection: f64 = "deflection";
+    /// Of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal \[m\].
+    radius: f64 = "radius";
+    /// The same of a beam as base \[m\].
+    base_radius: f64 = "base_radius";
+    /// Of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m \[N/m^(n+1)\].
+    stiffness_per_length: f64 = "stiffness_per_length";
+    /// With `stiffness_per_length`: number of intervals between points of contact in an element; default 2.
+    points: usize = "points";
     /// Moment against rolling per normal force; default 0 \[m\].
     rolling_friction: f64 = "rolling_friction";
     /// Moment against spinning about the normal per normal force; default 0 \[m\].

@@ -1,0 +1,187 @@
+//! Contacts along beams: their keys, and what these say of the law of contact.
+
+use super::NodeReference;
+use super::contacts::{ContactEntry, Restitution, number_or};
+use crate::keys::{Key, Shape, optional};
+use crate::reader::Reader;
+use crate::report::Located;
+use crate::text::Value;
+
+/// Where a beam touches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Touching {
+    /// Along its length, in points that are fixed to it: force per length at a penetration of 1 m [N/mⁿ⁺¹], and intervals between
+    /// points in an element.
+    Along(f64, usize),
+    /// Where it is nearest: force at a penetration of 1 m [N/mⁿ].
+    Nearest(f64),
+}
+
+/// The beams of a contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeamSides {
+    /// The tip.
+    pub beam: Located<String>,
+    /// The base, if it is a beam.
+    pub base: Option<Located<String>>,
+    /// Radii of base and tip, if given [m].
+    pub radii: [Option<f64>; 2],
+    /// Where they touch.
+    pub touching: Touching,
+}
+
+/// Keys that only beams have.
+const OF_BEAMS: [&str; 4] = ["radius", "base_radius", "stiffness_per_length", "points"];
+
+/// Further keys of a contact.
+pub(super) fn keys() -> [Key; 4] {
+    [
+        optional(
+            "radius",
+            Shape::Positive,
+            "m",
+            "of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal",
+        ),
+        optional("base_radius", Shape::Positive, "m", "the same of a beam as base"),
+        optional(
+            "stiffness_per_length",
+            Shape::Positive,
+            "N/m^(n+1)",
+            "of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m",
+        ),
+        optional(
+            "points",
+            Shape::Count(1, 64),
+            "",
+            "with `stiffness_per_length`: number of intervals between points of contact in an element; default 2",
+        ),
+    ]
+}
+
+fn beam_of(reader: &Reader<'_, '_>, key: &str) -> Option<Located<String>> {
+    let node = reader.node(key)?;
+    let Value::Text(text) = &node.value else { return None };
+    let name = reader.context.entry_named("beams", text, node, &reader.words(key))?;
+    reader.context.has("beams", &name).then(|| Located::new(name, node.span))
+}
+
+/// Whether a contact names a beam, or has keys that only beams have.
+pub(super) fn is_of_beam(reader: &Reader<'_, '_>) -> bool {
+    ["base", "tip"].iter().any(|key| beam_of(reader, key).is_some())
+        || OF_BEAMS.iter().any(|key| reader.node(key).is_some())
+}
+
+/// A contact of a beam.
+pub(super) fn entry(
+    reader: &Reader<'_, '_>,
+    name: &str,
+    is_solid: &dyn Fn(&Located<NodeReference>) -> Option<()>,
+) -> Option<ContactEntry> {
+    match (beam_of(reader, "base"), beam_of(reader, "tip")) {
+        (None, None) => {
+            let (key, node) = OF_BEAMS.iter().find_map(|key| Some((key, reader.node(key)?)))?;
+            let message = format!("`{key}` of {} is for beams", reader.what);
+            reader.context.fail(node.span, message, "name a beam as `tip`, or remove this")
+        }
+        (Some(base), None) => {
+            let message = format!("{} has a beam as `base` and none as `tip`", reader.what);
+            reader.context.fail(base.span, message, "exchange them: the beam is the tip")
+        }
+        (base, Some(beam)) => of_beam(reader, name, (base, beam), is_solid),
+    }
+}
+
+fn of_beam(
+    reader: &Reader<'_, '_>,
+    name: &str,
+    (base, beam): (Option<Located<String>>, Located<String>),
+    is_solid: &dyn Fn(&Located<NodeReference>) -> Option<()>,
+) -> Option<ContactEntry> {
+    let context = reader.context;
+    let start = |beam: &Located<String>| {
+        let node = NodeReference::Beam { beam: beam.value.clone(), fraction: 0.0 };
+        Located::new(node, beam.span)
+    };
+    let other = match &base {
+        Some(base) if base.value == beam.value => {
+            let message = format!("{} names one beam twice", reader.what);
+            return context.fail(beam.span, message, "make two beams of it that share a node");
+        }
+        Some(base) => start(base),
+        None => {
+            let part = context.node(reader.node("base")?, &reader.words("base"))?;
+            is_solid(&part)?;
+            part
+        }
+    };
+    let given = |key: &str| reader.node(key).map(|node| node.span);
+    for (key, help) in [
+        ("material", "give `stiffness` or `stiffness_per_length` instead"),
+        ("tip_material", "give `stiffness` or `stiffness_per_length` instead"),
+        ("restitution", "give `dissipation` instead: waves in the beam determine how it rebounds"),
+        ("rest_velocity", "remove it, and give `dissipation`"),
+        ("restitution_law", "remove it, and give `dissipation`"),
+        ("rigid", "give `stiffness` or `stiffness_per_length` instead"),
+        ("rolling_friction", "remove it"),
+        ("torsional_friction", "remove it"),
+    ] {
+        if let Some(span) = given(key) {
+            let message = format!("`{key}` of {} is not available for beams", reader.what);
+            return context.fail(span, message, help);
+        }
+    }
+    let friction = number_or(reader, "friction", 0.0);
+    let at_rest = number_or(reader, "static_friction", friction);
+    let touching = match (given("stiffness"), given("stiffness_per_length")) {
+        (Some(_), None) => {
+            if let Some(span) = given("points") {
+                let message = format!("`points` of {} is without `stiffness_per_length`", reader.what);
+                return context.fail(span, message, "with `stiffness` a beam touches where it is nearest");
+            }
+            Touching::Nearest(reader.number("stiffness")?.value)
+        }
+        (None, Some(_)) => Touching::Along(
+            reader.number("stiffness_per_length")?.value,
+            reader.count("points").map_or(2, |count| count.value),
+        ),
+        (Some(span), Some(_)) => {
+            let message = format!("{} has both `stiffness` and `stiffness_per_length`", reader.what);
+            return context.fail(span, message, "remove one of them");
+        }
+        (None, None) => {
+            let message = format!("{} has neither `stiffness` nor `stiffness_per_length`", reader.what);
+            let help = "add `stiffness_per_length` for contact along the beam, or `stiffness` for contact where it is nearest";
+            return context.fail(reader.name, message, help);
+        }
+    };
+    let is_along_part = base.is_none() && matches!(touching, Touching::Along(..));
+    if let Some(span) =
+        given("friction").or(given("static_friction")).filter(|_| at_rest > 0.0 && !is_along_part)
+    {
+        let message = format!("friction of {} is not available", reader.what);
+        let help = "beams have friction with a body or the ground, with `stiffness_per_length`";
+        return context.fail(span, message, help);
+    }
+    if let Some(span) = given("base_radius").filter(|_| base.is_none()) {
+        let message = format!("`base_radius` of {} is for a beam as base", reader.what);
+        return context.fail(span, message, "remove it: the base touches with its shape");
+    }
+    let radius = |key: &str| reader.number(key).map(|number| number.value);
+    let stiffness = match touching {
+        Touching::Along(stiffness, _) | Touching::Nearest(stiffness) => stiffness,
+    };
+    let between = [other, start(&beam)];
+    Some(ContactEntry {
+        name: Located::new(name.to_owned(), reader.name),
+        between,
+        beams: Some(BeamSides { beam, base, radii: [radius("base_radius"), radius("radius")], touching }),
+        stiffness: Ok(stiffness),
+        exponent: number_or(reader, "exponent", 1.0),
+        restitution: Restitution::Dissipation(number_or(reader, "dissipation", 0.0)),
+        friction: (at_rest > 0.0).then_some([friction, at_rest]),
+        stribeck: number_or(reader, "stribeck", 0.01),
+        deflection: number_or(reader, "deflection", 1e-5),
+        resistance: [0.0; 2],
+        rigid: None,
+    })
+}
