@@ -25,11 +25,19 @@ use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
 use crate::system::{State, System};
 
 /// Gaps below this fraction of the representative length are closed.
-const CLOSED: f64 = 1e-9;
+const CLOSED: f64 = 1e-8;
+/// Changes below this fraction of it, of the gaps of contacts that others keep from closing, are round-off.
+const BAND: f64 = 1e-9;
 /// The same at the start, where positions are given.
 const CLOSED_AT_START: f64 = 1e-6;
 /// Forces and accelerations below this fraction of the largest are zero.
 const ZERO: f64 = 1e-8;
+/// The same for forces of contacts that repeat each other, whose shares are known to fewer digits.
+const ZERO_SHARE: f64 = 1e-7;
+/// Eigenvalue of normal equations that repeat each other.
+const DEPENDENT: f64 = 1e-10;
+/// Smallest coefficient in a dependence.
+const PARTICIPATES: f64 = 1e-6;
 /// Energy beyond this fraction of that before is not round-off.
 const GAIN: f64 = 1e-12;
 /// Bisections of the restitution.
@@ -144,13 +152,13 @@ pub(super) struct Outcome {
     warnings: Vec<Warning>,
 }
 
-/// Solves impacts at `state`, and determines the modes of all contacts. `touched` are known to touch; gaps below `closed` [m] are
-/// closed.
+/// Solves impacts at `state`, and determines the modes of all contacts. `touched` are known to touch; gaps up to
+/// `near` [m] are closed, and those of contacts that others keep from closing may change by `band` [m].
 pub(super) fn resolve(
     system: &System,
     initial: &mut ConsistentInitialConditions,
     state: &mut State,
-    (touched, closed): (&[usize], f64),
+    (touched, [near, band]): (&[usize], [f64; 2]),
 ) -> Result<Outcome, InitialError> {
     let mut outcome = Outcome::default();
     let mut free = state.clone();
@@ -159,9 +167,7 @@ pub(super) fn resolve(
     }
     let at = &state.kinematics;
     let is_candidate = |index: usize, contact: &RigidContact| {
-        contact.mode(at) != Mode::Open
-            || touched.contains(&index)
-            || contact.touching(at).gap.value - contact.offset(at) <= closed
+        contact.mode(at) != Mode::Open || touched.contains(&index) || contact.touching(at).gap.value <= near
     };
     let of_state = |at: &Kinematics, kept: &dyn Fn(usize, &RigidContact) -> bool| -> Vec<Candidate<'_>> {
         let all = system.rigid_contacts().enumerate().filter(|&(index, contact)| kept(index, contact));
@@ -190,14 +196,48 @@ pub(super) fn resolve(
     let modes = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
     for candidate in &candidates {
         let gap = candidate.touching.gap.value;
-        state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
+        // Of contacts that remain open others keep the gap, up to round-off.
+        let band = if candidate.velocity[0] > candidate.contact.still() { 0.0 } else { band };
+        state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0) - band;
         set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
     }
     for (k, mode, direction) in modes {
         set_mode(candidates[k].contact, mode, &mut state.kinematics);
         set_direction(candidates[k].contact, &direction, &mut state.kinematics);
     }
+    if std::env::var("RIGDBG").is_ok() {
+        for c in &candidates {
+            let (n, t) = c.contact.forces(&state.kinematics, &state.multipliers);
+            eprintln!(
+                "t={} {} mode={:?} gap={:.3e} v={:.3e} {:.3e} {:.3e} N={:.6} T={:.6}",
+                state.kinematics.time,
+                c.contact.name,
+                c.contact.mode(&state.kinematics),
+                c.touching.gap.value,
+                c.velocity[0],
+                c.velocity[1],
+                c.velocity[2],
+                n,
+                t.norm()
+            );
+        }
+    }
     share(system, initial, (&candidates, &resting), state)?;
+    if std::env::var("RIGDBG").is_ok() {
+        let found = initial.acceleration_at(system, state)?;
+        let count = system.layout().coordinate_count();
+        for c in &candidates {
+            let (n, t) = c.contact.forces(&state.kinematics, &found[count..]);
+            eprintln!(
+                "    after {} mode={:?} N={:.6} T={:.6} d={:?}",
+                c.contact.name,
+                c.contact.mode(&state.kinematics),
+                n,
+                t.norm(),
+                c.contact.direction(&state.kinematics)
+            );
+        }
+    }
     Ok(outcome)
 }
 
@@ -290,7 +330,7 @@ fn select(
         .ok_or_else(|| InitialError::ContactForces { contact: candidates[resting[0]].subject() })?;
     let after = problem.velocities(&forces);
     let largest = problem.free.amax();
-    let mut modes = Vec::new();
+    let (mut modes, mut normal_forces) = (Vec::new(), Vec::new());
     let is_pressed = |row: usize| problem.compliance[(3 * row, 3 * row)] * forces[3 * row] > ZERO * largest;
     if !(0..resting.len()).any(is_pressed) {
         return Ok(modes);
@@ -308,8 +348,57 @@ fn select(
             None => (Mode::Sticking, Vector2::zeros()),
         };
         modes.push((k, mode, candidates[k].in_base(&direction)));
+        normal_forces.push(forces[3 * row]);
+    }
+    if modes.iter().any(|(k, mode, _)| *mode == Mode::Sliding && candidates[*k].contact.has_friction()) {
+        reduce(candidates, &mut modes, normal_forces);
     }
     Ok(modes)
+}
+
+/// Omits contacts that slide and whose normal equations repeat those of others: the shares of normal forces affect friction, and must
+/// be unique.
+///
+/// Legend: B rows of the normal velocities, y with Bᵀ y = 0, f normal forces.
+///
+/// ```text
+/// f ← f - α y,      α the smallest with f_k = 0 for a contact k that slides
+/// ```
+fn reduce(candidates: &[Candidate<'_>], modes: &mut Vec<(usize, Mode, Vector3<f64>)>, mut forces: Vec<f64>) {
+    loop {
+        let rows: Vec<_> = modes
+            .iter()
+            .map(|(k, ..)| {
+                let row = &candidates[*k].rows[0];
+                row / row.norm().max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        let products = DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i].dot(&rows[j]));
+        let eigen = products.symmetric_eigen();
+        let Some((least, _)) = eigen
+            .eigenvalues
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.total_cmp(b.1))
+            .filter(|(_, value)| **value < DEPENDENT)
+        else {
+            return;
+        };
+        let dependence: Vec<f64> = (0..rows.len())
+            .map(|i| {
+                eigen.eigenvectors[(i, least)] / candidates[modes[i].0].rows[0].norm().max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        let size = dependence.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+        let omitted = (0..rows.len())
+            .filter(|&i| modes[i].1 == Mode::Sliding && dependence[i].abs() > PARTICIPATES * size)
+            .min_by(|&a, &b| (forces[a] / dependence[a]).abs().total_cmp(&(forces[b] / dependence[b]).abs()));
+        let Some(omitted) = omitted else { return };
+        let alpha = forces[omitted] / dependence[omitted];
+        forces.iter_mut().zip(&dependence).for_each(|(force, own)| *force -= alpha * own);
+        forces.remove(omitted);
+        modes.remove(omitted);
+    }
 }
 
 /// Makes velocities consistent with the modes, and the modes with the shares that contacts have in the forces.
@@ -332,10 +421,15 @@ fn share(
         let at = &state.kinematics;
         let forces: Vec<_> = resting.iter().map(|&k| candidates[k].contact.forces(at, multipliers)).collect();
         let largest = forces.iter().fold(0.0_f64, |most, (normal, _)| most.max(normal.abs()));
+        for &k in resting {
+            let held = candidates[k].contact.held.scale;
+            state.kinematics.held[held.index()] = largest;
+        }
+        let at = &state.kinematics;
         let worst = resting
             .iter()
             .zip(&forces)
-            .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO * largest)
+            .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO_SHARE * largest)
             .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
         if let Some((&k, _)) = worst {
             set_mode(candidates[k].contact, Mode::Open, &mut state.kinematics);
@@ -348,7 +442,7 @@ fn share(
             .iter()
             .zip(&forces)
             .filter(|(k, _)| candidates[**k].contact.mode(at) == Mode::Sticking)
-            .filter(|(k, force)| excess(**k, force) > ZERO * largest)
+            .filter(|(k, force)| excess(**k, force) > ZERO_SHARE * largest)
             .max_by(|a, b| excess(*a.0, a.1).total_cmp(&excess(*b.0, b.1)));
         let Some((&k, (_, friction))) = slips else { return Ok(()) };
         let direction = -friction.normalize();
@@ -384,7 +478,12 @@ impl Simulation {
             }
         }
         let before = self.state.kinematics.clone();
-        let outcome = resolve(&self.system, initial, &mut self.state, (&[], CLOSED_AT_START * length))?;
+        let outcome = resolve(
+            &self.system,
+            initial,
+            &mut self.state,
+            (&[], [CLOSED_AT_START * length, BAND * length]),
+        )?;
         settle(&self.system, &mut self.state, initial, &self.settings)?;
         self.finish_contacts(&before, outcome);
         self.previous.clone_from(&self.state);
@@ -407,7 +506,7 @@ impl Simulation {
         let Some(initial) = &mut self.held_values else { return Ok(()) };
         let kept = self.state.clone();
         let time = self.state.kinematics.time;
-        let closed = CLOSED * self.integrator.representative.length;
+        let near = [CLOSED, BAND].map(|share| share * self.integrator.representative.length);
         let (system, state) = (&self.system, &mut self.state);
         let change = || {
             state.kinematics.time = earlier;
@@ -416,7 +515,7 @@ impl Simulation {
             if let Some(held) = held {
                 state.kinematics.held = held;
             }
-            let outcome = resolve(system, initial, state, (touched, closed))?;
+            let outcome = resolve(system, initial, state, (touched, near))?;
             let mut jump = initial.acceleration_at(system, state)?;
             jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
             Ok((outcome, jump))

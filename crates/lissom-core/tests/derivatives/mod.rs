@@ -11,6 +11,7 @@ mod joint_lanes;
 mod locks;
 mod neighbours;
 mod ports;
+mod rigid_contacts;
 mod rolling;
 mod superelement;
 
