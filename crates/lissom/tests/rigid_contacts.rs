@@ -368,9 +368,9 @@ end = 3
         let row = record.times.iter().position(|own| *own > time).expect("within the run");
         energy[row] - 2.0 * 9.81 * 0.5
     };
-    for pair in impacts.windows(2).take(8) {
-        let between = 0.5 * (pair[0] + pair[1]);
-        let found = at(between) / at(pair[0] - 1e-3);
+    for three in impacts.windows(3).take(8) {
+        let [before, after] = [0, 1].map(|k| 0.5 * (three[k] + three[k + 1]));
+        let found = at(after) / at(before);
         assert!((found - ratio).abs() < 1e-6, "{found} {ratio}");
     }
 }
@@ -401,6 +401,7 @@ kind = "contact_force"
 of = "floor"
 [analysis]
 kind = "dynamics"
+relative_tolerance = 1e-8
 end = 6
 "#;
 
@@ -498,14 +499,16 @@ fn a_ball_rolls_down_a_slope() {
         .replace("gravity = [0, 0, -10]", "gravity = [1, 0, -10]")
         .replace("restitution = 0.5", "friction = 0.3")
         .replace("position = [0, 0, 0.6]", "position = [0, 0, 0.1]");
-    for (scheme, allowed) in [("radau-iia-9", 1e-8), ("radau-iia", 1e-5), ("generalized-alpha", 1e-3)] {
-        let (record, _) = run(&text, &[("analysis.scheme", scheme), ("analysis.step", "0.005")]);
+    // The direction of the velocity turns by 0.06 rad per step in the axes of the ball.
+    for (scheme, allowed, of_forces) in [("radau-iia-9", 1e-8, 1e-6), ("radau-iia", 1e-3, 1e-2)] {
+        let (record, _) = run(&text, &[("analysis.scheme", scheme), ("analysis.step", "0.001")]);
         let wanted = 8.0 * 5.0 / 7.0;
         let found = last(&record, "ball.v1");
         assert!((found - wanted).abs() < allowed, "{scheme}: {found} {wanted}");
-        assert!((last(&record, "floor.friction") - 4.0 / 7.0).abs() < 10.0 * allowed);
+        let friction = last(&record, "floor.friction");
+        assert!((friction - 4.0 / 7.0).abs() < of_forces, "{scheme}: {friction}");
         let deepest = series(&record, "floor.gap").iter().fold(0.0_f64, |most, gap| most.max(gap.abs()));
-        assert!(deepest < 0.1 * allowed, "{scheme}: {deepest}");
+        assert!(deepest < 0.01 * allowed, "{scheme}: {deepest}");
     }
 }
 

@@ -149,6 +149,8 @@ fn compliance(candidates: &[Candidate<'_>], responses: &[DVector<f64>]) -> DMatr
 #[derive(Default)]
 pub(super) struct Outcome {
     has_impact: bool,
+    /// Whether no part approached faster than its velocity of rest: a part that rocks comes to rest.
+    is_slow: bool,
     warnings: Vec<Warning>,
 }
 
@@ -181,6 +183,7 @@ pub(super) fn resolve(
     let responses = responses(system, initial, &candidates);
     let compliance = compliance(&candidates, &responses);
     if candidates.iter().any(|candidate| candidate.velocity[0] < -candidate.contact.still()) {
+        outcome.is_slow = candidates.iter().all(|own| own.velocity[0] >= -own.contact.law.rest_velocity);
         impact(system, (&candidates, &responses, &compliance), state, &mut outcome)?;
         for candidate in &mut candidates {
             *candidate = Candidate::new(system, (candidate.index, candidate.contact), &state.kinematics);
@@ -190,54 +193,27 @@ pub(super) fn resolve(
         free.kinematics.held = held;
     }
     let accelerations = initial.acceleration_with_factors(system, &free)?;
-    let resting: Vec<usize> = (0..candidates.len())
-        .filter(|&k| candidates[k].velocity[0] <= candidates[k].contact.still())
-        .collect();
-    let modes = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
+    let is_resting = |candidate: &Candidate<'_>| {
+        let contact = candidate.contact;
+        let fastest = if outcome.is_slow { contact.law.rest_velocity } else { contact.still() };
+        candidate.velocity[0] <= fastest
+    };
+    let resting: Vec<usize> = (0..candidates.len()).filter(|&k| is_resting(&candidates[k])).collect();
+    let (modes, kept) = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
     for candidate in &candidates {
         let gap = candidate.touching.gap.value;
-        // Of contacts that remain open others keep the gap, up to round-off.
-        let band = if candidate.velocity[0] > candidate.contact.still() { 0.0 } else { band };
-        state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0) - band;
+        state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
         set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
+    }
+    for k in kept {
+        // Others keep its gap, up to round-off.
+        state.kinematics.held[candidates[k].contact.held.offset.index()] -= band;
     }
     for (k, mode, direction) in modes {
         set_mode(candidates[k].contact, mode, &mut state.kinematics);
         set_direction(candidates[k].contact, &direction, &mut state.kinematics);
     }
-    if std::env::var("RIGDBG").is_ok() {
-        for c in &candidates {
-            let (n, t) = c.contact.forces(&state.kinematics, &state.multipliers);
-            eprintln!(
-                "t={} {} mode={:?} gap={:.3e} v={:.3e} {:.3e} {:.3e} N={:.6} T={:.6}",
-                state.kinematics.time,
-                c.contact.name,
-                c.contact.mode(&state.kinematics),
-                c.touching.gap.value,
-                c.velocity[0],
-                c.velocity[1],
-                c.velocity[2],
-                n,
-                t.norm()
-            );
-        }
-    }
     share(system, initial, (&candidates, &resting), state)?;
-    if std::env::var("RIGDBG").is_ok() {
-        let found = initial.acceleration_at(system, state)?;
-        let count = system.layout().coordinate_count();
-        for c in &candidates {
-            let (n, t) = c.contact.forces(&state.kinematics, &found[count..]);
-            eprintln!(
-                "    after {} mode={:?} N={:.6} T={:.6} d={:?}",
-                c.contact.name,
-                c.contact.mode(&state.kinematics),
-                n,
-                t.norm(),
-                c.contact.direction(&state.kinematics)
-            );
-        }
-    }
     Ok(outcome)
 }
 
@@ -257,8 +233,8 @@ fn impact(
         let condition = |candidate: &Candidate<'_>| {
             let law = &candidate.contact.law;
             let approach = candidate.velocity[0];
-            let rebounds = approach < -law.rest_velocity;
-            let rebound = if rebounds { share * law.restitution * approach } else { 0.0 };
+            // That of points at rest, zero up to round-off, is consistent with that of the others.
+            let rebound = if outcome.is_slow { 0.0 } else { share * law.restitution * approach };
             Condition { friction: law.friction, rebound, sliding: None }
         };
         let conditions = candidates.iter().map(condition).collect();
@@ -294,16 +270,19 @@ fn impact(
     Ok(())
 }
 
-/// Modes of the contacts that touch and do not separate, with the direction against which their friction acts; those without a
-/// force are omitted.
+/// Indices of candidates with their modes and the directions against which their friction acts.
+type Modes = Vec<(usize, Mode, Vector3<f64>)>;
+
+/// Modes of the contacts that touch and do not separate, without those that open; and the contacts without an equation that others
+/// keep closed.
 fn select(
     candidates: &[Candidate<'_>],
     resting: &[usize],
     (compliance, accelerations): (&DMatrix<f64>, &[f64]),
     at: &Kinematics,
-) -> Result<Vec<(usize, Mode, Vector3<f64>)>, InitialError> {
+) -> Result<(Modes, Vec<usize>), InitialError> {
     if resting.is_empty() {
-        return Ok(Vec::new());
+        return Ok(Default::default());
     }
     let index: Vec<usize> = resting.iter().flat_map(|k| 3 * k..3 * k + 3).collect();
     let compliance = DMatrix::from_fn(index.len(), index.len(), |i, j| compliance[(index[i], index[j])]);
@@ -330,10 +309,10 @@ fn select(
         .ok_or_else(|| InitialError::ContactForces { contact: candidates[resting[0]].subject() })?;
     let after = problem.velocities(&forces);
     let largest = problem.free.amax();
-    let (mut modes, mut normal_forces) = (Vec::new(), Vec::new());
+    let (mut modes, mut normal_forces, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     let is_pressed = |row: usize| problem.compliance[(3 * row, 3 * row)] * forces[3 * row] > ZERO * largest;
     if !(0..resting.len()).any(is_pressed) {
-        return Ok(modes);
+        return Ok((modes, Vec::new()));
     }
     for (row, &k) in resting.iter().enumerate() {
         let Candidate { contact, .. } = &candidates[k];
@@ -351,9 +330,9 @@ fn select(
         normal_forces.push(forces[3 * row]);
     }
     if modes.iter().any(|(k, mode, _)| *mode == Mode::Sliding && candidates[*k].contact.has_friction()) {
-        reduce(candidates, &mut modes, normal_forces);
+        kept = reduce(candidates, &mut modes, normal_forces);
     }
-    Ok(modes)
+    Ok((modes, kept))
 }
 
 /// Omits contacts that slide and whose normal equations repeat those of others: the shares of normal forces affect friction, and must
@@ -364,7 +343,8 @@ fn select(
 /// ```text
 /// f ← f - α y,      α the smallest with f_k = 0 for a contact k that slides
 /// ```
-fn reduce(candidates: &[Candidate<'_>], modes: &mut Vec<(usize, Mode, Vector3<f64>)>, mut forces: Vec<f64>) {
+fn reduce(candidates: &[Candidate<'_>], modes: &mut Modes, mut forces: Vec<f64>) -> Vec<usize> {
+    let mut kept = Vec::new();
     loop {
         let rows: Vec<_> = modes
             .iter()
@@ -382,7 +362,7 @@ fn reduce(candidates: &[Candidate<'_>], modes: &mut Vec<(usize, Mode, Vector3<f6
             .min_by(|a, b| a.1.total_cmp(b.1))
             .filter(|(_, value)| **value < DEPENDENT)
         else {
-            return;
+            return kept;
         };
         let dependence: Vec<f64> = (0..rows.len())
             .map(|i| {
@@ -393,11 +373,11 @@ fn reduce(candidates: &[Candidate<'_>], modes: &mut Vec<(usize, Mode, Vector3<f6
         let omitted = (0..rows.len())
             .filter(|&i| modes[i].1 == Mode::Sliding && dependence[i].abs() > PARTICIPATES * size)
             .min_by(|&a, &b| (forces[a] / dependence[a]).abs().total_cmp(&(forces[b] / dependence[b]).abs()));
-        let Some(omitted) = omitted else { return };
+        let Some(omitted) = omitted else { return kept };
         let alpha = forces[omitted] / dependence[omitted];
         forces.iter_mut().zip(&dependence).for_each(|(force, own)| *force -= alpha * own);
         forces.remove(omitted);
-        modes.remove(omitted);
+        kept.push(modes.remove(omitted).0);
     }
 }
 
