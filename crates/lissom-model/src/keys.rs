@@ -57,6 +57,8 @@ pub(crate) enum Shape {
     PlaceOrNode,
     /// A node: `ground`, a body, a point mass, `beam.start`, `beam.end` or `beam@fraction`.
     Node,
+    /// A list of nodes.
+    Nodes,
     /// A number, an expression of the time `t`, or a table.
     Function,
     /// A number, an expression of time, inputs, signals, states and outputs, or a table.
@@ -183,6 +185,7 @@ impl Shape {
             | Self::Choices(_)
             | Self::Name(_)
             | Self::Node
+            | Self::Nodes
             | Self::Function
             | Self::Size
             | Self::Formula

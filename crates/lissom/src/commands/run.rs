@@ -441,12 +441,12 @@ fn render(
             Written(energy.largest)
         ),
     );
-    let of_contacts = simulation.system().contact_events();
-    for (index, event) in simulation.system().signals().events().iter().enumerate() {
+    let graph = simulation.system().signals();
+    for event in graph.events() {
         let own = session.events().filter(|(name, _)| *name == event.name);
         let times: Vec<f64> = own.map(|(_, time)| time).collect();
-        // A box has 24 of them.
-        if times.is_empty() && of_contacts.iter().any(|(own, _)| *own == index) {
+        // A box has up to 24 of them.
+        if times.is_empty() && graph.signals()[event.root].subject.kind == "contact" {
             continue;
         }
         let words = match times.as_slice() {
