@@ -220,6 +220,19 @@ fn a_roller_follows_a_cam_until_it_lifts_off() {
     }
 }
 
+/// The wheel of a Geneva drive turns by a quarter in each revolution of the crank, and waits in between.
+#[test]
+fn a_geneva_drive_turns_by_quarters() {
+    let record = run(include_str!("../../../examples/geneva-drive.toml"), &[]);
+    let angles = series(&record, "wheel.angle");
+    for (turn, time) in [(1.0, 1.5), (2.0, 3.1), (3.0, 4.7), (4.0, 6.1)] {
+        let index = record.times.iter().position(|&own| own > time).expect("within the run");
+        // The pin has a clearance of 0.2 mm on each side at 50 mm.
+        let quarter = -turn * std::f64::consts::FRAC_PI_2;
+        assert!((angles[index] - quarter).abs() < 0.01, "{time}: {} {quarter}", angles[index]);
+    }
+}
+
 #[test]
 fn wrong_shapes_are_rejected_with_a_remedy() {
     let ball = "{ sphere = 0.1 }";
