@@ -79,9 +79,9 @@ impl Scene {
         let (mut contacts, mut energy) = (Vec::new(), 0.0);
         let mut contact = |text: &mut String, base: &str, tip: &str| {
             let name = format!("{base}_{tip}");
-            text.push_str(&format!(
+            text.extend([format!(
                 "[contacts.{name}]\nbase = \"{base}\"\ntip = \"{tip}\"\n{law_text}[outputs.{name}]\nkind = \"contact_force\"\nof = \"{name}\"\n"
-            ));
+            )]);
             contacts.push(name);
         };
         for number in 0..count {
@@ -106,17 +106,17 @@ impl Scene {
             };
             let moment = 0.4 * mass * size * size;
             // One above the other, so that none overlap at the start.
-            let height = 0.6 + 0.7 * number as f64 + draw.between(0.0, 0.1);
+            let height = 0.6 + 0.7 * f64::from(number) + draw.between(0.0, 0.1);
             let aside = draw.between(-0.3, 0.3) * size;
             let velocity = [draw.between(-1.0, 1.0), draw.between(-1.0, 1.0), draw.between(-1.0, 1.0)];
             let turn = [draw.between(-2.0, 2.0), draw.between(-2.0, 2.0), draw.between(-2.0, 2.0)];
             let spin = [draw.between(-5.0, 5.0), draw.between(-5.0, 5.0), draw.between(-5.0, 5.0)];
-            text.push_str(&format!(
+            text.extend([format!(
                 "[bodies.{name}]\nmass = {mass}\ninertia = [{moment}, {}, {}]\nshape = {shape}\nposition = [{aside}, 0, {height}]\n\
                  velocity = {velocity:?}\nrotation = {turn:?}\nangular_velocity = {spin:?}\n",
                 1.1 * moment,
                 0.9 * moment,
-            ));
+            )]);
             energy += mass * GRAVITY * height
                 + 0.5 * mass * velocity.iter().map(|v| v * v).sum::<f64>()
                 + 0.55 * moment * spin.iter().map(|w| w * w).sum::<f64>();

@@ -137,7 +137,9 @@ fn of_shape(shape: &Shape) -> Value {
             });
             any_of(&[vector(), placed])
         }
-        Shape::Names | Shape::Coordinates => json!({ "type": "array", "minItems": 1, "items": text() }),
+        Shape::Names | Shape::Nodes | Shape::Coordinates => {
+            json!({ "type": "array", "minItems": 1, "items": text() })
+        }
         Shape::Entries(table) => json!({ "$ref": format!("#/properties/{table}") }),
         Shape::Choice(words) => json!({ "enum": words }),
         Shape::Choices(words) => {
@@ -169,7 +171,6 @@ fn of_shape(shape: &Shape) -> Value {
             json!({ "type": "array", "minItems": 1, "items": of_keys(&Shape::interface_keys()) })
         }
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
-        Shape::Nodes => json!({ "type": "array", "minItems": 1, "items": text() }),
         Shape::NumberRows => {
             let row = json!({ "type": "array", "minItems": 2, "items": plain() });
             json!({ "type": "array", "minItems": 2, "items": row })

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use super::monitor;
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
+use crate::elements::Spring;
 use crate::errors::{Warning, report};
 use crate::integrator::error_estimate::{MIN_REFERENCE, excursion};
 use crate::kinematics::Kinematics;
@@ -88,7 +89,7 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let is_free = system.drives().is_empty()
         && system.layout().states.is_empty()
         && system.layout().of_velocities.is_empty();
-    let is_free = is_free && !system.elements_with(|own| own.spring).any(|spring| spring.dissipates());
+    let is_free = is_free && !system.elements_with(|own| own.spring).any(Spring::dissipates);
     let is_adaptive = settings.scheme.dynamic && settings.control.is_some();
     (is_free && is_adaptive).then(|| Box::<EnergyDrift>::default() as Box<dyn Monitor>)
 }

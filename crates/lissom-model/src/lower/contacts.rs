@@ -22,7 +22,7 @@ use super::Names;
 use super::straight_line::Line;
 use crate::contact_point::ContactPoint;
 use crate::document::{ContactEntry, Document, NodeReference, Restitution};
-use crate::report::{Located, Problem};
+use crate::report::Problem;
 use crate::solid::{Form, PlacedSolid, Solid};
 
 /// Radius of the edges of boxes where boxes touch each other, of the shortest side: edges that cross then have a direction between
@@ -276,38 +276,27 @@ pub(super) fn solid_pairs<'d>(
     entry: &ContactEntry,
     names: &Names,
 ) -> Result<Vec<SolidPair<'d>>, Problem> {
+    let name = &entry.name.value;
     let mut all = Vec::new();
     for parts in entry.pairs() {
         let nodes = [names.node(parts[0])?, names.node(parts[1])?];
-        let found = meetings_of(document, entry, parts)?;
-        all.extend(found.into_iter().map(|(solids, meetings)| SolidPair { solids, nodes, meetings }));
+        let [first, second] = parts.map(|part| solids(document, &part.value));
+        for solids in first.iter().flat_map(|one| second.iter().map(move |other| [one, other])) {
+            let found = meetings(solids[0], solids[1]).map_err(|error| {
+                let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
+                Problem::error(entry.name.span, message)
+                    .help("repair the file, or use solids that have its shape")
+            })?;
+            let meetings = found.ok_or_else(|| {
+                let [one, other] = solids.map(|solid| words(&solid.form));
+                let message = format!("contact `{name}`: {one} against {other} is not available");
+                Problem::error(entry.name.span, message)
+                    .help("one of them can be made of spheres, or be a plane")
+            })?;
+            all.push(SolidPair { solids, nodes, meetings });
+        }
     }
     Ok(all)
-}
-
-/// The pairs of solids of two parts, with the points at which they may touch.
-fn meetings_of<'d>(
-    document: &'d Document,
-    entry: &ContactEntry,
-    parts: [&Located<NodeReference>; 2],
-) -> Result<Vec<([&'d PlacedSolid; 2], Vec<Meeting>)>, Problem> {
-    let name = &entry.name.value;
-    let [first, second] = parts.map(|part| solids(document, &part.value));
-    let pairs = first.iter().flat_map(|one| second.iter().map(move |other| [one, other]));
-    let found = pairs.map(|pair| {
-        let found = meetings(pair[0], pair[1]).map_err(|error| {
-            let message = format!("contact `{name}`: a mesh of its parts is no solid: {error}");
-            Problem::error(entry.name.span, message)
-                .help("repair the file, or use solids that have its shape")
-        })?;
-        let found = found.ok_or_else(|| {
-            let [one, other] = pair.map(|solid| words(&solid.form));
-            let message = format!("contact `{name}`: {one} against {other} is not available");
-            Problem::error(entry.name.span, message).help("one of them can be made of spheres, or be a plane")
-        })?;
-        Ok((pair, found))
-    });
-    found.collect()
 }
 
 /// The points at which two solids may touch; none if that is not available.
