@@ -166,7 +166,7 @@ pub(crate) fn contacts(arguments: &ContactsArguments) -> bool {
         found.len(),
         arguments.seed
     );
-    wrong == 0 && reported as f64 <= arguments.reported * found.len() as f64
+    wrong == 0 && f64::from(reported) <= arguments.reported * found.len() as f64
 }
 
 fn trial(scene: &Scene) -> Outcome {
