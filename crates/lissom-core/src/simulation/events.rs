@@ -94,7 +94,7 @@ impl Simulation {
             .map_err(|which| self.chatters(which))?;
         self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
         if happened.is_empty() {
-            return Ok(());
+            return self.check_sliding();
         }
         let graph = self.system.signals();
         let mut at = self.state.kinematics.clone();

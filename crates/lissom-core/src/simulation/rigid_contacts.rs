@@ -19,7 +19,7 @@ use super::Simulation;
 use super::contact_problem::{Condition, ContactProblem};
 use super::held_values::settle;
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
-use crate::errors::{InitialError, Warning, warn};
+use crate::errors::{InitialError, StepError, Warning, warn};
 use crate::joints::rigid_contact::{Mode, RigidContact, Touching};
 use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
 use crate::system::{State, System};
@@ -199,7 +199,17 @@ pub(super) fn resolve(
         candidate.velocity[0] <= fastest
     };
     let resting: Vec<usize> = (0..candidates.len()).filter(|&k| is_resting(&candidates[k])).collect();
-    let (modes, kept) = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
+    // Modes with the unique forces of the contacts that remain.
+    let (mut carrying, mut kept) = (resting.clone(), Vec::new());
+    let modes = loop {
+        let forces = (&compliance, &accelerations[..]);
+        let (modes, omitted) = select(&candidates, &carrying, forces, &state.kinematics)?;
+        if omitted.is_empty() {
+            break modes;
+        }
+        carrying.retain(|k| !omitted.contains(k));
+        kept.extend(omitted);
+    };
     for candidate in &candidates {
         let gap = candidate.touching.gap.value;
         state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
@@ -208,6 +218,18 @@ pub(super) fn resolve(
     for k in kept {
         // Others keep its gap, up to round-off.
         state.kinematics.held[candidates[k].contact.held.offset.index()] -= band;
+    }
+    // Where sliding begins, it begins from rest: what remains of an earlier velocity has another direction.
+    let begins = |k: usize| {
+        candidates[k].contact.has_friction()
+            && candidates[k].sliding().norm() <= candidates[k].contact.still()
+    };
+    for &(k, mode, _) in &modes {
+        let stops = mode == Mode::Sliding && begins(k);
+        set_mode(candidates[k].contact, if stops { Mode::Sticking } else { mode }, &mut state.kinematics);
+    }
+    if modes.iter().any(|&(k, mode, _)| mode == Mode::Sliding && begins(k)) {
+        initial.velocities(system, state)?;
     }
     for (k, mode, direction) in modes {
         set_mode(candidates[k].contact, mode, &mut state.kinematics);
@@ -234,7 +256,8 @@ fn impact(
             let law = &candidate.contact.law;
             let approach = candidate.velocity[0];
             // That of points at rest, zero up to round-off, is consistent with that of the others.
-            let rebound = if outcome.is_slow { 0.0 } else { share * law.restitution * approach };
+            let rebounds = !outcome.is_slow && approach <= candidate.contact.still();
+            let rebound = if rebounds { share * law.restitution * approach } else { 0.0 };
             Condition { friction: law.friction, rebound, sliding: None }
         };
         let conditions = candidates.iter().map(condition).collect();
@@ -273,7 +296,7 @@ fn impact(
 /// Indices of candidates with their modes and the directions against which their friction acts.
 type Modes = Vec<(usize, Mode, Vector3<f64>)>;
 
-/// Modes of the contacts that touch and do not separate, without those that open; and the contacts without an equation that others
+/// Modes of the contacts that touch and do not separate, without those that open; and the contacts to omit, which others
 /// keep closed.
 fn select(
     candidates: &[Candidate<'_>],
@@ -513,6 +536,47 @@ impl Simulation {
                 Err(error)
             }
         }
+    }
+
+    /// Fails if a contact has begun to slide in Painlevé's paradox within the last step.
+    ///
+    /// # Errors
+    /// If one has.
+    pub(super) fn check_sliding(&mut self) -> Result<(), StepError> {
+        let (system, state) = (&self.system, &self.state);
+        let slides = |contact: &RigidContact| {
+            contact.has_friction() && contact.mode(&state.kinematics) == Mode::Sliding
+        };
+        let sliding: Vec<_> = system
+            .rigid_contacts()
+            .enumerate()
+            .filter(|(_, contact)| slides(contact))
+            .map(|(index, contact)| Candidate::new(system, (index, contact), &state.kinematics))
+            .filter(|candidate| candidate.sliding().norm() > candidate.contact.still())
+            .collect();
+        let Some(initial) = self.held_values.as_mut().filter(|_| !sliding.is_empty()) else { return Ok(()) };
+        let time = state.kinematics.time;
+        let mut check = || {
+            let mut free = state.clone();
+            for contact in system.rigid_contacts() {
+                set_mode(contact, Mode::Open, &mut free.kinematics);
+            }
+            initial.factor(system, &free, Inertias::All)?;
+            let responses = responses(system, initial, &sliding);
+            let condition = |candidate: &Candidate<'_>| Condition {
+                friction: candidate.contact.law.friction,
+                rebound: 0.0,
+                sliding: Some(candidate.sliding().normalize()),
+            };
+            let problem = ContactProblem {
+                compliance: compliance(&sliding, &responses),
+                free: DVector::zeros(3 * sliding.len()),
+                conditions: sliding.iter().map(condition).collect(),
+            };
+            let paradox = problem.paradox().map(|k| sliding[k].subject());
+            paradox.map_or(Ok(()), |contact| Err(InitialError::ContactParadox { contact }))
+        };
+        check().map_err(|error| StepError::Velocities { time, error })
     }
 
     /// Records an impact, and makes all events of contacts possible.

@@ -31,7 +31,7 @@ const RETURN_RATE: f64 = 10.0;
 /// Forces below this fraction of the largest are zero: the shares of contacts that repeat each other are not known better.
 const NO_FORCE: f64 = 2e-7;
 /// Velocities below this fraction of the velocity of rest are zero.
-const STILL: f64 = 1e-3;
+const REST_FRACTION: f64 = 1e-3;
 
 /// Local unknowns: those of two nodes.
 const SIZE: usize = 12;
@@ -222,7 +222,7 @@ impl RigidContact {
 
     /// The velocity below which it is at rest [m/s].
     pub fn still(&self) -> f64 {
-        STILL * self.law.rest_velocity
+        REST_FRACTION * self.law.rest_velocity
     }
 
     /// Force that is zero [N].
