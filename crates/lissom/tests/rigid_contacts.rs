@@ -556,6 +556,42 @@ fn a_rod_in_a_paradox_is_reported() {
     assert!(error.contains("`floor`") && error.contains("paradox"), "{error}");
 }
 
+/// A contact within a step is not missed, however long the run is.
+#[test]
+fn a_ball_that_flies_past_another_one_hits_it() {
+    let text = r#"
+lissom = 1
+[ground]
+shape = { sphere = 0.2 }
+[point_masses.ball]
+mass = 1
+position = [-50, 0.18, 0]
+velocity = [10, 0, 0]
+shape = { sphere = 0.1 }
+[contacts.post]
+base = "ground"
+tip = "ball"
+rigid = true
+restitution = 0.5
+[outputs.ball]
+kind = "velocity"
+of = "ball"
+[analysis]
+kind = "dynamics"
+end = 10
+"#;
+    for end in ["6", "10", "100", "10000"] {
+        let (record, events) = run(text, &[("analysis.end", end)]);
+        let touched = of(&events, "post, touch");
+        assert_eq!(touched.len(), 1, "{end}");
+        // n = (-0.8, 0.6) where the distance is 0.3 m.
+        assert!((touched[0] - (50.0 - 0.24) / 10.0).abs() < 1e-9, "{end}: {}", touched[0]);
+        // u_n = -8 becomes 4: u = 10 (1, 0) + 12 n.
+        assert!((last(&record, "ball.v1") - 0.4).abs() < 1e-9, "{end}: {}", last(&record, "ball.v1"));
+        assert!((last(&record, "ball.v2") - 7.2).abs() < 1e-9, "{end}: {}", last(&record, "ball.v2"));
+    }
+}
+
 #[test]
 fn what_is_not_available_is_rejected() {
     let stiff = BALL.replace("rigid = true", "rigid = true\nstiffness = 1e6");

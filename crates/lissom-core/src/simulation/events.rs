@@ -87,7 +87,7 @@ impl Simulation {
         if self.events.is_empty() {
             return Ok(());
         }
-        self.turn_friction();
+        self.follow_contacts();
         let happened = self
             .events
             .accept(&self.system, &self.state, located, longest)

@@ -216,7 +216,8 @@ pub(super) fn resolve(
         set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
     }
     for k in kept {
-        // Others keep its gap, up to round-off.
+        // Its gap changes by round-off.
+        set_mode(candidates[k].contact, Mode::Kept, &mut state.kinematics);
         state.kinematics.held[candidates[k].contact.held.offset.index()] -= band;
     }
     // Where sliding begins, it begins from rest: what remains of an earlier velocity has another direction.
@@ -235,7 +236,7 @@ pub(super) fn resolve(
         set_mode(candidates[k].contact, mode, &mut state.kinematics);
         set_direction(candidates[k].contact, &direction, &mut state.kinematics);
     }
-    share(system, initial, (&candidates, &resting), state)?;
+    share(system, initial, (&candidates, &resting, band), state)?;
     Ok(outcome)
 }
 
@@ -408,10 +409,10 @@ fn reduce(candidates: &[Candidate<'_>], modes: &mut Modes, mut forces: Vec<f64>)
 fn share(
     system: &System,
     initial: &mut ConsistentInitialConditions,
-    (candidates, resting): (&[Candidate<'_>], &[usize]),
+    (candidates, resting, band): (&[Candidate<'_>], &[usize], f64),
     state: &mut State,
 ) -> Result<(), InitialError> {
-    let is_closed = |k: usize, at: &Kinematics| candidates[k].contact.mode(at) != Mode::Open;
+    let is_closed = |k: usize, at: &Kinematics| candidates[k].contact.mode(at).is_closed();
     if !resting.iter().any(|&k| is_closed(k, &state.kinematics)) {
         return Ok(());
     }
@@ -435,7 +436,9 @@ fn share(
             .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO_SHARE * largest)
             .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
         if let Some((&k, _)) = worst {
-            set_mode(candidates[k].contact, Mode::Open, &mut state.kinematics);
+            let contact = candidates[k].contact;
+            set_mode(contact, Mode::Kept, &mut state.kinematics);
+            state.kinematics.held[contact.held.offset.index()] -= band;
             continue;
         }
         let excess = |k: usize, (normal, friction): &(f64, Vector3<f64>)| {
@@ -593,7 +596,7 @@ impl Simulation {
             let sticks = mode == Mode::Sticking;
             let own = &mut self.state.multipliers[first..first + contact.multiplier_count()];
             // Of constraints that are released only round-off remains.
-            if mode == Mode::Open || sticks {
+            if !mode.is_closed() || sticks {
                 own[0] = 0.0;
             }
             if !sticks {
@@ -611,10 +614,15 @@ impl Simulation {
         self.events.known.rise(events);
     }
 
-    /// Updates the directions of friction at contacts whose sliding has turned.
-    pub(super) fn turn_friction(&mut self) {
+    /// Updates the directions of friction at contacts whose sliding has turned, and opens contacts that others no longer keep.
+    pub(super) fn follow_contacts(&mut self) {
+        let closed = CLOSED * self.integrator.representative.length;
         for contact in self.system.rigid_contacts() {
             let at = &self.state.kinematics;
+            if contact.mode(at) == Mode::Kept && contact.touching(at).gap.value > closed {
+                set_mode(contact, Mode::Open, &mut self.state.kinematics);
+                continue;
+            }
             if contact.mode(at) != Mode::Sliding || !contact.has_friction() {
                 continue;
             }

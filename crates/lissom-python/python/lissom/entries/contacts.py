@@ -16,12 +16,13 @@ class Contact(Entry):
     Args:
         base: a body or point mass with a `shape`, or "ground"; a node.
         tip: the other part that may touch it; a node.
+        rigid: instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
         material: instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz; the name of an entry of `[materials]`, or nothing.
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
-        restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; a number from 0.0100 to 1, or nothing.
-        rest_velocity: slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` [m/s]; a number > 0, or nothing.
+        restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, default 0; a number from 0.0000 to 1, or nothing.
+        rest_velocity: slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires `restitution` or `rigid` [m/s]; a number > 0, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
@@ -33,6 +34,7 @@ class Contact(Entry):
 
     base: str
     tip: str
+    rigid: bool | None = None
     stiffness: Number | None = None
     exponent: Number | None = None
     material: str | None = None

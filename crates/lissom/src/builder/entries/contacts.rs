@@ -14,6 +14,8 @@ entry! {
     /// - `base`: a body or point mass with a `shape`, or "ground"
     /// - `tip`: the other part that may touch it
     new(base: Node = "base", tip: Node = "tip")
+    /// Instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`.
+    rigid: bool = "rigid";
     /// Normal force at a penetration of 1 m \[N/m^n\].
     stiffness: f64 = "stiffness";
     /// Exponent n of the penetration, at least 1; default 1.
@@ -22,9 +24,9 @@ entry! {
     material: MaterialId = "material";
     /// Material of the tip, if it is another one.
     tip_material: MaterialId = "tip_material";
-    /// Velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1.
+    /// Velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, default 0.
     restitution: f64 = "restitution";
-    /// Slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` \[m/s\].
+    /// Slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires `restitution` or `rigid` \[m/s\].
     rest_velocity: f64 = "rest_velocity";
     /// Instead of `restitution`: relative increase of the normal force per penetration velocity \[s/m\].
     dissipation: f64 = "dissipation";
