@@ -87,7 +87,10 @@ impl Simulation {
         if self.events.is_empty() {
             return Ok(());
         }
-        self.follow_contacts();
+        if self.system.has_rigid_contacts() {
+            self.report_missed_contacts();
+            self.follow_contacts();
+        }
         let happened = self
             .events
             .accept(&self.system, &self.state, located, longest)

@@ -20,6 +20,7 @@ use super::contact_problem::{Condition, ContactProblem};
 use super::held_values::settle;
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
 use crate::errors::{InitialError, StepError, Warning, warn};
+use crate::integrator::dense::at_share;
 use crate::joints::rigid_contact::{Mode, RigidContact, Touching};
 use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
 use crate::system::{State, System};
@@ -614,6 +615,41 @@ impl Simulation {
         self.events.known.rise(events);
     }
 
+    /// Warns of a contact within the last step of planned size that was not detected: the solids penetrated each other.
+    ///
+    /// Advances over the step by the gap over twice the largest velocity found.
+    pub(super) fn report_missed_contacts(&mut self) {
+        let Some(step) = self.control.planned() else { return };
+        let (from, to) = (&self.previous, &self.state);
+        let duration = to.kinematics.time - from.kinematics.time;
+        let allowed = -CLOSED * self.integrator.representative.length;
+        let mut between = to.clone();
+        let mut missed = None;
+        for contact in self.system.rigid_contacts() {
+            if [from, to].iter().any(|end| contact.mode(&end.kinematics) != Mode::Open) {
+                continue;
+            }
+            let speed = |at: &Kinematics| contact.touching(at).velocity.norm();
+            let mut fastest = speed(&from.kinematics).max(speed(&to.kinematics));
+            let mut share = LEAST_ADVANCE;
+            while share < 1.0 {
+                at_share(from, to, share, &mut between);
+                let touching = contact.touching(&between.kinematics);
+                fastest = fastest.max(touching.velocity.norm());
+                if touching.gap.value < allowed {
+                    missed = Some(Subject::new("contact", &contact.name));
+                    break;
+                }
+                let safe = touching.gap.value / (2.0 * fastest * duration).max(f64::MIN_POSITIVE);
+                share += safe.max(LEAST_ADVANCE);
+            }
+        }
+        if let Some(function) = missed {
+            let time = from.kinematics.time;
+            warn(&mut self.warnings, Warning::FunctionUnseen { time, function, step });
+        }
+    }
+
     /// Updates the directions of friction at contacts whose sliding has turned, and opens contacts that others no longer keep.
     pub(super) fn follow_contacts(&mut self) {
         let closed = CLOSED * self.integrator.representative.length;
@@ -635,5 +671,7 @@ impl Simulation {
     }
 }
 
+/// Smallest step fraction of an advance.
+const LEAST_ADVANCE: f64 = 1e-3;
 /// Cosine of the angle between sliding and its reference from which the reference is updated.
 const TURNED: f64 = 0.95;
