@@ -87,14 +87,17 @@ impl Simulation {
         if self.events.is_empty() {
             return Ok(());
         }
-        self.turn_friction();
+        if self.system.has_rigid_contacts() {
+            self.report_missed_contacts();
+            self.follow_contacts();
+        }
         let happened = self
             .events
             .accept(&self.system, &self.state, located, longest)
             .map_err(|which| self.chatters(which))?;
         self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
         if happened.is_empty() {
-            return Ok(());
+            return self.check_sliding();
         }
         let graph = self.system.signals();
         let mut at = self.state.kinematics.clone();

@@ -19,7 +19,8 @@ use super::Simulation;
 use super::contact_problem::{Condition, ContactProblem};
 use super::held_values::settle;
 use crate::consistent::initial_conditions::{ConsistentInitialConditions, Inertias};
-use crate::errors::{InitialError, Warning, warn};
+use crate::errors::{InitialError, StepError, Warning, warn};
+use crate::integrator::dense::at_share;
 use crate::joints::rigid_contact::{Mode, RigidContact, Touching};
 use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
 use crate::system::{State, System};
@@ -199,21 +200,44 @@ pub(super) fn resolve(
         candidate.velocity[0] <= fastest
     };
     let resting: Vec<usize> = (0..candidates.len()).filter(|&k| is_resting(&candidates[k])).collect();
-    let (modes, kept) = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
+    // Modes with the unique forces of the contacts that remain.
+    let (mut carrying, mut kept) = (resting.clone(), Vec::new());
+    let modes = loop {
+        let forces = (&compliance, &accelerations[..]);
+        let (modes, omitted) = select(&candidates, &carrying, forces, &state.kinematics)?;
+        if omitted.is_empty() {
+            break modes;
+        }
+        carrying.retain(|k| !omitted.contains(k));
+        kept.extend(omitted);
+    };
     for candidate in &candidates {
         let gap = candidate.touching.gap.value;
         state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
         set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
     }
     for k in kept {
-        // Others keep its gap, up to round-off.
+        // Its gap changes by round-off.
+        set_mode(candidates[k].contact, Mode::Kept, &mut state.kinematics);
         state.kinematics.held[candidates[k].contact.held.offset.index()] -= band;
+    }
+    // Where sliding begins, it begins from rest: what remains of an earlier velocity has another direction.
+    let begins = |k: usize| {
+        candidates[k].contact.has_friction()
+            && candidates[k].sliding().norm() <= candidates[k].contact.still()
+    };
+    for &(k, mode, _) in &modes {
+        let stops = mode == Mode::Sliding && begins(k);
+        set_mode(candidates[k].contact, if stops { Mode::Sticking } else { mode }, &mut state.kinematics);
+    }
+    if modes.iter().any(|&(k, mode, _)| mode == Mode::Sliding && begins(k)) {
+        initial.velocities(system, state)?;
     }
     for (k, mode, direction) in modes {
         set_mode(candidates[k].contact, mode, &mut state.kinematics);
         set_direction(candidates[k].contact, &direction, &mut state.kinematics);
     }
-    share(system, initial, (&candidates, &resting), state)?;
+    share(system, initial, (&candidates, &resting, band), state)?;
     Ok(outcome)
 }
 
@@ -234,7 +258,8 @@ fn impact(
             let law = &candidate.contact.law;
             let approach = candidate.velocity[0];
             // That of points at rest, zero up to round-off, is consistent with that of the others.
-            let rebound = if outcome.is_slow { 0.0 } else { share * law.restitution * approach };
+            let rebounds = !outcome.is_slow && approach <= candidate.contact.still();
+            let rebound = if rebounds { share * law.restitution * approach } else { 0.0 };
             Condition { friction: law.friction, rebound, sliding: None }
         };
         let conditions = candidates.iter().map(condition).collect();
@@ -273,7 +298,7 @@ fn impact(
 /// Indices of candidates with their modes and the directions against which their friction acts.
 type Modes = Vec<(usize, Mode, Vector3<f64>)>;
 
-/// Modes of the contacts that touch and do not separate, without those that open; and the contacts without an equation that others
+/// Modes of the contacts that touch and do not separate, without those that open; and the contacts to omit, which others
 /// keep closed.
 fn select(
     candidates: &[Candidate<'_>],
@@ -385,10 +410,10 @@ fn reduce(candidates: &[Candidate<'_>], modes: &mut Modes, mut forces: Vec<f64>)
 fn share(
     system: &System,
     initial: &mut ConsistentInitialConditions,
-    (candidates, resting): (&[Candidate<'_>], &[usize]),
+    (candidates, resting, band): (&[Candidate<'_>], &[usize], f64),
     state: &mut State,
 ) -> Result<(), InitialError> {
-    let is_closed = |k: usize, at: &Kinematics| candidates[k].contact.mode(at) != Mode::Open;
+    let is_closed = |k: usize, at: &Kinematics| candidates[k].contact.mode(at).is_closed();
     if !resting.iter().any(|&k| is_closed(k, &state.kinematics)) {
         return Ok(());
     }
@@ -412,7 +437,9 @@ fn share(
             .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO_SHARE * largest)
             .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
         if let Some((&k, _)) = worst {
-            set_mode(candidates[k].contact, Mode::Open, &mut state.kinematics);
+            let contact = candidates[k].contact;
+            set_mode(contact, Mode::Kept, &mut state.kinematics);
+            state.kinematics.held[contact.held.offset.index()] -= band;
             continue;
         }
         let excess = |k: usize, (normal, friction): &(f64, Vector3<f64>)| {
@@ -515,6 +542,47 @@ impl Simulation {
         }
     }
 
+    /// Fails if a contact has begun to slide in Painlevé's paradox within the last step.
+    ///
+    /// # Errors
+    /// If one has.
+    pub(super) fn check_sliding(&mut self) -> Result<(), StepError> {
+        let (system, state) = (&self.system, &self.state);
+        let slides = |contact: &RigidContact| {
+            contact.has_friction() && contact.mode(&state.kinematics) == Mode::Sliding
+        };
+        let sliding: Vec<_> = system
+            .rigid_contacts()
+            .enumerate()
+            .filter(|(_, contact)| slides(contact))
+            .map(|(index, contact)| Candidate::new(system, (index, contact), &state.kinematics))
+            .filter(|candidate| candidate.sliding().norm() > candidate.contact.still())
+            .collect();
+        let Some(initial) = self.held_values.as_mut().filter(|_| !sliding.is_empty()) else { return Ok(()) };
+        let time = state.kinematics.time;
+        let mut check = || {
+            let mut free = state.clone();
+            for contact in system.rigid_contacts() {
+                set_mode(contact, Mode::Open, &mut free.kinematics);
+            }
+            initial.factor(system, &free, Inertias::All)?;
+            let responses = responses(system, initial, &sliding);
+            let condition = |candidate: &Candidate<'_>| Condition {
+                friction: candidate.contact.law.friction,
+                rebound: 0.0,
+                sliding: Some(candidate.sliding().normalize()),
+            };
+            let problem = ContactProblem {
+                compliance: compliance(&sliding, &responses),
+                free: DVector::zeros(3 * sliding.len()),
+                conditions: sliding.iter().map(condition).collect(),
+            };
+            let paradox = problem.paradox().map(|k| sliding[k].subject());
+            paradox.map_or(Ok(()), |contact| Err(InitialError::ContactParadox { contact }))
+        };
+        check().map_err(|error| StepError::Velocities { time, error })
+    }
+
     /// Records an impact, and makes all events of contacts possible.
     fn finish_contacts(&mut self, before: &Kinematics, outcome: Outcome) {
         if outcome.has_impact {
@@ -529,7 +597,7 @@ impl Simulation {
             let sticks = mode == Mode::Sticking;
             let own = &mut self.state.multipliers[first..first + contact.multiplier_count()];
             // Of constraints that are released only round-off remains.
-            if mode == Mode::Open || sticks {
+            if !mode.is_closed() || sticks {
                 own[0] = 0.0;
             }
             if !sticks {
@@ -547,10 +615,50 @@ impl Simulation {
         self.events.known.rise(events);
     }
 
-    /// Updates the directions of friction at contacts whose sliding has turned.
-    pub(super) fn turn_friction(&mut self) {
+    /// Warns of a contact within the last step of planned size that was not detected: the solids penetrated each other.
+    ///
+    /// Advances over the step by the gap over twice the largest velocity found.
+    pub(super) fn report_missed_contacts(&mut self) {
+        let Some(step) = self.control.planned() else { return };
+        let (from, to) = (&self.previous, &self.state);
+        let duration = to.kinematics.time - from.kinematics.time;
+        let allowed = -CLOSED * self.integrator.representative.length;
+        let mut between = to.clone();
+        let mut missed = None;
+        for contact in self.system.rigid_contacts() {
+            if [from, to].iter().any(|end| contact.mode(&end.kinematics) != Mode::Open) {
+                continue;
+            }
+            let speed = |at: &Kinematics| contact.touching(at).velocity.norm();
+            let mut fastest = speed(&from.kinematics).max(speed(&to.kinematics));
+            let mut share = LEAST_ADVANCE;
+            while share < 1.0 {
+                at_share(from, to, share, &mut between);
+                let touching = contact.touching(&between.kinematics);
+                fastest = fastest.max(touching.velocity.norm());
+                if touching.gap.value < allowed {
+                    missed = Some(Subject::new("contact", &contact.name));
+                    break;
+                }
+                let safe = touching.gap.value / (2.0 * fastest * duration).max(f64::MIN_POSITIVE);
+                share += safe.max(LEAST_ADVANCE);
+            }
+        }
+        if let Some(function) = missed {
+            let time = from.kinematics.time;
+            warn(&mut self.warnings, Warning::FunctionUnseen { time, function, step });
+        }
+    }
+
+    /// Updates the directions of friction at contacts whose sliding has turned, and opens contacts that others no longer keep.
+    pub(super) fn follow_contacts(&mut self) {
+        let closed = CLOSED * self.integrator.representative.length;
         for contact in self.system.rigid_contacts() {
             let at = &self.state.kinematics;
+            if contact.mode(at) == Mode::Kept && contact.touching(at).gap.value > closed {
+                set_mode(contact, Mode::Open, &mut self.state.kinematics);
+                continue;
+            }
             if contact.mode(at) != Mode::Sliding || !contact.has_friction() {
                 continue;
             }
@@ -563,5 +671,7 @@ impl Simulation {
     }
 }
 
+/// Smallest step fraction of an advance.
+const LEAST_ADVANCE: f64 = 1e-3;
 /// Cosine of the angle between sliding and its reference from which the reference is updated.
 const TURNED: f64 = 0.95;

@@ -25,7 +25,7 @@ fn with_contact(index: usize, mode: Mode, friction: f64) -> (System, State, Rand
     let frames =
         [CarriedFrame { node: base, offset: frame }, CarriedFrame { node: tip, offset: of_tip * turn }];
     // A velocity of rest of the size of the velocities, so that the direction of sliding is smooth.
-    let law = RigidLaw { restitution: 0.5, friction, rest_velocity: 4e3 };
+    let law = RigidLaw { restitution: 0.5, friction, rest_velocity: 2e4 };
     let contact = builder.add_rigid_contact("contact", frames, pair, law);
     let (system, mut state) = builder.build(0.0).expect("valid");
     state.kinematics.held[contact.held.mode.index()] = mode.number();

@@ -105,8 +105,8 @@ impl ContactGuard {
         let contact = &*self.contact;
         let mode = contact.mode(at);
         match (self.guard, mode) {
-            (Guard::Touch, Mode::Open) => contact.touching(at).gap.value - contact.offset(at),
-            (Guard::Release, Mode::Sliding | Mode::Sticking | Mode::Saturated) => {
+            (Guard::Touch, Mode::Open | Mode::Kept) => contact.touching(at).gap.value - contact.offset(at),
+            (Guard::Release, mode) if mode.is_closed() => {
                 contact.forces(at, &at.multipliers).0 + contact.no_force(at)
             }
             (Guard::Slip, Mode::Sticking) => {

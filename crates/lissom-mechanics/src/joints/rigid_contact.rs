@@ -22,16 +22,18 @@ use nalgebra::{RowVector6, SMatrix};
 use super::constraint::{Constraint, Level, Port};
 use super::evaluation_point::Increments;
 use super::frame_pair::{FramePair, RelativeMotion};
+use super::rigid_gap::{MAX_ARGUMENTS, Penetration};
 use crate::contact::gap::{Gap, Matrix3x6, Pair, side_by_side};
 use crate::kinematics::local_derivatives::add_block;
 use crate::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Quantity};
+use crate::law::VisitLaw;
 
 /// γ [1/s].
 const RETURN_RATE: f64 = 10.0;
 /// Forces below this fraction of the largest are zero: the shares of contacts that repeat each other are not known better.
 const NO_FORCE: f64 = 2e-7;
 /// Velocities below this fraction of the velocity of rest are zero.
-const STILL: f64 = 1e-3;
+const REST_FRACTION: f64 = 1e-3;
 
 /// Local unknowns: those of two nodes.
 const SIZE: usize = 12;
@@ -55,6 +57,8 @@ pub enum Mode {
     Sticking,
     /// Touching without sliding, with the largest friction in a fixed direction: other contacts keep the part from sliding.
     Saturated,
+    /// Touching without a force: other contacts keep the gap.
+    Kept,
 }
 
 impl Mode {
@@ -63,8 +67,13 @@ impl Mode {
         f64::from(self as u8)
     }
 
+    /// Whether it has equations.
+    pub fn is_closed(self) -> bool {
+        matches!(self, Self::Sliding | Self::Sticking | Self::Saturated)
+    }
+
     fn of_number(number: f64) -> Self {
-        [Self::Open, Self::Sliding, Self::Sticking, Self::Saturated]
+        [Self::Open, Self::Sliding, Self::Sticking, Self::Saturated, Self::Kept]
             .into_iter()
             .find(|mode| mode.number() == number)
             .unwrap_or(Self::Open)
@@ -222,7 +231,7 @@ impl RigidContact {
 
     /// The velocity below which it is at rest [m/s].
     pub fn still(&self) -> f64 {
-        STILL * self.law.rest_velocity
+        REST_FRACTION * self.law.rest_velocity
     }
 
     /// Force that is zero [N].
@@ -259,7 +268,7 @@ impl RigidContact {
     fn constraint_force(&self, mode: Mode, normal: &Vector3, multipliers: &[f64]) -> Vector3 {
         let of = |k: usize| multipliers.get(self.first_multiplier + k).copied().unwrap_or(0.0);
         match mode {
-            Mode::Open => Vector3::zeros(),
+            Mode::Open | Mode::Kept => Vector3::zeros(),
             Mode::Sliding | Mode::Saturated => -of(0) * normal,
             Mode::Sticking => -Vector3::new(of(1), of(2), of(3)),
         }
@@ -492,6 +501,23 @@ impl Constraint for NonPenetration {
         let mut rows = [0.0; SIZE];
         self.rate_derivatives(at, &mut rows);
         self.0.by_twists(at, &rows, out);
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        self.penetration(at, visit);
+    }
+}
+
+impl NonPenetration {
+    /// Passes the penetration as a law while the solids are apart.
+    fn penetration(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        let motion = self.0.frames.motion(at);
+        let mut arguments = [0.0; MAX_ARGUMENTS];
+        let (x, rotation) = arguments.split_at_mut(3);
+        x.copy_from_slice(motion.position.as_slice());
+        rotation.copy_from_slice(motion.rotation.as_slice());
+        let law = Penetration { pair: &*self.0.pair, is_apart: self.0.mode(at) == Mode::Open };
+        visit(&law, &arguments[..law.count()]);
     }
 }
 

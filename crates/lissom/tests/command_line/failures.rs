@@ -78,7 +78,7 @@ fn wraps_nothing(error: &str) -> bool {
 }
 
 /// Errors for which there is no model here, with the reason.
-const WITHOUT_MODEL: [(&str, &str); 10] = [
+const WITHOUT_MODEL: [(&str, &str); 11] = [
     ("StepError::NoTime", "a session is asked for it, no model can"),
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
@@ -87,6 +87,7 @@ const WITHOUT_MODEL: [(&str, &str); 10] = [
     ("StepError::NegativeKineticEnergy", "its matrices are too large for a file here: tests/superelements"),
     ("InitialError::ZeroPivot", "the reader rejects parts without mass"),
     ("InitialError::NormalForces", "no model found, with friction coefficients up to 100 and 0.3 rad of yaw"),
+    ("InitialError::ContactForces", "no model found: motions that drives prescribe contradict a contact"),
     ("InitialError::NotFinite", "the reader rejects functions that are not finite at the start"),
     ("AssemblyError::UpsideDown", "tests/assembly.rs"),
 ];
