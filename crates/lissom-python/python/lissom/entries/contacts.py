@@ -15,6 +15,7 @@ class Contact(Entry):
 
     Args:
         base: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one; a node.
+        others: further parts: every two of `base`, `tip` and these may touch; a list of nodes, or nothing.
         tip: the other part that may touch it; or the name of a beam; a node.
         rigid: instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
@@ -40,6 +41,7 @@ class Contact(Entry):
     _table: ClassVar[str] = "contacts"
 
     base: str
+    others: list[str] | None = None
     tip: str
     rigid: bool | None = None
     stiffness: Number | None = None

@@ -15,6 +15,8 @@ entry! {
     /// - `base`: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one
     /// - `tip`: the other part that may touch it; or the name of a beam
     new(base: Node = "base", tip: Node = "tip")
+    /// Further parts: every two of `base`, `tip` and these may touch.
+    others: Vec<Node> = "others";
     /// Instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`.
     rigid: bool = "rigid";
     /// Normal force at a penetration of 1 m \[N/m^n\].
