@@ -405,7 +405,7 @@ relative_tolerance = 1e-6
 end = 6
 "#;
 
-/// A box that tumbles over a plane loses energy only, and comes to rest on a side.
+/// A box that tumbles over a plane loses energy only, and rests on a side at the end.
 #[test]
 fn a_tumbling_box_never_gains_energy_and_comes_to_rest() {
     for turn in ["[0.3, 0.5, 0.1]", "[-1.46, 1.39, 1.06]"] {

@@ -150,7 +150,7 @@ fn compliance(candidates: &[Candidate<'_>], responses: &[DVector<f64>]) -> DMatr
 #[derive(Default)]
 pub(super) struct Outcome {
     has_impact: bool,
-    /// Whether no part approached faster than its velocity of rest: a part that rocks comes to rest.
+    /// Whether no part approached faster than its velocity of rest: a part that rocks is stopped.
     is_slow: bool,
     warnings: Vec<Warning>,
 }
