@@ -230,6 +230,38 @@ steps = 4
     }
 }
 
+/// Two equal leaves that lie on each other, without friction, share a uniform load on the upper one: w = q L⁴/(16 EI).
+#[test]
+fn leaves_that_lie_on_each_other_share_the_load() {
+    let leaf = |name: &str, height: f64, load: &str| {
+        format!(
+            "[beams.{name}]\nsection = \"rod\"\nfrom = [0, 0, {height}]\nto = [0.4, 0, {height}]\nelements = 8\norder = 2\n\
+             {load}\n[joints.{name}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"{name}.start\"\n\
+             [outputs.{name}]\nkind = \"displacement\"\nof = \"{name}.end\"\n"
+        )
+    };
+    let text = format!(
+        "{MATERIAL}[parameters]\ndamping = 0\n{}{}{}",
+        leaf("lower", 0.0, ""),
+        leaf("upper", 0.02, "force_per_length = [0, 0, -2000]"),
+        r#"
+[contacts.leaf]
+base = "lower"
+tip = "upper"
+stiffness_per_length = 1e8
+points = 5
+[analysis]
+kind = "statics"
+"#
+    );
+    let record = run(&text, &[]);
+    let wanted = 2000.0 * 0.4_f64.powi(4) / (16.0 * BENDING);
+    for name in ["lower", "upper"] {
+        let found = -last(&record, &format!("{name}.u3"));
+        assert!((found - wanted).abs() < 0.01 * wanted, "{name}: {found} {wanted}");
+    }
+}
+
 /// A ball that slides along a beam from node to node conserves energy and momentum: it is handed over from interval to interval.
 #[test]
 fn a_ball_slides_along_a_beam_without_a_loss() {

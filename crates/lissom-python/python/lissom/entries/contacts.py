@@ -16,30 +16,32 @@ class Contact(Entry):
     Args:
         base: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one; a node.
         tip: the other part that may touch it; or the name of a beam; a node.
+        rigid: instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`; `true` or `false`, or nothing.
         stiffness: normal force at a penetration of 1 m [N/m^n]; a number > 0, or nothing.
         exponent: exponent n of the penetration, at least 1; default 1; a number > 0, or nothing.
         material: instead of `stiffness` and `exponent`: the material of both parts, for balls on balls or planes by the theory of Hertz; the name of an entry of `[materials]`, or nothing.
         tip_material: material of the tip, if it is another one; the name of an entry of `[materials]`, or nothing.
-        restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; a number from 0.0100 to 1, or nothing.
-        rest_velocity: slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` [m/s]; a number > 0, or nothing.
+        restitution: velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, default 0; a number from 0.0000 to 1, or nothing.
+        rest_velocity: slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires `restitution` or `rigid` [m/s]; a number > 0, or nothing.
         restitution_law: how the dissipation follows from `restitution`; default "exact", the others for comparison with publications; `"exact"`, `"lankarani_nikravesh"`, `"flores"`, or nothing.
         dissipation: instead of `restitution`: relative increase of the normal force per penetration velocity [s/m]; a number ≥ 0, or nothing.
         friction: coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         static_friction: coefficient at rest, not below `friction`; default equal; a number > 0, or nothing.
         stribeck: sliding velocity at which the difference has fallen to 1/e, and friction begins to yield; default 0.01 [m/s]; a number > 0, or nothing.
         deflection: tangential deflection before it slips; default 1e-5 [m]; a number > 0, or nothing.
+        rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
+        torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
         radius: of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal [m]; a number > 0, or nothing.
         base_radius: the same of a beam as base [m]; a number > 0, or nothing.
         stiffness_per_length: of a beam as tip, instead of `stiffness`: it touches along its length, with this normal force per length at a penetration of 1 m [N/m^(n+1)]; a number > 0, or nothing.
         points: with `stiffness_per_length`: number of intervals between points of contact in an element; default 2; a whole number from 1 to 64, or nothing.
-        rolling_friction: moment against rolling per normal force; default 0 [m]; a number ≥ 0, or nothing.
-        torsional_friction: moment against spinning about the normal per normal force; default 0 [m]; a number ≥ 0, or nothing.
     """
 
     _table: ClassVar[str] = "contacts"
 
     base: str
     tip: str
+    rigid: bool | None = None
     stiffness: Number | None = None
     exponent: Number | None = None
     material: str | None = None
@@ -52,12 +54,12 @@ class Contact(Entry):
     static_friction: Number | None = None
     stribeck: Number | None = None
     deflection: Number | None = None
+    rolling_friction: Number | None = None
+    torsional_friction: Number | None = None
     radius: Number | None = None
     base_radius: Number | None = None
     stiffness_per_length: Number | None = None
     points: Count | None = None
-    rolling_friction: Number | None = None
-    torsional_friction: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

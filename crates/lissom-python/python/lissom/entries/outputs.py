@@ -320,7 +320,7 @@ class Contact(Output):
 
 @dataclass(kw_only=True, slots=True)
 class ContactForce(Output):
-    """Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, and sliding velocity.
+    """Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, sliding velocity, numbers of points that touch and of those that slide, and the centre of the normal forces in global axes.
 
     Args:
         of: the contact; the name of an entry of `[contacts]`.

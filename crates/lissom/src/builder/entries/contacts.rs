@@ -15,6 +15,8 @@ entry! {
     /// - `base`: a body or point mass with a `shape`, or "ground"; a beam, if the tip is one
     /// - `tip`: the other part that may touch it; or the name of a beam
     new(base: Node = "base", tip: Node = "tip")
+    /// Instead of `stiffness`: whether the parts touch without penetration, with impacts; default `false`.
+    rigid: bool = "rigid";
     /// Normal force at a penetration of 1 m \[N/m^n\].
     stiffness: f64 = "stiffness";
     /// Exponent n of the penetration, at least 1; default 1.
@@ -23,9 +25,9 @@ entry! {
     material: MaterialId = "material";
     /// Material of the tip, if it is another one.
     tip_material: MaterialId = "tip_material";
-    /// Velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1.
+    /// Velocity after an impact over that before, from 0.01 to 1, at any impact velocity; default 1; of rigid contacts from 0 on, default 0.
     restitution: f64 = "restitution";
-    /// Slower impacts dissipate as those of this velocity; default 1e-3; requires `restitution` \[m/s\].
+    /// Slower impacts dissipate as those of this velocity, those of rigid contacts do not rebound; default 1e-3; requires `restitution` or `rigid` \[m/s\].
     rest_velocity: f64 = "rest_velocity";
     /// How the dissipation follows from `restitution`; default "exact", the others for comparison with publications.
     restitution_law: words::RestitutionLaw = "restitution_law";
@@ -39,6 +41,10 @@ entry! {
     stribeck: f64 = "stribeck";
     /// Tangential deflection before it slips; default 1e-5 \[m\].
     deflection: f64 = "deflection";
+    /// Moment against rolling per normal force; default 0 \[m\].
+    rolling_friction: f64 = "rolling_friction";
+    /// Moment against spinning about the normal per normal force; default 0 \[m\].
+    torsional_friction: f64 = "torsional_friction";
     /// Of a beam as tip: its radius where it touches; default that of its sections, if they are round and equal \[m\].
     radius: f64 = "radius";
     /// The same of a beam as base \[m\].
@@ -47,10 +53,6 @@ entry! {
     stiffness_per_length: f64 = "stiffness_per_length";
     /// With `stiffness_per_length`: number of intervals between points of contact in an element; default 2.
     points: usize = "points";
-    /// Moment against rolling per normal force; default 0 \[m\].
-    rolling_friction: f64 = "rolling_friction";
-    /// Moment against spinning about the normal per normal force; default 0 \[m\].
-    torsional_friction: f64 = "torsional_friction";
 }
 
 entry! {

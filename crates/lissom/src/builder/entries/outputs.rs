@@ -201,7 +201,7 @@ entry! {
 }
 
 entry! {
-    /// Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, and sliding velocity.
+    /// Smallest gap of a contact, sum of its normal forces, magnitude of its friction, force on the tip in global axes, sliding velocity, numbers of points that touch and of those that slide, and the centre of the normal forces in global axes.
     ContactForce => OutputId, "contact_force";
     ["kind" = "contact_force"]
     /// With what must be given.
