@@ -461,6 +461,34 @@ end = {end}
     assert!((found - weight(1.0)).abs() < 1e-3 * weight(1.0), "{found} {}", weight(1.0));
 }
 
+/// Beams that share a node are joined there, and have no distance.
+#[test]
+fn beams_that_share_a_node_are_rejected() {
+    let text = format!(
+        "{MATERIAL}[parameters]\ndamping = 0\n{}",
+        r#"
+[beams.one]
+section = "rod"
+from = [0, 0, 0]
+to = [1, 0, 0]
+elements = 2
+[beams.other]
+section = "rod"
+from = "one.end"
+to = [1, 1, 0]
+elements = 2
+[contacts.corner]
+base = "one"
+tip = "other"
+stiffness = 1e6
+[analysis]
+kind = "dynamics"
+end = 1
+"#
+    );
+    assert!(problems(&text).contains("base and tip share a node"));
+}
+
 /// What is not available is rejected with a remedy.
 #[test]
 fn wrong_contacts_of_beams_are_rejected() {
