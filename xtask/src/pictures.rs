@@ -29,6 +29,7 @@ use Instants::{At, Moving, Strip};
 
 /// Names of pictures in docs/images, examples, and their instants.
 const PICTURES: &[(&str, &str, Instants)] = &[
+    ("belt-drive", "belt-drive", At(&[0.2])),
     ("bridge-crossing", "bridge-crossing", Strip(4)),
     ("computed-torque", "computed-torque", Strip(4)),
     ("crane-slack-cable", "crane-slack-cable", At(&[0.0, 0.42, 0.6])),
