@@ -191,19 +191,20 @@ fn crossing_beams_share_the_load() {
     for (elements, angle, shift) in [(4, 90.0_f64, 0.0), (5, 90.0, 0.0), (4, 40.0, 0.0), (4, 90.0, 0.013)] {
         let (sine, cosine) = angle.to_radians().sin_cos();
         let beam = |name: &str, height: f64, [x, y]: [f64; 2], shift: f64, load: &str| {
-            let mut text = format!(
+            let joint = |end: &str| {
+                format!(
+                    "[joints.{name}_{end}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"{name}.{end}\"\n"
+                )
+            };
+            format!(
                 "[beams.{name}]\nsection = \"rod\"\nfrom = [{}, {}, {height}]\nto = [{}, {y}, {height}]\n\
-                 elements = {elements}\n{load}\n",
+                 elements = {elements}\n{load}\n{}{}",
                 shift - x,
                 -y,
-                shift + x
-            );
-            for end in ["start", "end"] {
-                text += &format!(
-                    "[joints.{name}_{end}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"{name}.{end}\"\n"
-                );
-            }
-            text
+                shift + x,
+                joint("start"),
+                joint("end")
+            )
         };
         let text = format!(
             "{MATERIAL}[parameters]\ndamping = 0\n{}{}{}",
@@ -409,9 +410,7 @@ fn a_rope_on_a_drum_has_the_tensions_of_euler_and_eytelwein() {
 fn a_rod_rests_and_swings_in_a_bore() {
     let text = |damping: &str, dissipation: &str, end: &str| {
         format!(
-            "{MATERIAL}{}",
-            format!(
-                r#"
+            r#"{MATERIAL}
 [parameters]
 damping = "{damping}"
 [ground]
@@ -440,7 +439,6 @@ of = "rod@0.5"
 kind = "dynamics"
 end = {end}
 "#
-            )
         )
         .replace("lissom = 1", "lissom = 1\ngravity = [0, 0, -9.81]")
     };
