@@ -8,6 +8,7 @@ mod case;
 mod cases;
 mod collisions;
 mod compare;
+mod contacts;
 mod count;
 mod curves;
 mod defaults;
@@ -87,6 +88,8 @@ enum Chore {
     Laws(laws::LawsArguments),
     /// Try random collisions through springs between points against references that resolve them
     Collisions(collisions::CollisionsArguments),
+    /// Try random solids in contact, compliant and rigid: none may gain energy or penetrate
+    Contacts(contacts::ContactsArguments),
     /// Compare reactions and accelerations of random mechanisms with those of a finer solution
     Forces(forces::ForcesArguments),
     /// Read model files and expressions that are damaged by chance: each is read or rejected with its position
@@ -237,6 +240,7 @@ fn main() -> ExitCode {
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
         Chore::Forces(arguments) => Ok(forces::forces(&arguments)),
+        Chore::Contacts(arguments) => Ok(contacts::contacts(&arguments)),
         Chore::Collisions(arguments) => Ok(collisions::collisions(&arguments)),
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),

@@ -31,11 +31,13 @@ use Instants::{At, Moving, Strip};
 const PICTURES: &[(&str, &str, Instants)] = &[
     ("belt-drive", "belt-drive", At(&[0.2])),
     ("bridge-crossing", "bridge-crossing", Strip(4)),
+    ("cam-follower", "cam-follower", At(&[0.02, 0.05])),
     ("computed-torque", "computed-torque", Strip(4)),
     ("crane-slack-cable", "crane-slack-cable", At(&[0.0, 0.42, 0.6])),
     ("delta-robot", "delta-robot", Strip(4)),
     ("deployable-mast", "deployable-mast", Strip(5)),
     ("double-wishbone", "double-wishbone", At(&[2.1])),
+    ("geneva-drive", "geneva-drive", At(&[0.6, 0.78, 0.95])),
     ("rolling-disc", "rolling-disc", Strip(4)),
     ("satellite-latching-booms", "satellite-latching-booms", Strip(4)),
     ("slider-crank-3500rpm", "slider-crank-3500rpm", At(&[0.0, 0.002, 0.006, 0.01])),

@@ -57,6 +57,8 @@ pub(crate) enum Shape {
     PlaceOrNode,
     /// A node: `ground`, a body, a point mass, `beam.start`, `beam.end` or `beam@fraction`.
     Node,
+    /// A list of nodes.
+    Nodes,
     /// A number, an expression of the time `t`, or a table.
     Function,
     /// A number, an expression of time, inputs, signals, states and outputs, or a table.
@@ -183,6 +185,7 @@ impl Shape {
             | Self::Choices(_)
             | Self::Name(_)
             | Self::Node
+            | Self::Nodes
             | Self::Function
             | Self::Size
             | Self::Formula
@@ -330,6 +333,7 @@ impl Shape {
                 "of a plane, body axes: out of the solid half-space; default z",
             ),
             optional("file", Self::Text, "", "of a mesh: an STL or glTF file; path relative to this file"),
+            optional("touches", Self::Flag, "", "whether contacts of the part include it, default `true`"),
             optional("scale", Self::Vector, "", "of a mesh: factors along its axes, to metres; default 1"),
             optional(
                 "position",

@@ -210,6 +210,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Place => "a position",
         Shape::PlaceOrNode => "a position or a node",
         Shape::Node => "a node",
+        Shape::Nodes => "a list of nodes",
         Shape::Function => "a function of time",
         Shape::FunctionOf(variable) => {
             return format!("an expression of `{variable}`, or a table of it written as a function of time");

@@ -155,6 +155,7 @@ fn type_of(shape: &Shape) -> String {
         Shape::Choice(words) => return literal(words),
         Shape::Choices(words) => return format!("list[{}]", literal(words)),
         Shape::Text | Shape::Name(_) | Shape::Node => "str",
+        Shape::Nodes => "list[str]",
         Shape::Version | Shape::Count(..) => "Count",
         Shape::Number
         | Shape::Positive

@@ -169,6 +169,7 @@ fn of_shape(shape: &Shape) -> Value {
             json!({ "type": "array", "minItems": 1, "items": of_keys(&Shape::interface_keys()) })
         }
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
+        Shape::Nodes => json!({ "type": "array", "minItems": 1, "items": text() }),
         Shape::NumberRows => {
             let row = json!({ "type": "array", "minItems": 2, "items": plain() });
             json!({ "type": "array", "minItems": 2, "items": row })

@@ -259,6 +259,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         }
         Shape::PlaceOrNode => "PositionOrNode",
         Shape::Node => "Node",
+        Shape::Nodes => "Vec<Node>",
         Shape::Curve | Shape::Distribution | Shape::SectionDistribution => "[Expression; 3]",
         Shape::Axes => "[[f64; 3]; 2]",
         Shape::Mass => "Mass",

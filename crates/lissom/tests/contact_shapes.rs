@@ -220,6 +220,19 @@ fn a_roller_follows_a_cam_until_it_lifts_off() {
     }
 }
 
+/// The wheel of a Geneva drive turns by a quarter in each revolution of the crank, and waits in between.
+#[test]
+fn a_geneva_drive_turns_by_quarters() {
+    let record = run(include_str!("../../../examples/geneva-drive.toml"), &[]);
+    let angles = series(&record, "wheel.angle");
+    for (turn, time) in [(1.0, 1.5), (2.0, 3.1), (3.0, 4.7), (4.0, 6.1)] {
+        let index = record.times.iter().position(|&own| own > time).expect("within the run");
+        // The pin has a clearance of 0.2 mm on each side at 50 mm.
+        let quarter = -turn * std::f64::consts::FRAC_PI_2;
+        assert!((angles[index] - quarter).abs() < 0.01, "{time}: {} {quarter}", angles[index]);
+    }
+}
+
 #[test]
 fn wrong_shapes_are_rejected_with_a_remedy() {
     let ball = "{ sphere = 0.1 }";
@@ -249,4 +262,39 @@ fn wrong_shapes_are_rejected_with_a_remedy() {
         let found = problems(&falling(ground, shape, ""));
         assert!(found.contains(message), "{message}: {found}");
     }
+}
+
+/// `others` makes every two of several parts touch, as contacts of their own would.
+#[test]
+fn groups_are_all_their_pairs() {
+    let ball = |name: &str, x: f64, v: f64| {
+        format!(
+            "[bodies.{name}]\nmass = 1\ninertia = {{ sphere = 0.1 }}\nposition = [{x}, {}, 0.1]\nvelocity = [{v}, 0, 0]\n\
+             shape = {{ sphere = 0.1 }}\n[outputs.{name}]\nkind = \"velocity\"\nof = \"{name}\"\n",
+            0.03 * x
+        )
+    };
+    let law = "stiffness = 1e6\nexponent = 1.5\nrestitution = 0.8\nfriction = 0.3\n";
+    let parts = format!(
+        "lissom = 1\ngravity = [0, 0, -9.81]\n[ground]\nshape = {{ kind = \"plane\" }}\n{}{}{}[analysis]\nkind = \"dynamics\"\nend = 1\n",
+        ball("a", -0.5, 2.0),
+        ball("b", 0.0, 0.0),
+        ball("c", 0.25, 0.0)
+    );
+    let names = ["ground", "a", "b", "c"];
+    let pairs = (1..4).flat_map(|tip| (0..tip).map(move |base| (base, tip)));
+    let each: String = pairs
+        .map(|(base, tip)| {
+            format!("[contacts.p{base}{tip}]\nbase = \"{}\"\ntip = \"{}\"\n{law}", names[base], names[tip])
+        })
+        .collect();
+    let group = format!("[contacts.all]\nbase = \"ground\"\ntip = \"a\"\nothers = [\"b\", \"c\"]\n{law}");
+    let [of_each, of_group] = [each, group].map(|contacts| run(&format!("{parts}{contacts}"), &[]));
+    for column in ["a.v1", "a.v2", "b.v1", "c.v1", "c.v2"] {
+        let (one, other) = (last(&of_each, column), last(&of_group, column));
+        assert!((one - other).abs() < 1e-9, "{column}: {one} {other}");
+    }
+    assert!(last(&of_group, "c.v1") > 0.5);
+    let twice = format!("{parts}[contacts.all]\nbase = \"ground\"\ntip = \"a\"\nothers = [\"a\"]\n{law}");
+    assert!(problems(&twice).contains("names `a` twice"), "{}", problems(&twice));
 }

@@ -41,6 +41,7 @@ mod redundant;
 mod response;
 #[cfg(feature = "command-line")]
 mod resume;
+mod rigid_contacts;
 mod rolling_contact;
 mod ropes;
 mod schemes;

@@ -22,6 +22,9 @@ use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 use crate::tuning::MAX_ITERATIONS;
 
+/// Relative change of multipliers at which their iteration has converged where constraints repeat each other.
+const REDUNDANT_ITERATION: f64 = 1e-6;
+
 /// Inertias that define the metric of a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Inertias {
@@ -382,6 +385,7 @@ impl ConsistentInitialConditions {
     fn repeated(&mut self, system: &System, mut at: Kinematics) -> Result<Vec<f64>, InitialError> {
         let count = system.layout().coordinate_count();
         let (mut change, mut solution) = (f64::INFINITY, Vec::new());
+        let mut relaxation = 1.0;
         for _ in 0..MAX_ITERATIONS {
             let mut right = self.right_side(system, &at);
             self.solve(system, &mut right);
@@ -389,17 +393,25 @@ impl ConsistentInitialConditions {
                 return Ok(right);
             }
             let (seen, found) = (&mut at.multipliers, &right[count..]);
-            let largest = found.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let both = seen.iter().chain(found);
+            let largest = both.fold(0.0_f64, |most, value| most.max(value.abs()));
             let changes = seen.iter().zip(found).map(|(seen, found)| (seen - found).abs());
             let last =
                 std::mem::replace(&mut change, changes.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE));
             if change == 0.0 || (change < round_off::ITERATION && change >= last) {
                 return Ok(right);
             }
-            at.show_multipliers(found);
+            if change >= last && last.is_finite() {
+                // Friction that relieves its contact by more than half of the normal force.
+                relaxation *= 0.5;
+            }
+            seen.iter_mut().zip(found).for_each(|(seen, found)| *seen += relaxation * (found - *seen));
             solution = right;
         }
-        if change < round_off::ITERATION { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
+        // The shares of constraints that repeat each other are known to the round-off over their compliance.
+        let allowed =
+            if self.saddle.redundant().is_some() { REDUNDANT_ITERATION } else { round_off::ITERATION };
+        if change < allowed { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
     }
 
     /// [-f; -(Ḃ v + ∂²c/∂t²)] at a motion without accelerations.

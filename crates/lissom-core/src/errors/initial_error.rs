@@ -79,11 +79,11 @@ diagnostics! {
             /// The last change, relative to the largest multiplier.
             change: f64,
         } => "normal-forces" {
-            cause: ("initial accelerations: the iteration for the normal forces and creep forces of wheels on rails did not converge \
+            cause: ("initial accelerations: the iteration for normal forces and the friction or creep that depends on them did not converge \
                     (last relative change {change:.1e})"),
-            remedy: "check `friction_coefficient` and the constraints of the wheels",
-            meaning: "The iteration for the normal forces of wheels on rails, on which creep forces depend, does not converge at the start.",
-            advice: "Check `friction_coefficient` and the constraints of the wheels.",
+            remedy: "check `friction_coefficient` and the constraints of wheels on rails, and `friction` of rigid contacts",
+            meaning: "The iteration for the normal forces of wheels on rails or of rigid contacts, on which creep and friction depend, does not converge.",
+            advice: "Check `friction_coefficient` and the constraints of the wheels, and `friction` of rigid contacts.",
         }
         /// Rigid contacts without consistent forces.
         ContactForces {

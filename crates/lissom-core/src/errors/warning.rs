@@ -353,6 +353,23 @@ diagnostics! {
             advice: "A flange or a second contact would carry load from there on, which one constraint cannot represent: reduce the \
                 speed, or specify profiles over the whole width.",
         }
+        /// Two solids in contact overlap at the start.
+        ContactOverlaps {
+            /// The start [s].
+            time: f64,
+            /// Name of one of the parts.
+            part: String,
+            /// Penetration [m].
+            depth: f64,
+        } => "contact-overlaps" {
+            time: *time,
+            subject: Subject::new("part", part),
+            cause: ("at the start a contact of `{part}` is {depth:.3e} m deep, and will push the parts apart"),
+            remedy: "start the parts apart, or leave a solid out of contacts with `touches = false`",
+            meaning: "Two shapes in contact overlap at the start by more than a load would press them into each other. Their contact \
+                force accelerates them.",
+            advice: "Start the parts apart, or leave a solid out of contacts with `touches = false`.",
+        }
         /// Two solids in contact are almost within each other.
         ContactTooDeep {
             /// When it was first detected [s].

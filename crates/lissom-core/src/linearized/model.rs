@@ -64,6 +64,17 @@ diagnostics! {
             meaning: "The analysis does not support latches, which are constraints between velocities.",
             advice: "Remove the latch, or lock its joint by a stiff spring.",
         }
+        /// A rigid contact.
+        RigidContact {
+            /// Name of the contact.
+            contact: String,
+        } => "linear-rigid-contact" {
+            subject: Subject::new("contact", contact),
+            cause: ("the contact `{contact}` is rigid: it opens and closes, and has no linear model"),
+            remedy: "give it a `stiffness` instead of `rigid`",
+            meaning: "The analysis does not support rigid contacts, which open and close.",
+            advice: "Give the contact a `stiffness` instead of `rigid`.",
+        }
         /// A pivot vanished or a number is not finite.
         Factor {
             /// Time of the state [s].
@@ -131,6 +142,9 @@ impl<'a> LinearModel<'a> {
         interrupt::check()?;
         if system.signals().has_samples() {
             return Err(LinearError::Sampled {});
+        }
+        if let Some(contact) = system.rigid_contacts().next() {
+            return Err(LinearError::RigidContact { contact: contact.name.clone() });
         }
         let mut state = state.clone();
         let is_at_rest = is_at_rest(&state.kinematics);

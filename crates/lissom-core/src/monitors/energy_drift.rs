@@ -88,6 +88,7 @@ pub(super) fn begin(beginning: &Beginning<'_>) -> Option<Box<dyn Monitor>> {
     let is_free = system.drives().is_empty()
         && system.layout().states.is_empty()
         && system.layout().of_velocities.is_empty();
+    let is_free = is_free && !system.elements_with(|own| own.spring).any(|spring| spring.dissipates());
     let is_adaptive = settings.scheme.dynamic && settings.control.is_some();
     (is_free && is_adaptive).then(|| Box::<EnergyDrift>::default() as Box<dyn Monitor>)
 }

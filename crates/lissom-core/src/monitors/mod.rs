@@ -28,6 +28,7 @@ use std::any::Any;
 
 use monitor::Monitor;
 pub(crate) use monitor::{Accepted, Beginning};
+pub(crate) use penetration::overlap;
 
 use crate::errors::StepError;
 use crate::errors::Warning;

@@ -5,6 +5,9 @@ use crate::errors::{Warning, warn};
 use crate::kinematics::{GROUND, Kinematics};
 use crate::system::System;
 
+/// Share of half of the size of two solids that a penetration at the start exceeds only by mistake.
+const OVERLAP: f64 = 0.1;
+
 /// Reports the first contact that is too deep. Has no state.
 struct Penetration;
 
@@ -24,16 +27,24 @@ impl Monitor for Penetration {
 
 /// The first contact that is deeper than half of the size of its solids.
 fn too_deep(system: &System, at: &Kinematics) -> Option<Warning> {
+    let (part, [depth, limit]) = beyond(1.0, system, at)?;
+    Some(Warning::ContactTooDeep { time: at.time, part, depth, limit })
+}
+
+/// The first contact whose solids overlap at the start of a motion, as no weight or preload presses them into each other.
+pub(crate) fn overlap(system: &System, at: &Kinematics) -> Option<Warning> {
+    let (part, [depth, _]) = beyond(OVERLAP, system, at)?;
+    Some(Warning::ContactOverlaps { time: at.time, part, depth })
+}
+
+/// A part with a contact that is deeper than a share of half of the size of its solids, with its depth and that half.
+fn beyond(share: f64, system: &System, at: &Kinematics) -> Option<(String, [f64; 2])> {
     system.elements_with(|own| own.spring).find_map(|spring| {
         let least = spring.least_elongation()?;
         let [gap, ..] = spring.spring_motion(at);
         let named = |node| system.layout().name_of_node(node).to_owned();
         let parts = spring.unknowns().nodes.iter().copied();
-        (gap < least).then(|| Warning::ContactTooDeep {
-            time: at.time,
-            part: parts.filter(|&node| node != GROUND).map(named).next_back().unwrap_or_default(),
-            depth: -gap,
-            limit: -least,
-        })
+        let part = || parts.filter(|&node| node != GROUND).map(named).next_back().unwrap_or_default();
+        (gap < share * least).then(|| (part(), [-gap, -least]))
     })
 }

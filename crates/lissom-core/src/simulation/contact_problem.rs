@@ -20,6 +20,10 @@ const RELAXATIONS: [f64; 3] = [1.0, 0.5, 0.1];
 const CONVERGED: f64 = 1e-14;
 /// Changes below this fraction are accepted after the last iteration.
 const ACCEPTED: f64 = 1e-9;
+/// Iterations after which a drift is examined.
+const SWEEPS_OF_DRIFT: usize = 100;
+/// Relative change of a drift that is steady.
+const STEADY: f64 = 1e-2;
 /// Compliances below this fraction of the normal one are not positive.
 const POSITIVE: f64 = 1e-9;
 
@@ -83,14 +87,32 @@ impl ContactProblem {
         RELAXATIONS.into_iter().find_map(|relaxation| {
             let mut impulses = DVector::zeros(self.free.len());
             let mut change = f64::INFINITY;
-            for _ in 0..MAX_SWEEPS {
+            let (mut earlier, mut drift) = (impulses.clone(), DVector::zeros(self.free.len()));
+            for sweep in 1..=MAX_SWEEPS {
                 change = self.sweep(relaxation, &mut impulses);
                 if !change.is_finite() || change <= CONVERGED * relaxation * scale {
                     break;
                 }
+                if sweep % SWEEPS_OF_DRIFT == 0 {
+                    let latest = &impulses - &earlier;
+                    if (&latest - &drift).amax() < STEADY * latest.amax() {
+                        self.advance(&latest, &mut impulses);
+                    }
+                    (earlier, drift) = (impulses.clone(), latest);
+                }
             }
             (change <= ACCEPTED * relaxation * scale).then_some(impulses)
         })
+    }
+
+    /// Moves impulses along a steady drift until a contact has none: contacts that repeat each other cannot all be closed.
+    fn advance(&self, drift: &DVector<f64>, impulses: &mut DVector<f64>) {
+        let ends = (0..self.conditions.len()).map(|k| (impulses[3 * k], drift[3 * k]));
+        let way = ends.filter(|(_, rate)| *rate < 0.0).map(|(impulse, rate)| -impulse / rate);
+        let way = way.fold(f64::INFINITY, f64::min);
+        if way.is_finite() {
+            *impulses += way * drift;
+        }
     }
 
     /// One iteration over all contacts; returns the largest change of a velocity.

@@ -19,7 +19,7 @@ use crate::errors::step_error::describe;
 use crate::integrator::workspace::Workspace;
 use crate::integrator::{Attempt, Integrator, Start, pivoting_unless_augmented};
 use crate::judge::{self, Judge};
-use crate::monitors::{Accepted, Beginning, Monitors};
+use crate::monitors::{self, Accepted, Beginning, Monitors};
 use crate::newton::Failure;
 use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, Scaled};
@@ -262,6 +262,7 @@ fn begin_motion(
     let negligible = judge::start::negligible(representative, settings.step_size);
     judge::start::rates(system, representative, (&rates, specified.max(used), negligible))?;
     warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
+    warnings.extend(monitors::overlap(system, &state.kinematics));
     settle(system, state, &mut initial, settings)?;
     let held_values = may_jump(system, state).then_some(initial);
     Ok((velocity_correction, held_values))

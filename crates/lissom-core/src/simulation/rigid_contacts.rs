@@ -25,11 +25,19 @@ use crate::kinematics::{Kinematics, LOCKED, Layout, Subject};
 use crate::system::{State, System};
 
 /// Gaps below this fraction of the representative length are closed.
-const CLOSED: f64 = 1e-9;
+const CLOSED: f64 = 1e-8;
+/// Changes below this fraction of it, of the gaps of contacts that others keep from closing, are round-off.
+const BAND: f64 = 1e-9;
 /// The same at the start, where positions are given.
 const CLOSED_AT_START: f64 = 1e-6;
 /// Forces and accelerations below this fraction of the largest are zero.
 const ZERO: f64 = 1e-8;
+/// The same for forces of contacts that repeat each other, whose shares are known to fewer digits.
+const ZERO_SHARE: f64 = 1e-7;
+/// Eigenvalue of normal equations that repeat each other.
+const DEPENDENT: f64 = 1e-10;
+/// Smallest coefficient in a dependence.
+const PARTICIPATES: f64 = 1e-6;
 /// Energy beyond this fraction of that before is not round-off.
 const GAIN: f64 = 1e-12;
 /// Bisections of the restitution.
@@ -141,16 +149,18 @@ fn compliance(candidates: &[Candidate<'_>], responses: &[DVector<f64>]) -> DMatr
 #[derive(Default)]
 pub(super) struct Outcome {
     has_impact: bool,
+    /// Whether no part approached faster than its velocity of rest: a part that rocks comes to rest.
+    is_slow: bool,
     warnings: Vec<Warning>,
 }
 
-/// Solves impacts at `state`, and determines the modes of all contacts. `touched` are known to touch; gaps below `closed` [m] are
-/// closed.
+/// Solves impacts at `state`, and determines the modes of all contacts. `touched` are known to touch; gaps up to
+/// `near` [m] are closed, and those of contacts that others keep from closing may change by `band` [m].
 pub(super) fn resolve(
     system: &System,
     initial: &mut ConsistentInitialConditions,
     state: &mut State,
-    (touched, closed): (&[usize], f64),
+    (touched, [near, band]): (&[usize], [f64; 2]),
 ) -> Result<Outcome, InitialError> {
     let mut outcome = Outcome::default();
     let mut free = state.clone();
@@ -159,9 +169,7 @@ pub(super) fn resolve(
     }
     let at = &state.kinematics;
     let is_candidate = |index: usize, contact: &RigidContact| {
-        contact.mode(at) != Mode::Open
-            || touched.contains(&index)
-            || contact.touching(at).gap.value - contact.offset(at) <= closed
+        contact.mode(at) != Mode::Open || touched.contains(&index) || contact.touching(at).gap.value <= near
     };
     let of_state = |at: &Kinematics, kept: &dyn Fn(usize, &RigidContact) -> bool| -> Vec<Candidate<'_>> {
         let all = system.rigid_contacts().enumerate().filter(|&(index, contact)| kept(index, contact));
@@ -175,6 +183,7 @@ pub(super) fn resolve(
     let responses = responses(system, initial, &candidates);
     let compliance = compliance(&candidates, &responses);
     if candidates.iter().any(|candidate| candidate.velocity[0] < -candidate.contact.still()) {
+        outcome.is_slow = candidates.iter().all(|own| own.velocity[0] >= -own.contact.law.rest_velocity);
         impact(system, (&candidates, &responses, &compliance), state, &mut outcome)?;
         for candidate in &mut candidates {
             *candidate = Candidate::new(system, (candidate.index, candidate.contact), &state.kinematics);
@@ -184,14 +193,21 @@ pub(super) fn resolve(
         free.kinematics.held = held;
     }
     let accelerations = initial.acceleration_with_factors(system, &free)?;
-    let resting: Vec<usize> = (0..candidates.len())
-        .filter(|&k| candidates[k].velocity[0] <= candidates[k].contact.still())
-        .collect();
-    let modes = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
+    let is_resting = |candidate: &Candidate<'_>| {
+        let contact = candidate.contact;
+        let fastest = if outcome.is_slow { contact.law.rest_velocity } else { contact.still() };
+        candidate.velocity[0] <= fastest
+    };
+    let resting: Vec<usize> = (0..candidates.len()).filter(|&k| is_resting(&candidates[k])).collect();
+    let (modes, kept) = select(&candidates, &resting, (&compliance, &accelerations), &state.kinematics)?;
     for candidate in &candidates {
         let gap = candidate.touching.gap.value;
         state.kinematics.held[candidate.contact.held.offset.index()] = gap.min(0.0);
         set_mode(candidate.contact, Mode::Open, &mut state.kinematics);
+    }
+    for k in kept {
+        // Others keep its gap, up to round-off.
+        state.kinematics.held[candidates[k].contact.held.offset.index()] -= band;
     }
     for (k, mode, direction) in modes {
         set_mode(candidates[k].contact, mode, &mut state.kinematics);
@@ -217,8 +233,8 @@ fn impact(
         let condition = |candidate: &Candidate<'_>| {
             let law = &candidate.contact.law;
             let approach = candidate.velocity[0];
-            let rebounds = approach < -law.rest_velocity;
-            let rebound = if rebounds { share * law.restitution * approach } else { 0.0 };
+            // That of points at rest, zero up to round-off, is consistent with that of the others.
+            let rebound = if outcome.is_slow { 0.0 } else { share * law.restitution * approach };
             Condition { friction: law.friction, rebound, sliding: None }
         };
         let conditions = candidates.iter().map(condition).collect();
@@ -254,16 +270,19 @@ fn impact(
     Ok(())
 }
 
-/// Modes of the contacts that touch and do not separate, with the direction against which their friction acts; those without a
-/// force are omitted.
+/// Indices of candidates with their modes and the directions against which their friction acts.
+type Modes = Vec<(usize, Mode, Vector3<f64>)>;
+
+/// Modes of the contacts that touch and do not separate, without those that open; and the contacts without an equation that others
+/// keep closed.
 fn select(
     candidates: &[Candidate<'_>],
     resting: &[usize],
     (compliance, accelerations): (&DMatrix<f64>, &[f64]),
     at: &Kinematics,
-) -> Result<Vec<(usize, Mode, Vector3<f64>)>, InitialError> {
+) -> Result<(Modes, Vec<usize>), InitialError> {
     if resting.is_empty() {
-        return Ok(Vec::new());
+        return Ok(Default::default());
     }
     let index: Vec<usize> = resting.iter().flat_map(|k| 3 * k..3 * k + 3).collect();
     let compliance = DMatrix::from_fn(index.len(), index.len(), |i, j| compliance[(index[i], index[j])]);
@@ -290,10 +309,10 @@ fn select(
         .ok_or_else(|| InitialError::ContactForces { contact: candidates[resting[0]].subject() })?;
     let after = problem.velocities(&forces);
     let largest = problem.free.amax();
-    let mut modes = Vec::new();
+    let (mut modes, mut normal_forces, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     let is_pressed = |row: usize| problem.compliance[(3 * row, 3 * row)] * forces[3 * row] > ZERO * largest;
     if !(0..resting.len()).any(is_pressed) {
-        return Ok(modes);
+        return Ok((modes, Vec::new()));
     }
     for (row, &k) in resting.iter().enumerate() {
         let Candidate { contact, .. } = &candidates[k];
@@ -308,8 +327,58 @@ fn select(
             None => (Mode::Sticking, Vector2::zeros()),
         };
         modes.push((k, mode, candidates[k].in_base(&direction)));
+        normal_forces.push(forces[3 * row]);
     }
-    Ok(modes)
+    if modes.iter().any(|(k, mode, _)| *mode == Mode::Sliding && candidates[*k].contact.has_friction()) {
+        kept = reduce(candidates, &mut modes, normal_forces);
+    }
+    Ok((modes, kept))
+}
+
+/// Omits contacts that slide and whose normal equations repeat those of others: the shares of normal forces affect friction, and must
+/// be unique.
+///
+/// Legend: B rows of the normal velocities, y with Bᵀ y = 0, f normal forces.
+///
+/// ```text
+/// f ← f - α y,      α the smallest with f_k = 0 for a contact k that slides
+/// ```
+fn reduce(candidates: &[Candidate<'_>], modes: &mut Modes, mut forces: Vec<f64>) -> Vec<usize> {
+    let mut kept = Vec::new();
+    loop {
+        let rows: Vec<_> = modes
+            .iter()
+            .map(|(k, ..)| {
+                let row = &candidates[*k].rows[0];
+                row / row.norm().max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        let products = DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i].dot(&rows[j]));
+        let eigen = products.symmetric_eigen();
+        let Some((least, _)) = eigen
+            .eigenvalues
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.total_cmp(b.1))
+            .filter(|(_, value)| **value < DEPENDENT)
+        else {
+            return kept;
+        };
+        let dependence: Vec<f64> = (0..rows.len())
+            .map(|i| {
+                eigen.eigenvectors[(i, least)] / candidates[modes[i].0].rows[0].norm().max(f64::MIN_POSITIVE)
+            })
+            .collect();
+        let size = dependence.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+        let omitted = (0..rows.len())
+            .filter(|&i| modes[i].1 == Mode::Sliding && dependence[i].abs() > PARTICIPATES * size)
+            .min_by(|&a, &b| (forces[a] / dependence[a]).abs().total_cmp(&(forces[b] / dependence[b]).abs()));
+        let Some(omitted) = omitted else { return kept };
+        let alpha = forces[omitted] / dependence[omitted];
+        forces.iter_mut().zip(&dependence).for_each(|(force, own)| *force -= alpha * own);
+        forces.remove(omitted);
+        kept.push(modes.remove(omitted).0);
+    }
 }
 
 /// Makes velocities consistent with the modes, and the modes with the shares that contacts have in the forces.
@@ -332,10 +401,15 @@ fn share(
         let at = &state.kinematics;
         let forces: Vec<_> = resting.iter().map(|&k| candidates[k].contact.forces(at, multipliers)).collect();
         let largest = forces.iter().fold(0.0_f64, |most, (normal, _)| most.max(normal.abs()));
+        for &k in resting {
+            let held = candidates[k].contact.held.scale;
+            state.kinematics.held[held.index()] = largest;
+        }
+        let at = &state.kinematics;
         let worst = resting
             .iter()
             .zip(&forces)
-            .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO * largest)
+            .filter(|(k, (normal, _))| is_closed(**k, at) && *normal < -ZERO_SHARE * largest)
             .min_by(|a, b| a.1.0.total_cmp(&b.1.0));
         if let Some((&k, _)) = worst {
             set_mode(candidates[k].contact, Mode::Open, &mut state.kinematics);
@@ -348,7 +422,7 @@ fn share(
             .iter()
             .zip(&forces)
             .filter(|(k, _)| candidates[**k].contact.mode(at) == Mode::Sticking)
-            .filter(|(k, force)| excess(**k, force) > ZERO * largest)
+            .filter(|(k, force)| excess(**k, force) > ZERO_SHARE * largest)
             .max_by(|a, b| excess(*a.0, a.1).total_cmp(&excess(*b.0, b.1)));
         let Some((&k, (_, friction))) = slips else { return Ok(()) };
         let direction = -friction.normalize();
@@ -384,7 +458,12 @@ impl Simulation {
             }
         }
         let before = self.state.kinematics.clone();
-        let outcome = resolve(&self.system, initial, &mut self.state, (&[], CLOSED_AT_START * length))?;
+        let outcome = resolve(
+            &self.system,
+            initial,
+            &mut self.state,
+            (&[], [CLOSED_AT_START * length, BAND * length]),
+        )?;
         settle(&self.system, &mut self.state, initial, &self.settings)?;
         self.finish_contacts(&before, outcome);
         self.previous.clone_from(&self.state);
@@ -407,7 +486,7 @@ impl Simulation {
         let Some(initial) = &mut self.held_values else { return Ok(()) };
         let kept = self.state.clone();
         let time = self.state.kinematics.time;
-        let closed = CLOSED * self.integrator.representative.length;
+        let near = [CLOSED, BAND].map(|share| share * self.integrator.representative.length);
         let (system, state) = (&self.system, &mut self.state);
         let change = || {
             state.kinematics.time = earlier;
@@ -416,7 +495,7 @@ impl Simulation {
             if let Some(held) = held {
                 state.kinematics.held = held;
             }
-            let outcome = resolve(system, initial, state, (touched, closed))?;
+            let outcome = resolve(system, initial, state, (touched, near))?;
             let mut jump = initial.acceleration_at(system, state)?;
             jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
             Ok((outcome, jump))

@@ -18,7 +18,7 @@ use crate::derivatives::check;
 use crate::derivatives::configuration::{Configuration, Random, difference};
 
 /// Pairs of solids, and where the tip is in the axes of the base, so that they overlap.
-fn pairs() -> Vec<(Arc<dyn Pair>, Vector3)> {
+pub(super) fn pairs() -> Vec<(Arc<dyn Pair>, Vector3)> {
     let point =
         |surface: Arc<dyn Surface>| -> Arc<dyn Pair> { Arc::new(PointOnSurface { rounding: 3.0, surface }) };
     let segment = |surface: Arc<dyn Surface>| -> Arc<dyn Pair> {

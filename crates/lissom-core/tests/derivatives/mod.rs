@@ -13,6 +13,7 @@ mod locks;
 mod nearest_contacts;
 mod neighbours;
 mod ports;
+mod rigid_contacts;
 mod rolling;
 mod superelement;
 

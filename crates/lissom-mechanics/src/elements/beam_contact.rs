@@ -248,6 +248,10 @@ impl Element for BeamContact {
 }
 
 impl Spring for BeamContact {
+    fn dissipates(&self) -> bool {
+        self.contact.dissipates()
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         self.motion(at)
     }

@@ -585,6 +585,15 @@ impl Element for Contact {
 }
 
 impl Spring for Contact {
+    fn dissipates(&self) -> bool {
+        self.friction.is_some()
+            || self.resistance.is_some()
+            || match self.dissipation {
+                Dissipation::Factor(factor) => factor > 0.0,
+                Dissipation::AtTouch { relative, .. } => relative > 0.0,
+            }
+    }
+
     /// Gap, its rate and the normal force.
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         self.motion(at)

@@ -176,6 +176,10 @@ impl Load for CoordinateSpring {
 }
 
 impl Spring for CoordinateSpring {
+    fn dissipates(&self) -> bool {
+        self.law.depends_on_rate()
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let [elongation, rate] = self.motion(at);
         [elongation, rate, self.law.evaluate(elongation, rate, self.switch_states.of(at)).force]

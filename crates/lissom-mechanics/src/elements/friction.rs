@@ -189,6 +189,10 @@ impl Element for Friction {
 }
 
 impl Spring for Friction {
+    fn dissipates(&self) -> bool {
+        true
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let coordinate = at.coordinates[self.coordinates[0]];
         let mut forces = [0.0; 2];

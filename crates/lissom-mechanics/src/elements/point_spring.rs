@@ -278,6 +278,10 @@ impl Load for PointSpring {
 }
 
 impl Spring for PointSpring {
+    fn dissipates(&self) -> bool {
+        self.law.depends_on_rate()
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let (_, length, rate, tension) = self.tension(at, &self.points(at));
         [length - self.length, rate, tension.force]

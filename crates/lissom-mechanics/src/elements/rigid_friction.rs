@@ -107,11 +107,11 @@ impl ContactGuard {
         match (self.guard, mode) {
             (Guard::Touch, Mode::Open) => contact.touching(at).gap.value - contact.offset(at),
             (Guard::Release, Mode::Sliding | Mode::Sticking | Mode::Saturated) => {
-                contact.forces(at, &at.multipliers).0
+                contact.forces(at, &at.multipliers).0 + contact.no_force(at)
             }
             (Guard::Slip, Mode::Sticking) => {
                 let (normal, friction) = contact.forces(at, &at.multipliers);
-                contact.law.friction * normal - friction.norm()
+                contact.law.friction * normal - friction.norm() + contact.no_force(at)
             }
             (Guard::Slip, Mode::Sliding) if contact.has_friction() => {
                 let touching = contact.touching(at);

@@ -303,6 +303,10 @@ impl Element for RollingContact {
 }
 
 impl Spring for RollingContact {
+    fn dissipates(&self) -> bool {
+        true
+    }
+
     /// Gap, its rate and the normal force.
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let touch = self.touch(at);

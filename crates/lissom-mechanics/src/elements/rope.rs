@@ -437,6 +437,10 @@ impl Load for Rope {
 }
 
 impl Spring for Rope {
+    fn dissipates(&self) -> bool {
+        self.law.depends_on_rate()
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let shape = self.shape(at);
         [shape.elongation, shape.rate, self.tension(&shape, at).force]

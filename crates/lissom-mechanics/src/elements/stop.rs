@@ -201,6 +201,10 @@ impl Element for Stop {
 }
 
 impl Spring for Stop {
+    fn dissipates(&self) -> bool {
+        self.dissipation > 0.0
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let coordinate = &at.coordinates[self.coordinate[0]];
         [coordinate.value, coordinate.rate, self.response(at).force]

@@ -51,6 +51,9 @@ pub trait Spring: Element {
     /// Derivatives of these three numbers with respect to its local unknowns.
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3];
 
+    /// Whether its force may dissipate energy at some elongation.
+    fn dissipates(&self) -> bool;
+
     /// The elongation below which it describes no real part [m], as where two solids in contact penetrate each other almost
     /// completely. Default: there is none.
     fn least_elongation(&self) -> Option<f64> {

@@ -28,6 +28,8 @@ use crate::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Quant
 
 /// γ [1/s].
 const RETURN_RATE: f64 = 10.0;
+/// Forces below this fraction of the largest are zero: the shares of contacts that repeat each other are not known better.
+const NO_FORCE: f64 = 2e-7;
 /// Velocities below this fraction of the velocity of rest are zero.
 const STILL: f64 = 1e-3;
 
@@ -87,6 +89,8 @@ pub struct RigidState {
     pub mode: DiscreteValueId,
     /// Gap at which it touches, zero up to the errors of the scheme [m].
     pub offset: DiscreteValueId,
+    /// Largest normal force of all contacts that touched when its mode was determined [N].
+    pub scale: DiscreteValueId,
     /// Direction against which friction acts, while it slides or is saturated; base's axes.
     pub direction: [DiscreteValueId; 3],
 }
@@ -219,6 +223,11 @@ impl RigidContact {
     /// The velocity below which it is at rest [m/s].
     pub fn still(&self) -> f64 {
         STILL * self.law.rest_velocity
+    }
+
+    /// Force that is zero [N].
+    pub fn no_force(&self, at: &Kinematics) -> f64 {
+        NO_FORCE * at.held.get(self.held.scale.index()).copied().unwrap_or(0.0)
     }
 
     /// The mode.

@@ -174,6 +174,7 @@ fn of_beam(
     Some(ContactEntry {
         name: Located::new(name.to_owned(), reader.name),
         between,
+        others: Vec::new(),
         beams: Some(BeamSides { beam, base, radii: [radius("base_radius"), radius("radius")], touching }),
         stiffness: Ok(stiffness),
         exponent: number_or(reader, "exponent", 1.0),

@@ -196,7 +196,9 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         }
     }
     for contact in &document.contacts {
-        groups.join(part_of(&contact.between[0].value), part_of(&contact.between[1].value));
+        for [base, tip] in contact.pairs() {
+            groups.join(part_of(&base.value), part_of(&tip.value));
+        }
     }
     for beam in &document.beams {
         for shared in beam.shared_start.iter().chain(&beam.shared_end) {

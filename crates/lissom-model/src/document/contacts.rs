@@ -20,6 +20,7 @@ use crate::registry::Registry;
 use crate::report::Located;
 use crate::solid::PlacedSolid;
 use crate::surface::Surface;
+use crate::text::Value;
 
 /// Smallest restitution of contacts that are not rigid.
 const LEAST_RESTITUTION: f64 = 0.01;
@@ -49,6 +50,8 @@ pub struct ContactEntry {
     pub name: Located<String>,
     /// Base and tip; of a beam its start.
     pub between: [Located<NodeReference>; 2],
+    /// Further parts: every two of all touch each other.
+    pub others: Vec<Located<NodeReference>>,
     /// The beams that touch, if there are any.
     pub beams: Option<BeamSides>,
     /// Force at a penetration of 1 m [N/mⁿ], or the materials of both parts, from which it follows.
@@ -69,6 +72,17 @@ pub struct ContactEntry {
     pub rigid: Option<RigidEntry>,
 }
 
+impl ContactEntry {
+    /// Every two parts that may touch.
+    pub(crate) fn pairs(&self) -> impl Iterator<Item = [&Located<NodeReference>; 2]> {
+        let parts: Vec<_> = self.between.iter().chain(&self.others).collect();
+        (1..parts.len()).flat_map(move |tip| {
+            let parts = parts.clone();
+            (0..tip).map(move |base| [parts[base], parts[tip]])
+        })
+    }
+}
+
 /// Keys of `[ground]`.
 pub(super) fn ground_keys() -> Vec<Key> {
     vec![
@@ -86,6 +100,7 @@ pub(super) fn keys() -> Vec<Key> {
             "",
             "a body or point mass with a `shape`, or \"ground\"; a beam, if the tip is one",
         ),
+        optional("others", Shape::Nodes, "", "further parts: every two of `base`, `tip` and these may touch"),
         required("tip", Shape::Node, "", "the other part that may touch it; or the name of a beam"),
         optional(
             "rigid",
@@ -203,15 +218,24 @@ pub(super) fn contacts(
     };
     each(context, "contacts", |reader, name| {
         if beam_contacts::is_of_beam(reader) {
+            if let Some(node) = reader.node("others") {
+                let message = format!("{} is of a beam and has `others`", reader.what);
+                return context.fail(
+                    node.span,
+                    message,
+                    "write a contact for each part that the beam touches",
+                );
+            }
             let entry = beam_contacts::entry(reader, name, &|part| is_solid(part, &reader.what));
             return check_law(reader, entry?);
         }
         let between = two_nodes(reader)?;
-        for part in &between {
+        let others = others(reader, &between)?;
+        for part in between.iter().chain(&others) {
             is_solid(part, &reader.what)?;
         }
         if let Some(rigid) = rigid_contacts::rigid(reader)? {
-            return Some(rigid_contacts::entry(name, reader, between, rigid));
+            return Some(ContactEntry { others, ..rigid_contacts::entry(name, reader, between, rigid) });
         }
         let stiffness = stiffness(reader)?;
         let exponent = number_or(reader, "exponent", 1.0);
@@ -220,6 +244,7 @@ pub(super) fn contacts(
         let entry = ContactEntry {
             name: Located::new(name.to_owned(), reader.name),
             between,
+            others,
             beams: None,
             exponent: if stiffness.is_err() { 1.5 } else { exponent },
             stiffness,
@@ -232,6 +257,28 @@ pub(super) fn contacts(
         };
         check_law(reader, entry)
     })
+}
+
+/// Further parts of a contact, each named once.
+fn others(
+    reader: &Reader<'_, '_>,
+    between: &[Located<NodeReference>; 2],
+) -> Option<Vec<Located<NodeReference>>> {
+    let Some(node) = reader.node("others") else { return Some(Vec::new()) };
+    let (context, what) = (reader.context, format!("each entry of {}", reader.words("others")));
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &reader.words("others"), "a list of parts");
+    };
+    let mut found: Vec<Located<NodeReference>> = Vec::new();
+    for entry in list {
+        let part = context.node(entry, &what)?;
+        if between.iter().chain(&found).any(|known| known.value == part.value) {
+            let message = format!("{} names {} twice", reader.what, words(&part.value));
+            return context.fail(part.span, message, "remove one of them");
+        }
+        found.push(part);
+    }
+    Some(found)
 }
 
 /// Checks the exponent and the coefficients of friction.

@@ -67,6 +67,7 @@ pub(super) fn entry(
     ContactEntry {
         name: Located::new(name.to_owned(), reader.name),
         between,
+        others: Vec::new(),
         beams: None,
         stiffness: Ok(0.0),
         exponent: 1.0,

@@ -86,9 +86,11 @@ pub(super) fn shape(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Body> {
             let (mut surface, mut solids) = (Surface::default(), Vec::new());
             for entry in entries {
                 let what = if entries.len() > 1 { format!("each entry of {what}") } else { what.clone() };
-                let (drawn, solid) = drawn(reader, entry, &what, center)?;
+                let own = opened(reader, entry, &what, Shape::drawn_keys())?;
+                let touches = !own.has("touches") || own.flag("touches")?.value;
+                let (drawn, solid) = drawn((&own, entry), &what, center)?;
                 surface.append(&drawn);
-                solids.extend(solid);
+                solids.extend(touches.then_some(solid));
             }
             let surface = (!surface.triangles.is_empty()).then(|| Arc::new(surface));
             Some(Body { surface, solids })
@@ -119,13 +121,11 @@ fn file(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Option<Arc<Su
 
 /// The surface of a solid or a file at its position in the body, and the solid.
 fn drawn(
-    reader: &Reader<'_, '_>,
-    node: &Node,
+    (own, node): (&Reader<'_, '_>, &Node),
     what: &str,
     center: &Vector3,
-) -> Option<(Surface, Option<PlacedSolid>)> {
-    let own = opened(reader, node, what, Shape::drawn_keys())?;
-    let kind = kind(&own, node, what)?;
+) -> Option<(Surface, PlacedSolid)> {
+    let kind = kind(own, node, what)?;
     let vector = |key: &str, default: Vector3| {
         if own.has(key) { own.vector(key).map(|vector| vector.value) } else { Some(default) }
     };
@@ -137,32 +137,32 @@ fn drawn(
     );
     if kind == "mesh" {
         let scale = vector("scale", Vector3::repeat(1.0))?;
-        let surface = file(&own, own.node("file")?, "file")?;
+        let surface = file(own, own.node("file")?, "file")?;
         let scaled = surface.map_or_else(Surface::default, |own| own.moved(&Motion::IDENTITY, &scale));
         let placed = PlacedSolid { form: Form::Mesh(Arc::new(scaled.clone())), frame };
-        return Some((scaled.moved(&frame, &Vector3::repeat(1.0)), Some(placed)));
+        return Some((scaled.moved(&frame, &Vector3::repeat(1.0)), placed));
     }
     let other = match kind {
-        "plane" => Some((Form::HalfSpace, direction(&own, "normal")?)),
-        "outline" => Some((outline(&own)?, direction(&own, "axis")?)),
-        "hull" => Some((hull(&own)?, Vector3::z())),
-        "height_field" => Some((height_field(&own)?, Vector3::z())),
+        "plane" => Some((Form::HalfSpace, direction(own, "normal")?)),
+        "outline" => Some((outline(own)?, direction(own, "axis")?)),
+        "hull" => Some((hull(own)?, Vector3::z())),
+        "height_field" => Some((height_field(own)?, Vector3::z())),
         _ => None,
     };
     if let Some((form, axis)) = other {
         let length = if kind == "outline" { own.number("length")?.value } else { 0.0 };
         let frame = frame * Motion::new(turned_to(&axis), Vector3::zeros());
         let surface = Surface::of_form(&form, length).moved(&frame, &Vector3::repeat(1.0));
-        return Some((surface, Some(PlacedSolid { form, frame })));
+        return Some((surface, PlacedSolid { form, frame }));
     }
-    let solid = read(&own, node, kind)?;
+    let solid = read(own, node, kind)?;
     let surface = Surface::of_solid(&solid, &Vector3::zeros()).moved(&frame, &Vector3::repeat(1.0));
     let turn = match solid {
         Solid::Tube { axis, .. } | Solid::Capsule { axis, .. } => turned_to(&axis),
         Solid::Box(_) | Solid::Sphere(_) | Solid::Ellipsoid(_) => Rotation::IDENTITY,
     };
     let placed = PlacedSolid { form: Form::Solid(solid), frame: frame * Motion::new(turn, Vector3::zeros()) };
-    Some((surface, Some(placed)))
+    Some((surface, placed))
 }
 
 /// The outline of a prism.

@@ -62,9 +62,7 @@ pub(super) fn add(
     }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
         if let Some(law) = &entry.rigid {
-            let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
-            let nodes = base.and_then(|base| Ok([base, tip?]));
-            match nodes.and_then(|nodes| super::rigid_contacts::add(document, (entry, law), nodes, builder)) {
+            match super::rigid_contacts::add(document, (entry, law), names, builder) {
                 Ok(points) => drop(names.rigid_contacts.insert(entry.name.value.clone(), points)),
                 Err(problem) => problems.push(problem),
             }
@@ -73,9 +71,7 @@ pub(super) fn add(
         let added = if let Some(sides) = &entry.beams {
             super::beam_contacts::add(document, (entry, sides), names, builder)
         } else {
-            let [base, tip] = entry.between.each_ref().map(|part| names.node(part));
-            let nodes = base.and_then(|base| Ok([base, tip?]));
-            nodes.and_then(|nodes| super::contacts::add(document, entry, nodes, builder))
+            super::contacts::add(document, entry, names, builder)
         };
         match added {
             Ok(points) => drop(names.contacts.insert(entry.name.value.clone(), points)),

@@ -18,10 +18,11 @@ use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation, Vector3};
 use nalgebra::Vector2;
 
+use super::Names;
 use super::straight_line::Line;
 use crate::contact_point::ContactPoint;
 use crate::document::{ContactEntry, Document, NodeReference, Restitution};
-use crate::report::Problem;
+use crate::report::{Located, Problem};
 use crate::solid::{Form, PlacedSolid, Solid};
 
 /// Radius of the edges of boxes where boxes touch each other, of the shortest side: edges that cross then have a direction between
@@ -64,21 +65,21 @@ pub(super) fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [P
     found.map_or(&[], Vec::as_slice)
 }
 
-/// Adds a contact between two nodes.
+/// Adds a contact.
 pub(super) fn add(
     document: &Document,
     entry: &ContactEntry,
-    nodes: [NodeId; 2],
+    names: &Names,
     builder: &mut Builder,
 ) -> Result<Vec<ContactPoint>, Problem> {
     let name = &entry.name.value;
     let mut points = Vec::new();
-    for (solids, meetings) in meetings_of(document, entry)? {
+    for SolidPair { solids, nodes, meetings } in solid_pairs(document, entry, names)? {
         let stiffness = stiffness(document, entry, solids)?;
-        points.extend(meetings.into_iter().map(|meeting| (meeting, stiffness)));
+        points.extend(meetings.into_iter().map(|meeting| (meeting, nodes, stiffness)));
     }
     let mut all = Vec::new();
-    for (number, (meeting, stiffness)) in points.into_iter().enumerate() {
+    for (number, (meeting, nodes, stiffness)) in points.into_iter().enumerate() {
         let order = if meeting.is_in_order { [0, 1] } else { [1, 0] };
         let frames =
             [0, 1].map(|side| CarriedFrame { node: nodes[order[side]], offset: meeting.frames[side] });
@@ -259,13 +260,39 @@ fn hull_corners(form: &Form) -> Result<Option<Vec<Vector3>>, MeshError> {
     }
 }
 
-/// The pairs of solids of a contact, with the points at which they may touch.
-pub(super) fn meetings_of<'d>(
+/// Two solids that may touch.
+pub(super) struct SolidPair<'d> {
+    /// Those of base and tip.
+    solids: [&'d PlacedSolid; 2],
+    /// Nodes of base and tip.
+    pub(super) nodes: [NodeId; 2],
+    /// The points at which they may touch.
+    pub(super) meetings: Vec<Meeting>,
+}
+
+/// The pairs of solids of a contact.
+pub(super) fn solid_pairs<'d>(
     document: &'d Document,
     entry: &ContactEntry,
+    names: &Names,
+) -> Result<Vec<SolidPair<'d>>, Problem> {
+    let mut all = Vec::new();
+    for parts in entry.pairs() {
+        let nodes = [names.node(parts[0])?, names.node(parts[1])?];
+        let found = meetings_of(document, entry, parts)?;
+        all.extend(found.into_iter().map(|(solids, meetings)| SolidPair { solids, nodes, meetings }));
+    }
+    Ok(all)
+}
+
+/// The pairs of solids of two parts, with the points at which they may touch.
+fn meetings_of<'d>(
+    document: &'d Document,
+    entry: &ContactEntry,
+    parts: [&Located<NodeReference>; 2],
 ) -> Result<Vec<([&'d PlacedSolid; 2], Vec<Meeting>)>, Problem> {
     let name = &entry.name.value;
-    let [first, second] = entry.between.each_ref().map(|part| solids(document, &part.value));
+    let [first, second] = parts.map(|part| solids(document, &part.value));
     let pairs = first.iter().flat_map(|one| second.iter().map(move |other| [one, other]));
     let found = pairs.map(|pair| {
         let found = meetings(pair[0], pair[1]).map_err(|error| {

@@ -4,23 +4,24 @@ use std::sync::Arc;
 
 use lissom_core::elements::rigid_friction::{ContactGuard, Guard};
 use lissom_core::joints::rigid_contact::{RigidContact, RigidLaw};
-use lissom_core::kinematics::{CarriedFrame, NodeId, Subject};
+use lissom_core::kinematics::{CarriedFrame, Subject};
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::event::{Direction, Event};
 use lissom_core::signals::{Argument, Signal};
 use lissom_core::system::Builder;
 
-use super::contacts::meetings_of;
+use super::Names;
+use super::contacts::{SolidPair, solid_pairs};
 use super::straight_line::Line;
 use crate::contact_point::RigidPoint;
 use crate::document::{ContactEntry, Document, RigidEntry};
 use crate::report::Problem;
 
-/// Adds a rigid contact between two nodes.
+/// Adds a rigid contact.
 pub(super) fn add(
     document: &Document,
     (entry, law): (&ContactEntry, &RigidEntry),
-    nodes: [NodeId; 2],
+    names: &Names,
     builder: &mut Builder,
 ) -> Result<Vec<RigidPoint>, Problem> {
     let name = &entry.name.value;
@@ -31,8 +32,8 @@ pub(super) fn add(
     let law =
         RigidLaw { restitution: law.restitution, friction: law.friction, rest_velocity: law.rest_velocity };
     let mut all: Vec<RigidPoint> = Vec::new();
-    for (_, found) in meetings_of(document, entry)? {
-        for meeting in found {
+    for SolidPair { nodes, meetings, .. } in solid_pairs(document, entry, names)? {
+        for meeting in meetings {
             let order = if meeting.is_in_order { [0, 1] } else { [1, 0] };
             let frames =
                 [0, 1].map(|side| CarriedFrame { node: nodes[order[side]], offset: meeting.frames[side] });

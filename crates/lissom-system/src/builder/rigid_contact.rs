@@ -25,6 +25,7 @@ impl Builder {
         let held = RigidState {
             mode: held("mode"),
             offset: held("offset"),
+            scale: held("scale"),
             direction: ["direction 1", "direction 2", "direction 3"].map(&mut held),
         };
         let first = self.multipliers.len();

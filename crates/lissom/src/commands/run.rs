@@ -441,9 +441,14 @@ fn render(
             Written(energy.largest)
         ),
     );
-    for event in simulation.system().signals().events() {
+    let graph = simulation.system().signals();
+    for event in graph.events() {
         let own = session.events().filter(|(name, _)| *name == event.name);
         let times: Vec<f64> = own.map(|(_, time)| time).collect();
+        // A box has up to 24 of them.
+        if times.is_empty() && graph.signals()[event.root].subject.kind == "contact" {
+            continue;
+        }
         let words = match times.as_slice() {
             [] => "did not happen".to_owned(),
             [time] => format!("happened at t = {} s", Written(*time)),

@@ -322,6 +322,10 @@ impl Element for NearestContact {
 }
 
 impl Spring for NearestContact {
+    fn dissipates(&self) -> bool {
+        self.dissipation > 0.0
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         self.motion(at)
     }
