@@ -29,6 +29,7 @@ use Instants::{At, Moving, Strip};
 
 /// Names of pictures in docs/images, examples, and their instants.
 const PICTURES: &[(&str, &str, Instants)] = &[
+    ("belt-drive", "belt-drive", At(&[0.2])),
     ("bridge-crossing", "bridge-crossing", Strip(4)),
     ("cam-follower", "cam-follower", At(&[0.02, 0.05])),
     ("computed-torque", "computed-torque", Strip(4)),

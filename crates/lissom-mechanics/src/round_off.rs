@@ -72,3 +72,9 @@ pub const NEGLIGIBLE: f64 = 1e-6;
 pub const STEP_END: f64 = 1e-6;
 /// Distance from the end of a step, as a step fraction, of the values that determine a rate there.
 pub const SLOPE_OFFSET: f64 = 1e-3;
+
+/// Changes of the parameter of a nearest point on a curve, relative to its range.
+pub const CURVE_PARAMETER: f64 = 1e-15;
+
+/// Changes of a squared distance, relative to it.
+pub const SQUARED_DISTANCE: f64 = 1e-13;

@@ -191,19 +191,20 @@ fn crossing_beams_share_the_load() {
     for (elements, angle, shift) in [(4, 90.0_f64, 0.0), (5, 90.0, 0.0), (4, 40.0, 0.0), (4, 90.0, 0.013)] {
         let (sine, cosine) = angle.to_radians().sin_cos();
         let beam = |name: &str, height: f64, [x, y]: [f64; 2], shift: f64, load: &str| {
-            let mut text = format!(
+            let joint = |end: &str| {
+                format!(
+                    "[joints.{name}_{end}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"{name}.{end}\"\n"
+                )
+            };
+            format!(
                 "[beams.{name}]\nsection = \"rod\"\nfrom = [{}, {}, {height}]\nto = [{}, {y}, {height}]\n\
-                 elements = {elements}\n{load}\n",
+                 elements = {elements}\n{load}\n{}{}",
                 shift - x,
                 -y,
-                shift + x
-            );
-            for end in ["start", "end"] {
-                text += &format!(
-                    "[joints.{name}_{end}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"{name}.{end}\"\n"
-                );
-            }
-            text
+                shift + x,
+                joint("start"),
+                joint("end")
+            )
         };
         let text = format!(
             "{MATERIAL}[parameters]\ndamping = 0\n{}{}{}",
@@ -227,6 +228,38 @@ steps = 4
         let found = last(&record, "cross.normal");
         assert!((found - wanted).abs() < 0.01 * wanted, "{elements} {angle} {shift}: {found} {wanted}");
         assert!((last(&record, "cross.f3") - found).abs() < 1e-3 * found, "the upper beam is pushed up");
+    }
+}
+
+/// Two equal leaves that lie on each other, without friction, share a uniform load on the upper one: w = q L⁴/(16 EI).
+#[test]
+fn leaves_that_lie_on_each_other_share_the_load() {
+    let leaf = |name: &str, height: f64, load: &str| {
+        format!(
+            "[beams.{name}]\nsection = \"rod\"\nfrom = [0, 0, {height}]\nto = [0.4, 0, {height}]\nelements = 8\norder = 2\n\
+             {load}\n[joints.{name}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"{name}.start\"\n\
+             [outputs.{name}]\nkind = \"displacement\"\nof = \"{name}.end\"\n"
+        )
+    };
+    let text = format!(
+        "{MATERIAL}[parameters]\ndamping = 0\n{}{}{}",
+        leaf("lower", 0.0, ""),
+        leaf("upper", 0.02, "force_per_length = [0, 0, -2000]"),
+        r#"
+[contacts.leaf]
+base = "lower"
+tip = "upper"
+stiffness_per_length = 1e8
+points = 5
+[analysis]
+kind = "statics"
+"#
+    );
+    let record = run(&text, &[]);
+    let wanted = 2000.0 * 0.4_f64.powi(4) / (16.0 * BENDING);
+    for name in ["lower", "upper"] {
+        let found = -last(&record, &format!("{name}.u3"));
+        assert!((found - wanted).abs() < 0.01 * wanted, "{name}: {found} {wanted}");
     }
 }
 
@@ -377,9 +410,7 @@ fn a_rope_on_a_drum_has_the_tensions_of_euler_and_eytelwein() {
 fn a_rod_rests_and_swings_in_a_bore() {
     let text = |damping: &str, dissipation: &str, end: &str| {
         format!(
-            "{MATERIAL}{}",
-            format!(
-                r#"
+            r#"{MATERIAL}
 [parameters]
 damping = "{damping}"
 [ground]
@@ -408,7 +439,6 @@ of = "rod@0.5"
 kind = "dynamics"
 end = {end}
 "#
-            )
         )
         .replace("lissom = 1", "lissom = 1\ngravity = [0, 0, -9.81]")
     };
@@ -427,6 +457,34 @@ end = {end}
     );
     let found = last(&record, "bore.normal");
     assert!((found - weight(1.0)).abs() < 1e-3 * weight(1.0), "{found} {}", weight(1.0));
+}
+
+/// Beams that share a node are joined there, and have no distance.
+#[test]
+fn beams_that_share_a_node_are_rejected() {
+    let text = format!(
+        "{MATERIAL}[parameters]\ndamping = 0\n{}",
+        r#"
+[beams.one]
+section = "rod"
+from = [0, 0, 0]
+to = [1, 0, 0]
+elements = 2
+[beams.other]
+section = "rod"
+from = "one.end"
+to = [1, 1, 0]
+elements = 2
+[contacts.corner]
+base = "one"
+tip = "other"
+stiffness = 1e6
+[analysis]
+kind = "dynamics"
+end = 1
+"#
+    );
+    assert!(problems(&text).contains("base and tip share a node"));
 }
 
 /// What is not available is rejected with a remedy.

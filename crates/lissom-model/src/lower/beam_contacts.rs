@@ -64,6 +64,7 @@ pub(super) fn add(
         }
         (Some(base), touching) => {
             let other = names.lines.get(&base.value).ok_or_else(|| unknown(&base.value, entry))?;
+            of_beam.check_apart(line, &other.nodes)?;
             let radius = self::radius(document, entry, (&base.value, "base_radius"), sides.radii[0])?;
             let curves = of_beam.intervals(&base.value, other)?;
             of_beam.with_beam((&curves, radius), (line, touching), builder)
@@ -193,6 +194,7 @@ impl OfBeam<'_> {
         stiffness: f64,
         builder: &mut Builder,
     ) -> Result<Vec<ContactPoint>, Problem> {
+        self.check_apart(line, &[base])?;
         let tips = self.intervals(self.beam(), line)?;
         let mut all = Vec::new();
         for solid in solids(self.document, &self.entry.between[0].value) {
@@ -282,6 +284,15 @@ impl OfBeam<'_> {
     fn fault(&self, message: &str, help: &str) -> Problem {
         let name = &self.entry.name.value;
         Problem::error(self.entry.name.span, format!("contact `{name}`: {message}")).help(help)
+    }
+
+    /// Where parts share a node the distance is always zero.
+    fn check_apart(&self, line: &BeamLine, nodes: &[NodeId]) -> Result<(), Problem> {
+        if line.nodes.iter().any(|node| nodes.contains(node)) {
+            let help = "the contact would act at that node: join the parts by a joint outside of their radii, or remove the contact";
+            return Err(self.fault("base and tip share a node", help));
+        }
+        Ok(())
     }
 
     /// A solid between two points of a beam would not be noticed.

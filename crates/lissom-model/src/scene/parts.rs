@@ -1,13 +1,21 @@
 //! Bodies, point masses and beams as they look.
 
 use lissom_core::kinematics::{GROUND, NodeId};
-use lissom_motion::{Matrix3, Motion};
+use lissom_motion::{Matrix3, Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::Places;
 use super::shapes::{InertiaBox, Outline};
 use crate::document::Document;
+use crate::solid::{Form, PlacedSolid, Solid};
 use crate::surface::Surface;
+
+/// Side of a drawn plane over the diagonal of the model.
+const LARGER: f64 = 1.6;
+/// Tiles along a side of a drawn plane.
+const TILES: usize = 12;
+/// Thickness of a drawn plane over its side.
+const THINNER: f64 = 0.005;
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -110,13 +118,62 @@ pub(super) fn point_masses(document: &Document, places: &Places<'_>) -> Vec<Poin
         Some(PointMass { node: *nodes.get(&name)?, name, mass: mass.mass, surface })
     };
     // The ground is drawn as a part that does not move.
-    let ground = document.ground.surface.as_deref().map(|surface| PointMass {
+    let mut surface = document.ground.surface.as_deref().cloned().unwrap_or_default();
+    surface.append(&planes(document, places));
+    let ground = (!surface.triangles.is_empty()).then(|| PointMass {
         name: "ground".to_owned(),
         node: GROUND,
         mass: 0.0,
-        surface: Some(surface.clone()),
+        surface: Some(surface),
     });
     document.point_masses.iter().filter_map(drawn).chain(ground).collect()
+}
+
+/// A square slab below the plane z = 0. It consists of tiles, so that pictures can arrange them before and behind what is on it.
+fn slab(side: f64) -> Surface {
+    let tile = side / TILES as f64;
+    let solid = Surface::of_solid(&Solid::Box([tile, tile, THINNER * side]), &Vector3::zeros());
+    let mut all = Surface::default();
+    for index in 0..TILES * TILES {
+        let of = |k: usize| (k as f64 + 0.5) * tile - 0.5 * side;
+        let place = Vector3::new(of(index / TILES), of(index % TILES), -0.5 * THINNER * side);
+        all.append(&solid.moved(&Motion::translation(place), &Vector3::repeat(1.0)));
+    }
+    all
+}
+
+/// The planes of the ground, as thin slabs below the model that are somewhat larger than it.
+fn planes(document: &Document, places: &Places<'_>) -> Surface {
+    let mut all = Surface::default();
+    let is_plane = |solid: &&PlacedSolid| matches!(solid.form, Form::HalfSpace);
+    let planes: Vec<_> = document.ground.solids.iter().filter(is_plane).collect();
+    if planes.is_empty() {
+        return all;
+    }
+    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    let mut include = |point: Vector3| (low, high) = (low.inf(&point), high.sup(&point));
+    let nodes = &places.lowered.state.kinematics.nodes;
+    nodes.iter().skip(1).for_each(|node| include(node.frame.position));
+    for body in &document.bodies {
+        let (Some(surface), Some(node)) = (&body.surface, places.lowered.names.nodes.get(&body.name.value))
+        else {
+            continue;
+        };
+        for point in &surface.points {
+            include(nodes[*node].frame.transform_point(&Vector3::from(point.map(f64::from))));
+        }
+    }
+    let side = LARGER * (high - low).norm();
+    if !side.is_finite() || side == 0.0 {
+        return all;
+    }
+    let slab = slab(side);
+    for plane in planes {
+        let center = plane.frame.inverse_transform_point(&(0.5 * (low + high)));
+        let frame = plane.frame * Motion::translation(Vector3::new(center.x, center.y, 0.0));
+        all.append(&slab.moved(&frame, &Vector3::repeat(1.0)));
+    }
+    all
 }
 
 pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {

@@ -7,7 +7,7 @@ use super::ids::{
 };
 use super::written::{Fields, NameOf, Written};
 
-/// A node: the ground, a body, a point mass, or a position along a beam.
+/// A node: the ground, a body, a point mass, or a position along a beam; for contacts also a whole beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node(pub(crate) Option<(AnyId, At)>);
 
@@ -51,6 +51,13 @@ impl SuperelementId {
 impl From<BodyId> for Node {
     fn from(body: BodyId) -> Self {
         Self(Some((body.0, At::Itself)))
+    }
+}
+
+/// A whole beam, for contacts alone.
+impl From<BeamId> for Node {
+    fn from(beam: BeamId) -> Self {
+        Self(Some((beam.0, At::Itself)))
     }
 }
 

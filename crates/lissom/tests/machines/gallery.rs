@@ -286,3 +286,22 @@ fn a_mast_of_200_members_grows_as_its_scissors_open() {
     let wanted = 0.5 * GRAVITY * 100.0 * 100.0 * 1.03_f64.cos();
     close(last(&record, "drive", "moment"), wanted, 1e-6 * wanted, "moment of the drive");
 }
+
+/// The belt carries the fan along, up to its stretch. Contacts never pull, and friction is at most 1.25 μ times the normal
+/// force, which bristles reach while they begin to slip.
+#[test]
+fn a_belt_carries_the_fan_along() {
+    let record = run(model!("belt-drive"), &[]);
+    let [motor, fan] = ["motor", "fan"].map(|name| column(&record, name, "angle"));
+    for (motor, fan) in motor.iter().zip(&fan) {
+        close(*fan, *motor, 0.2, "angle of the fan");
+    }
+    assert!(last(&record, "fan", "angle") > 2.7);
+    let contacts = ["motor_left", "motor_lower", "motor_upper", "fan_right", "fan_lower", "fan_upper"];
+    for name in contacts {
+        let [normal, friction] = ["normal", "friction"].map(|component| column(&record, name, component));
+        for (normal, friction) in normal.iter().zip(&friction) {
+            assert!(*normal >= -1e-9 && *friction <= 0.625 * normal + 1e-9, "{name}");
+        }
+    }
+}

@@ -10,15 +10,12 @@ use lissom_motion::Vector3;
 
 use super::carried_curve::{CarriedCurve, Weights};
 use crate::joints::centerline::SUPPORT;
+use crate::round_off;
 
 /// Iterations after which the nearest points are known to all digits.
 const MAX_ITERATIONS: usize = 60;
 /// Halvings of a step that does not approach.
 const MAX_HALVINGS: usize = 30;
-/// Distances that differ by less than this fraction differ by round-off.
-const SAME: f64 = 1e-13;
-/// Changes below this fraction of a curve's parameter are round-off.
-const ROUND_OFF: f64 = 1e-15;
 /// Curves are parallel where the determinant is below this fraction of the product of its diagonal.
 const PARALLEL: f64 = 1e-10;
 
@@ -116,14 +113,16 @@ pub(super) fn nearest(curves: &[Placed<'_>; 2]) -> Nearest {
         let mut share = 1.0;
         let mut next = both(clamped([here[0] + step[0], here[1] + step[1]]));
         for _ in 0..MAX_HALVINGS {
-            if square(&next).value <= at.value * (1.0 + SAME) {
+            if square(&next).value <= at.value * (1.0 + round_off::SQUARED_DISTANCE) {
                 break;
             }
             share *= 0.5;
             next = both(clamped([here[0] + share * step[0], here[1] + share * step[1]]));
         }
         let changes = [0, 1].map(|k| (next[k].parameter - here[k]).abs());
-        let is_small = |k: usize| changes[k] <= ROUND_OFF * (ends[k][1] - ends[k][0] + ends[k][1].abs());
+        let is_small = |k: usize| {
+            changes[k] <= round_off::CURVE_PARAMETER * (ends[k][1] - ends[k][0] + ends[k][1].abs())
+        };
         if is_small(0) && is_small(1) {
             break;
         }
