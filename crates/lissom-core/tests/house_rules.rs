@@ -305,7 +305,7 @@ const FLOORS: [(&str, &[&str]); 14] = [
     ("relation.rs", &["law"]),
     ("registry.rs", &["kinematics", "law", "relation"]),
     ("ports.rs", &["kinematics", "registry"]),
-    ("contact/", &["dual", "kinematics", "registry", "round_off"]),
+    ("contact/", &["contact", "dual", "kinematics", "registry", "round_off"]),
     ("signals/", &["dual", "instants", "kinematics", "law", "round_off"]),
     ("joints/", &["contact", "joints", "kinematics", "law", "ports", "registry", "relation", "round_off"]),
     ("evaluation/", &["evaluation", "joints", "kinematics", "law", "round_off", "signals"]),

@@ -41,9 +41,10 @@ impl Spline {
         for _ in 0..SWEEPS {
             for k in 0..count {
                 let (before, after) = ((k + count - 1) % count, (k + 1) % count);
-                let (h, next) = (chords[before], chords[k]);
-                let slopes = (points[after] - points[k]) / next - (points[k] - points[before]) / h;
-                bends[k] = (6.0 * slopes - h * bends[before] - next * bends[after]) / (2.0 * (h + next));
+                let (chord, next) = (chords[before], chords[k]);
+                let slopes = (points[after] - points[k]) / next - (points[k] - points[before]) / chord;
+                bends[k] =
+                    (6.0 * slopes - chord * bends[before] - next * bends[after]) / (2.0 * (chord + next));
             }
         }
         let mut sum = 0.0;
@@ -71,12 +72,12 @@ impl Spline {
         let k = self.knots.partition_point(|&knot| knot <= t).saturating_sub(1);
         let next = (k + 1) % self.points.len();
         let end = self.knots.get(k + 1).copied().unwrap_or(self.length);
-        let h = end - self.knots[k];
-        let (b, a) = ((t - self.knots[k]) / h, (end - t) / h);
+        let chord = end - self.knots[k];
+        let (b, a) = ((t - self.knots[k]) / chord, (end - t) / chord);
         let ([p, q], [m, n]) = ([self.points[k], self.points[next]], [self.bends[k], self.bends[next]]);
         [
-            a * p + b * q + ((a * a * a - a) * m + (b * b * b - b) * n) * (h * h / 6.0),
-            (q - p) / h + ((3.0 * b * b - 1.0) * n - (3.0 * a * a - 1.0) * m) * (h / 6.0),
+            a * p + b * q + ((a * a * a - a) * m + (b * b * b - b) * n) * (chord * chord / 6.0),
+            (q - p) / chord + ((3.0 * b * b - 1.0) * n - (3.0 * a * a - 1.0) * m) * (chord / 6.0),
             a * m + b * n,
         ]
     }

@@ -17,11 +17,10 @@ use nalgebra::RowVector6;
 use crate::contact::curves::Curve;
 use crate::contact::gap::{Gap, Pair, carried, side_by_side};
 use crate::contact::surfaces::{Distance, Surface};
+use crate::round_off;
 
 /// Corrections of t after which it is known to all digits: bisections halve an interval.
 const MAX_CORRECTIONS: usize = 60;
-/// Corrections below this fraction of the curve's parameter are round-off.
-const ROUND_OFF: f64 = 1e-15;
 
 /// A curve of the tip and a surface of the base.
 #[derive(Clone, Debug)]
@@ -117,7 +116,7 @@ impl CurveOnSurface {
         for _ in 0..MAX_CORRECTIONS {
             let newton = at.t - at.slope / at.bend;
             // At the solution Newton's correction is round-off, and a bisection would leave it.
-            if at.slope == 0.0 || (newton - at.t).abs() <= ROUND_OFF * (1.0 + at.t.abs()) {
+            if at.slope == 0.0 || (newton - at.t).abs() <= round_off::CURVE_PARAMETER * (1.0 + at.t.abs()) {
                 break;
             }
             if at.slope < 0.0 {

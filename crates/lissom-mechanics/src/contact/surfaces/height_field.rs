@@ -12,11 +12,10 @@ use lissom_motion::Vector3;
 use nalgebra::{Matrix2, Matrix3x2, Vector2};
 
 use super::{Distance, Surface};
+use crate::round_off;
 
 /// Newton's corrections of the foot.
 const MAX_CORRECTIONS: usize = 50;
-/// Corrections below this fraction of a cell are round-off.
-const ROUND_OFF: f64 = 1e-14;
 
 /// Heights over a grid, extended beyond its borders by those at the border.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,12 +74,12 @@ impl HeightField {
                 }
             }
         }
-        let [h, k] = [self.spacing.x, self.spacing.y];
-        let mixed = sums[1][1] / (h * k);
+        let [width, depth] = [self.spacing.x, self.spacing.y];
+        let mixed = sums[1][1] / (width * depth);
         (
             sums[0][0],
-            Vector2::new(sums[1][0] / h, sums[0][1] / k),
-            Matrix2::new(sums[2][0] / (h * h), mixed, mixed, sums[0][2] / (k * k)),
+            Vector2::new(sums[1][0] / width, sums[0][1] / depth),
+            Matrix2::new(sums[2][0] / (width * width), mixed, mixed, sums[0][2] / (depth * depth)),
         )
     }
 }
@@ -137,13 +136,13 @@ impl Surface for HeightField {
             for _ in 0..MAX_CORRECTIONS {
                 let trial = place + step;
                 (height, slope, bend) = self.height(&trial);
-                if squared(&trial, height) <= before * (1.0 + ROUND_OFF) {
+                if squared(&trial, height) <= before * (1.0 + round_off::SQUARED_DISTANCE) {
                     break;
                 }
                 step *= 0.5;
             }
             place += step;
-            if step.norm() <= ROUND_OFF * self.spacing.norm() {
+            if step.norm() <= round_off::CURVE_PARAMETER * (self.spacing.norm() + place.norm()) {
                 break;
             }
         }

@@ -16,9 +16,7 @@ use parry3d_f64::shape::{TriMesh, TriMeshFlags, TrianglePointLocation};
 use parry3d_f64::transformation::try_convex_hull;
 
 use super::{Distance, Surface};
-
-/// Points nearer than this fraction of the size are on a triangle.
-const ROUND_OFF: f64 = 1e-14;
+use crate::round_off;
 
 /// A surface that encloses no solid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -165,7 +163,7 @@ impl Surface for Mesh {
             _ => None,
         };
         match edge {
-            Some(edge) if length > ROUND_OFF * self.size => {
+            Some(edge) if length > round_off::OPERATIONS * self.size => {
                 let value = if nearest.is_inside { -length } else { length };
                 let normal = away / value;
                 let across = Matrix3::identity() - normal * normal.transpose() - edge * edge.transpose();

@@ -12,11 +12,10 @@ use nalgebra::Vector2;
 
 use super::{Distance, Surface};
 use crate::contact::curves::{Curve, Spline};
+use crate::round_off;
 
 /// Bisections after which the foot of a point is known to all digits.
 const MAX_CORRECTIONS: usize = 60;
-/// Corrections below this fraction of the length are round-off.
-const ROUND_OFF: f64 = 1e-15;
 
 /// A prism along the third axis.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +50,7 @@ impl Outline {
             let bend = first.norm_squared() - (y - p).dot(&second);
             let newton = t - slope / bend;
             // At the solution Newton's correction is round-off, and a bisection would leave it.
-            if slope == 0.0 || (newton - t).abs() <= ROUND_OFF * self.curve.length() {
+            if slope == 0.0 || (newton - t).abs() <= round_off::CURVE_PARAMETER * self.curve.length() {
                 break;
             }
             if slope < 0.0 {
