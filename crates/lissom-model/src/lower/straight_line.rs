@@ -17,4 +17,8 @@ impl SignalFunction for Line {
     fn gradient(&self, _: f64, _: &[f64], _: &[f64], out: &mut [f64]) {
         out[0] = self.slope;
     }
+
+    fn is_polynomial(&self) -> bool {
+        true
+    }
 }

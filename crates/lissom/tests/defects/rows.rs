@@ -437,6 +437,13 @@ fn head_on_collision() {
     }
 }
 
+/// The relative velocity of the balls is round-off, and the signal of their touch was examined as a law with features of that size.
+#[test]
+fn balls_fall_side_by_side() {
+    let results = Results::clean("balls-fall-side-by-side.toml", &[]);
+    near("u3", results.last("fall.u3"), -0.5 * 9.81, 1e-9);
+}
+
 /// With the default tolerance the pendulum's phase is 0.055 rad off after 10 000 s, that of the oscillator 4e-6.
 #[test]
 fn phases_that_drift_are_reported() {
