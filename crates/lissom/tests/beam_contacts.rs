@@ -83,7 +83,7 @@ of = "rod@0.5"
     )
 }
 
-/// A rod that falls on a plane bounces without a loss, and with dissipation comes to rest where the plane carries its weight.
+/// A rod that falls on a plane bounces without a loss, and with dissipation ends at rest where the plane carries its weight.
 #[test]
 fn a_rod_rests_on_a_plane_with_its_weight() {
     let dynamics = "[analysis]\nkind = \"dynamics\"\nend = 0.08\n";
