@@ -157,6 +157,7 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "joints" => "joint",
         "springs" => "spring",
         "loads" => "load",
+        "local_loads" => "local load",
         "contacts" => "contact",
         "outputs" => "output",
         "inputs" => "input",

@@ -22,7 +22,7 @@ const FILES: [(&str, &str, &[&str]); 10] = [
     ),
     ("joints", "What holds nodes together, one class per kind.", &["joints"]),
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),
-    ("loads", "Applied forces and moments, and those of actuators.", &["loads"]),
+    ("loads", "Applied forces and moments, and those of actuators.", &["loads", "local_loads"]),
     ("contacts", "Parts that may touch, and the solids that are fixed in space.", &["contacts", "ground"]),
     ("feedback", "First-order states and events.", &["states", "events"]),
     ("motions", "How the parts are and move at the start.", &["initial"]),

@@ -41,6 +41,17 @@ impl Context<'_> {
     /// A table of rows, or of columns of a file.
     pub(crate) fn read_table(&self, node: &Node, what: &str, beyond: Extrapolation) -> Option<Table> {
         let reader = Reader::open(self, node, (what.to_owned(), node.span), table_keys())?;
+        self.table_of(&reader, node, beyond)
+    }
+
+    /// The same, where it has further keys.
+    pub(crate) fn table_of(
+        &self,
+        reader: &Reader<'_, '_>,
+        node: &Node,
+        beyond: Extrapolation,
+    ) -> Option<Table> {
+        let what = reader.what.as_str();
         let interpolation = match reader.choice("interpolation").map(|word| word.value) {
             Some("spline") => Interpolation::Spline,
             Some("monotone") => Interpolation::Monotone,
@@ -78,7 +89,7 @@ impl Context<'_> {
                     Some,
                 )
             }
-            (None, Some(file)) => self.data_file(file, &reader, (interpolation, extrapolation)),
+            (None, Some(file)) => self.data_file(file, reader, (interpolation, extrapolation)),
             (Some(_), Some(file)) => {
                 self.fail(file.span, format!("{what} has both `table` and `file`"), "remove one of them")
             }

@@ -32,7 +32,11 @@ const FILES: [(&str, &str, &[TableAndId]); 10] = [
         &[("joints", "JointId")],
     ),
     ("springs", "What pulls nodes or joints back, one type per kind.", &[("springs", "SpringId")]),
-    ("loads", "Applied forces and moments, and those of actuators.", &[("loads", "LoadId")]),
+    (
+        "loads",
+        "Applied forces and moments, and those of actuators.",
+        &[("loads", "LoadId"), ("local_loads", "LocalLoadId")],
+    ),
     (
         "contacts",
         "Parts that may touch, and the solids that are fixed in space.",
@@ -321,6 +325,7 @@ fn single(table: &str) -> &'static str {
         "states" => "state",
         "events" => "event",
         "contacts" => "contact",
+        "local_loads" => "local_load",
         "ground" => "ground",
         "initial" => "initial_motion",
         _ => "entry",
@@ -336,6 +341,7 @@ fn summary_of(table: &str) -> &'static str {
         "superelements" => "A linear elastic part that is given by reduced matrices.",
         "states" => "A first-order state: a number whose time derivative is an expression.",
         "events" => "What happens when an expression passes through zero.",
+        "local_loads" => "A force and a moment that depend on the motion of their own points.",
         "contacts" => "Two parts that may touch, by their shapes.",
         "ground" => "Solids that are fixed in space.",
         "initial" => "A rigid motion of all parts at the start, or static equilibrium.",

@@ -301,6 +301,17 @@ impl System {
     pub fn input_derivative(&self, held: DiscreteValueId, at: &Kinematics) -> Vec<f64> {
         let mut out = vec![0.0; self.layout.size()];
         self.feedback.add_input(held, at, &mut out);
+        for load in self.elements_with(|own| own.load) {
+            let unknowns = load.unknowns();
+            let mut local = [0.0; USUAL_UNKNOWNS];
+            load.add_by_held(held, at, &mut local[..unknowns.force_count()]);
+            let nodes =
+                unknowns.nodes.iter().flat_map(|&node| self.layout.rows_of_node(node).iter().copied());
+            let coordinates =
+                unknowns.coordinates.iter().map(|&own| self.layout.row_of_coordinate(own) as u32);
+            let rows: Vec<u32> = nodes.chain(coordinates).collect();
+            scatter(&rows, &local, &mut out);
+        }
         out
     }
 }

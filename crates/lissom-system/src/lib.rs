@@ -12,6 +12,7 @@ mod reading;
 mod state;
 mod step_stages;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 pub use builder::{BeamChain, BuildError, Builder, JointAttachment, PlaceOnTip, Placement};
@@ -34,7 +35,7 @@ pub use feedback::{DrivenBatch, Feedback, ScaledPower};
 use lissom_mechanics::elements::beam::section_error::ExaminedBeams;
 use lissom_mechanics::elements::contribution::CoordinateMass;
 use lissom_mechanics::elements::inertia::{Gravity, Inertia};
-use lissom_mechanics::elements::{Capabilities, Element, Energy, Load, Unknowns};
+use lissom_mechanics::elements::{Capabilities, Element, Energy, ForceLaws, Load, Unknowns};
 use lissom_mechanics::evaluation::batch::AnyBatch;
 use lissom_mechanics::evaluation::scatter_map::ScatterMap;
 use lissom_mechanics::evaluation::work::{power, work};
@@ -201,9 +202,11 @@ impl System {
         counts
     }
 
-    /// Whether forces depend on the motion through signals, or there are states.
+    /// Whether forces depend on the motion through signals or the functions of loads, or there are states.
     pub fn has_feedback(&self) -> bool {
-        self.feedback.depends_on_motion() || self.layout.state_count() > 0
+        self.feedback.depends_on_motion()
+            || self.layout.state_count() > 0
+            || self.elements_with(|own| own.load).any(Load::depends_on_motion)
     }
 
     /// Full gravity [m/s²].
@@ -328,6 +331,33 @@ impl System {
     /// number at every configuration.
     pub fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
         self.elements_with(|own| own.laws).for_each(|element| element.switches(at, out));
+    }
+
+    /// For each of the switching functions of elements, or of their laws, the index of the first one of its group, as its own where it
+    /// has none; `count` is their number for an element.
+    fn leaders(&self, count: impl Fn(&dyn ForceLaws) -> usize) -> Vec<usize> {
+        let mut first = BTreeMap::new();
+        let mut leaders = Vec::new();
+        for element in self.elements_with(|own| own.laws) {
+            let own = leaders.len();
+            let leader = element.group().map_or(own, |group| *first.entry(group).or_insert(own));
+            leaders.extend((0..count(element)).map(|k| leader + k));
+        }
+        leaders
+    }
+
+    /// For each of the [`switches`](Self::switches) the index of the first one of its group.
+    pub fn leaders_of_switches(&self) -> Vec<usize> {
+        self.leaders(|element| element.switch_count())
+    }
+
+    /// For each of the laws of elements the index of the first one of its group; those of signals are before them.
+    pub fn leaders_of_laws(&self, at: &Kinematics) -> Vec<usize> {
+        self.leaders(|element| {
+            let mut count = 0;
+            element.laws(at, &mut |_, _| count += 1);
+            count
+        })
     }
 
     /// Passes the scalar laws of signals, elements and relations that depend on the motion to `visit`, with their arguments:

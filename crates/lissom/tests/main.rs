@@ -31,6 +31,7 @@ mod gradient;
 mod joint_space;
 mod joints;
 mod latches;
+mod local_loads;
 mod machines;
 mod modes;
 mod multiblade;

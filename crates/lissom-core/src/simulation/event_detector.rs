@@ -92,6 +92,8 @@ pub(crate) struct EventDetector {
     has_switches: bool,
     /// Number of branch changes at the start of the present step.
     switched_at_start: usize,
+    /// For each value the index of the first one of its group, whose largest magnitude is that of the group.
+    leaders: Vec<usize>,
     values: Vec<Switch>,
     /// The values at each of the [`INSTANTS`].
     samples: [Vec<Switch>; INSTANTS.len()],
@@ -106,6 +108,9 @@ impl EventDetector {
         let mut detector = Self::of_nothing(start);
         detector.has_switches = has_switches;
         values_at(system, start, has_switches, &mut detector.values);
+        let of_elements = if has_switches { system.leaders_of_switches() } else { Vec::new() };
+        let first = detector.values.len() - of_elements.len();
+        detector.leaders = (0..first).chain(of_elements.into_iter().map(|leader| first + leader)).collect();
         detector.known.sides = vec![0.0; detector.values.len()];
         detector.known.before = vec![0.0; detector.values.len()];
         detector.known.largest = vec![0.0; detector.values.len()];
@@ -120,6 +125,7 @@ impl EventDetector {
             known: EventState::default(),
             has_switches: false,
             switched_at_start: 0,
+            leaders: Vec::new(),
             values: Vec::new(),
             samples: Default::default(),
             instants: Vec::new(),
@@ -156,8 +162,11 @@ impl EventDetector {
     /// Records the branches of all values that have none yet, or are neither in `kept` nor in `but`.
     fn note(&mut self, kept: std::ops::Range<usize>, but: &[usize]) {
         let known = &mut self.known;
+        for (&leader, value) in self.leaders.iter().zip(&self.values) {
+            known.largest[leader] = known.largest[leader].max(value.number.abs());
+        }
         for (k, value) in self.values.iter().enumerate() {
-            known.largest[k] = known.largest[k].max(value.number.abs());
+            known.largest[k] = known.largest[self.leaders[k]];
             let is_free = known.sides[k] == 0.0 || !(kept.contains(&k) || but.contains(&k));
             if is_free && value.number.abs() > NOISE * known.largest[k] {
                 known.sides[k] = value.side();

@@ -306,6 +306,20 @@ pub(crate) struct Magnitudes {
     laws: Vec<Magnitude>,
 }
 
+impl Magnitudes {
+    /// Gives the first law of each group the largest magnitude of all at a state.
+    fn share(&mut self, system: &System, at: &State, leader_of: impl Fn(usize) -> usize) {
+        let mut index = 0;
+        system.laws(&at.kinematics, &mut |law, values| {
+            if let Some(leader) = self.laws.get_mut(leader_of(index)).filter(|_| leader_of(index) != index) {
+                let value = largest([law.value(at.kinematics.time, values); 2]);
+                leader.value = leader.value.max(value);
+            }
+            index += 1;
+        });
+    }
+}
+
 /// Largest magnitude so far, or over all arguments for bounded laws.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Magnitude {
@@ -330,6 +344,8 @@ pub(crate) struct Laws {
     arguments: Vec<f64>,
     middle: Vec<f64>,
     cubics: Vec<Cubic>,
+    /// For each law of a signal or an element the index of the first one of its group, as its own where it has none.
+    leaders: Vec<usize>,
 }
 
 impl Laws {
@@ -356,7 +372,10 @@ impl Laws {
         });
         let magnitudes = Magnitudes { functions: functions.collect(), laws: Vec::new() };
         let (between, arguments, middle, cubics) = (start.clone(), Vec::new(), Vec::new(), Vec::new());
-        Self { magnitudes, between, arguments, middle, cubics }
+        let first = system.signals().names_of_laws().len();
+        let of_elements = system.leaders_of_laws(&start.kinematics).into_iter().map(|leader| first + leader);
+        let leaders = (0..first).chain(of_elements).collect();
+        Self { magnitudes, between, arguments, middle, cubics, leaders }
     }
 
     /// The magnitude of a function of time, including its values at the ends of a step [s].
@@ -469,18 +488,29 @@ impl Laws {
         if !self.sample(system, (from, to)) {
             return None;
         }
-        let Self { magnitudes, between, middle, cubics, .. } = self;
+        let Self { magnitudes, between, middle, cubics, leaders, .. } = self;
+        let leader_of = |index: usize| leaders.get(index).copied().unwrap_or(index);
         let time = [from.kinematics.time, to.kinematics.time - from.kinematics.time];
         let (mut next, mut index, mut first) = (0, 0, None);
         middle.clear();
+        if magnitudes.laws.is_empty() {
+            let mut next = 0;
+            system.laws(&to.kinematics, &mut |law, values| {
+                let own = next..next + values.len();
+                next = own.end;
+                magnitudes.laws.push(Course { law, time, arguments: &cubics[own] }.everywhere());
+            });
+        }
+        if leaders.iter().enumerate().any(|(index, leader)| index != *leader) {
+            magnitudes.share(system, to, leader_of);
+        }
         system.laws(&to.kinematics, &mut |law, values| {
             let own = next..next + values.len();
             let course = Course { law, time, arguments: &cubics[own.clone()] };
             (next, index) = (own.end, index + 1);
-            if magnitudes.laws.len() < index {
-                magnitudes.laws.push(course.everywhere());
-            }
+            let of_group = magnitudes.laws[leader_of(index - 1)].value;
             let magnitude = &mut magnitudes.laws[index - 1];
+            magnitude.value = magnitude.value.max(of_group);
             let is_bounded = magnitude.is_bounded;
             if !is_bounded {
                 magnitude.value = magnitude.value.max(largest([course.value(1.0); 2]));

@@ -9,6 +9,7 @@ mod departures;
 mod energies;
 mod feedback;
 mod joint_lanes;
+mod local_loads;
 mod locks;
 mod nearest_contacts;
 mod neighbours;

@@ -24,6 +24,7 @@ pub mod kind;
 mod kinds;
 pub mod latch;
 mod law_of_distance;
+pub mod local_load;
 pub mod moment;
 pub mod nearest_contact;
 pub(crate) mod point_spring;

@@ -4,7 +4,7 @@
 use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
-use crate::kinematics::{Kinematics, NodeId, Switch};
+use crate::kinematics::{DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::signals::measurement::Gradient;
 
@@ -41,6 +41,15 @@ pub trait Load: Element {
     fn breakpoints(&self) -> Vec<f64> {
         Vec::new()
     }
+
+    /// Whether they depend on the motion beyond the rotation of their node, so that the tangent is not symmetric. Default: they do
+    /// not.
+    fn depends_on_motion(&self) -> bool {
+        false
+    }
+
+    /// Adds the derivatives of its forces with respect to a held value. Default: they do not depend on any.
+    fn add_by_held(&self, _held: DiscreteValueId, _at: &Kinematics, _out: &mut [f64]) {}
 }
 
 /// Springs and similar elements.
@@ -69,6 +78,12 @@ pub trait ForceLaws: Element {
 
     /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
     fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>);
+
+    /// Number of the group of elements with the same laws at different points: values that are small beside those of others of the
+    /// group, such as the velocity at the hub of a rotor, are round-off. Default: none.
+    fn group(&self) -> Option<usize> {
+        None
+    }
 
     /// Passes its scalar laws with their arguments to `visit`, always in the same order, except for linear ones. Default: it
     /// has none.

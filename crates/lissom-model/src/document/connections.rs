@@ -88,8 +88,14 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// Rejects states and sampled signals in statics.
+/// Rejects states and sampled signals in statics, and loads of the local motion where loads are scaled by a factor.
 fn at_rest(context: &Context<'_>, document: &Document) {
+    if let Some(load) = document.local_loads.first()
+        && matches!(document.analysis.kind, AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. })
+    {
+        let message = format!("the local load `{}` cannot grow with a load factor", load.name.value);
+        context.fail::<()>(load.name.span, message, "use an analysis of kind `statics` or `dynamics`");
+    }
     let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     if !statics && !document.starts_in_equilibrium() {
         return;
@@ -98,6 +104,14 @@ fn at_rest(context: &Context<'_>, document: &Document) {
     for state in &document.states {
         let message = format!("{what} has no rates, so the state `{}` is undefined", state.name.value);
         context.fail::<()>(state.name.span, message, "remove it, or use an analysis of kind `dynamics`");
+    }
+    for load in document.local_loads.iter().filter(|load| !load.states.is_empty()) {
+        let message = format!("{what} has no rates, so the states of `{}` are undefined", load.name.value);
+        context.fail::<()>(
+            load.name.span,
+            message,
+            "remove `states`, or use an analysis of kind `dynamics` or modes `--about undeformed`",
+        );
     }
     for signal in document.signals.iter().filter(|signal| signal.sampling.is_some()) {
         let message =
@@ -123,6 +137,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("joints", document.joints.len()),
         ("springs", document.springs.len()),
         ("loads", document.loads.len()),
+        ("local_loads", document.local_loads.len()),
         ("contacts", document.contacts.len()),
         ("outputs", document.outputs.len()),
         ("inputs", document.inputs.len()),

@@ -11,7 +11,7 @@ use super::entries::PARTS;
 use super::top_level::{self, Holds};
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, contacts, events, initial,
-    materials, outputs, signals, superelements,
+    local_loads, materials, outputs, signals, superelements,
 };
 use crate::context::{Context, singular};
 use crate::expression;
@@ -87,6 +87,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
+    let local_loads = local_loads::local_loads(context);
     let ground = contacts::ground(context);
     let contacts = contacts::contacts(context, (&bodies, &point_masses, ground.as_ref()));
     signals::check_names(context);
@@ -112,6 +113,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         joints,
         springs,
         loads,
+        local_loads,
         ground: ground?,
         contacts,
         inputs,

@@ -16,6 +16,7 @@ mod entries;
 mod events;
 mod initial;
 mod load_input;
+mod local_loads;
 mod materials;
 mod output_kinds;
 mod outputs;
@@ -55,6 +56,7 @@ pub use beam_contacts::{BeamSides, Touching};
 pub use contacts::{ContactEntry, Ground, Restitution};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
+pub use local_loads::{LocalExpression, LocalLaw, LocalLoadEntry, LocalName, LocalState};
 pub use output_kinds::OutputKind;
 pub(crate) use output_kinds::{Declaration, Feature, Feeds, OutputComponent, Subject};
 pub use outputs::{Output, OutputSource, ReactionAxes};
@@ -112,6 +114,8 @@ pub struct Document {
     pub springs: Vec<Component>,
     /// Loads.
     pub loads: Vec<Component>,
+    /// Loads that depend on the motion of their own points.
+    pub local_loads: Vec<LocalLoadEntry>,
     /// The shape of the ground.
     pub ground: Ground,
     /// Contacts between parts.

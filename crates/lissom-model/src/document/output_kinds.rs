@@ -13,6 +13,8 @@ pub(crate) enum Subject {
     Joint,
     Spring,
     Contact,
+    /// A local load.
+    LocalLoad,
     /// A spring, load, drive or joint with friction.
     Actor,
     /// A whole beam.
@@ -128,6 +130,8 @@ kinds! {
     Contact = outputs::contact::CONTACT,
     /// Gap and force of a contact between two parts.
     ContactForce = outputs::contact_force::CONTACT_FORCE,
+    /// Resultant force and moment of a local load [N, N m], and its power [W].
+    LocalLoad = outputs::local_load::LOCAL_LOAD,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring = outputs::spring::SPRING,
     /// Power that a spring, load, drive or friction puts into the model [W].

@@ -30,6 +30,8 @@ pub enum OutputSource {
     Spring(Located<String>),
     /// A contact, by name.
     Contact(Located<String>),
+    /// A local load.
+    LocalLoad(Located<String>),
     /// A spring, a load, a drive or a joint with friction, by name.
     Actor(Located<String>),
     /// A whole beam, by name.
@@ -98,6 +100,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             Subject::Joint => OutputSource::Joint(reader.name_in("of")?),
             Subject::Spring => OutputSource::Spring(reader.name_in("of")?),
             Subject::Contact => OutputSource::Contact(reader.name_in("of")?),
+            Subject::LocalLoad => OutputSource::LocalLoad(reader.name_in("of")?),
             Subject::Actor => {
                 let tables = ["springs", "loads", "joints"];
                 OutputSource::Actor(name_of_one(reader, &tables, "spring, load or joint")?)

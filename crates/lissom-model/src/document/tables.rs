@@ -30,6 +30,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "joints" => (Some("kind"), joints(&registry.joints)),
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),
+        "local_loads" => (None, vec![single(super::local_loads::keys())]),
         "ground" => (None, vec![single(super::contacts::ground_keys())]),
         "contacts" => (None, vec![single(super::contacts::keys())]),
         "states" => (None, vec![single(state())]),
@@ -245,6 +246,7 @@ fn output_subject(subject: Subject) -> Option<Key> {
         Subject::Joint => required("of", Shape::Name("joints"), "", "the joint"),
         Subject::Spring => required("of", Shape::Name("springs"), "", "the spring"),
         Subject::Contact => required("of", Shape::Name("contacts"), "", "the contact"),
+        Subject::LocalLoad => required("of", Shape::Name("local_loads"), "", "the local load"),
         Subject::Actor => {
             let words = "the name of a spring, a load, a drive or a joint with friction";
             required("of", Shape::Text, "", words)

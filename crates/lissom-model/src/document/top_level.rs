@@ -31,7 +31,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 24] = [
+pub(crate) static TOP: [Top; 25] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top(
@@ -62,6 +62,12 @@ pub(crate) static TOP: [Top; 24] = [
     top("joints", Holds::Entries, false, "Constraints between nodes, or between coordinates of joints."),
     top("springs", Holds::Entries, false, "Springs, dampers, friction, stops and latches."),
     top("loads", Holds::Entries, false, "Applied forces and moments, and those of actuators."),
+    top(
+        "local_loads",
+        Holds::Entries,
+        false,
+        "Forces and moments that depend on the motion of their own points, along beams and on nodes.",
+    ),
     top("ground", Holds::Table, false, "Solids that are fixed in space, for contacts and drawings."),
     top("contacts", Holds::Entries, false, "Pairs of parts that may touch, by their shapes."),
     top(

@@ -60,6 +60,12 @@ pub(super) fn add(
             }
         }
     }
+    for entry in by_name(&document.local_loads, |entry| &entry.name.value) {
+        match super::local_loads::add(document, entry, names, builder) {
+            Ok(points) => drop(names.local_loads.insert(entry.name.value.clone(), points)),
+            Err(problem) => problems.push(problem),
+        }
+    }
     for entry in by_name(&document.contacts, |entry| &entry.name.value) {
         if let Some(law) = &entry.rigid {
             match super::rigid_contacts::add(document, (entry, law), names, builder) {

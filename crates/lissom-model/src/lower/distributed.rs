@@ -66,7 +66,7 @@ pub(super) fn add(
 }
 
 /// The length of the line that belongs to each node [m].
-fn lengths(beam: &Beam, line: &BeamLine) -> Vec<f64> {
+pub(super) fn lengths(beam: &Beam, line: &BeamLine) -> Vec<f64> {
     let count = line.elements.len();
     let mut lengths = vec![0.0; line.nodes.len()];
     for element in 0..count {

@@ -9,6 +9,7 @@ mod couplings;
 mod distributed;
 mod initial_state;
 mod latches;
+mod local_loads;
 mod measurements;
 mod order;
 mod parts;
@@ -28,6 +29,7 @@ use std::sync::Arc;
 use lissom_core::assembly::{AssemblyError, assemble};
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::beam::section_error::{ExaminedBeams, SectionError};
+use lissom_core::elements::local_load::LocalLoad;
 use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::registry::ParameterError;
@@ -129,6 +131,8 @@ pub struct Names {
     pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
     /// Points of each rigid contact.
     pub(crate) rigid_contacts: BTreeMap<String, Vec<RigidPoint>>,
+    /// Points of each local load.
+    pub(crate) local_loads: BTreeMap<String, Vec<LocalLoad>>,
     /// Loads on coordinates of joints; those of size zero have no element.
     pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.
@@ -335,6 +339,7 @@ impl Names {
             latches: &self.latches,
             powers: &self.powers,
             contacts: &self.contacts,
+            local_loads: &self.local_loads,
             rigid_contacts: &self.rigid_contacts,
             signals: &self.signals,
         }

@@ -163,6 +163,7 @@ pub(super) fn name_of(output: &Output) -> Result<&Located<String>, Problem> {
         OutputSource::Joint(name)
         | OutputSource::Spring(name)
         | OutputSource::Contact(name)
+        | OutputSource::LocalLoad(name)
         | OutputSource::Actor(name)
         | OutputSource::Beam(name)
         | OutputSource::Superelement(name)

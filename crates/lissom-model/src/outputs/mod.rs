@@ -12,6 +12,7 @@ mod every_kind;
 pub(crate) mod expression;
 pub(crate) mod frames;
 pub(crate) mod line;
+pub(crate) mod local_load;
 mod location;
 pub(crate) mod modal;
 pub(crate) mod momentum;
@@ -30,6 +31,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::elements::local_load::LocalLoad;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::linearized::OutputDerivatives;
@@ -165,6 +167,8 @@ pub(crate) struct Resolver<'a> {
     /// Points of each contact.
     pub(crate) contacts: &'a BTreeMap<String, Vec<ContactPoint>>,
     pub(crate) rigid_contacts: &'a BTreeMap<String, Vec<RigidPoint>>,
+    /// Points of each local load.
+    pub(crate) local_loads: &'a BTreeMap<String, Vec<LocalLoad>>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
 }

@@ -228,6 +228,7 @@ impl Places<'_> {
             OutputSource::Joint(name)
             | OutputSource::Spring(name)
             | OutputSource::Contact(name)
+            | OutputSource::LocalLoad(name)
             | OutputSource::Actor(name)
             | OutputSource::Beam(name)
             | OutputSource::Superelement(name)

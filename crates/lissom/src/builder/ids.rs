@@ -112,6 +112,8 @@ tables! {
     SpringId: Springs = "springs", "spring";
     /// A load.
     LoadId: Loads = "loads", "load";
+    /// A load that depends on the motion of its own points.
+    LocalLoadId: LocalLoads = "local_loads", "local load";
     /// A contact.
     ContactId: Contacts = "contacts", "contact";
     /// The shape of the ground.

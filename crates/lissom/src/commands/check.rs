@@ -98,6 +98,7 @@ impl Check {
             "joints": document.joints.len(),
             "springs": document.springs.len(),
             "loads": document.loads.len(),
+            "local_loads": document.local_loads.len(),
             "contacts": document.contacts.len(),
             "unknowns": layout.size(),
             "states": layout.state_count(),

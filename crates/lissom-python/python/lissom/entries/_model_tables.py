@@ -11,7 +11,7 @@ from .sections import Material, Section
 from .parts import Beam, Body, PointMass, Superelement, Part
 from .joints import Joint
 from .springs import Spring
-from .loads import Load
+from .loads import Load, LocalLoad
 from .contacts import Contact, Ground
 from .feedback import State, Event
 from .motions import Initial
@@ -84,6 +84,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "joint_force": loads.JointForce,
         "gyrostat": loads.Gyrostat,
     },
+    "local_loads": loads.LocalLoad,
     "ground": contacts.Ground,
     "contacts": contacts.Contact,
     "states": feedback.State,
@@ -110,6 +111,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "relative_motion": outputs.RelativeMotion,
         "contact": outputs.Contact,
         "contact_force": outputs.ContactForce,
+        "local_load": outputs.LocalLoad,
         "spring": outputs.Spring,
         "power": outputs.Power,
         "work": outputs.Work,
@@ -144,6 +146,7 @@ ORDER = (
     "joints",
     "springs",
     "loads",
+    "local_loads",
     "ground",
     "contacts",
     "inputs",
@@ -301,6 +304,16 @@ class ModelTables(ModelTree):
     @loads.setter
     def loads(self, of: dict[str, Load]) -> None:
         self._set("loads", of)
+
+    @property
+    def local_loads(self) -> dict[str, LocalLoad]:
+        """Forces and moments that depend on the motion of their own points, along beams and on nodes."""
+        of: dict[str, LocalLoad] = self._table("local_loads")
+        return of
+
+    @local_loads.setter
+    def local_loads(self, of: dict[str, LocalLoad]) -> None:
+        self._set("local_loads", of)
 
     @property
     def ground(self) -> Ground | None:

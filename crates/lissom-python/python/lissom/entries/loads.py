@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
-from ._entry import Entry, Function, Number, Place, Vector
+from ._entry import Entry, Function, Number, Place, Table, Vector
 
 
 class Load(Entry):
@@ -122,3 +122,30 @@ class Gyrostat(Load):
     axis: Vector | str
     inertia: Number
     spin: Number
+
+
+@dataclass(kw_only=True, slots=True)
+class LocalLoad(Entry):
+    """Forces and moments that depend on the motion of their own points, along beams and on nodes.
+
+    Args:
+        on: a beam, along which it is distributed, or a node; a node.
+        at: where it acts on a node, at the start; default the node [m]; a position, or nothing.
+        axes: axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones; `"section"`, `"global"`, or nothing.
+        force: per length of a beam, or on a node: three numbers or expressions [N/m, N]; three expressions of `s` and `t`, or nothing.
+        moment: the same for the moment [N, N m]; three expressions of `s` and `t`, or nothing.
+        flow: velocity of the surrounding fluid in global axes: three numbers or expressions of x, y, z, t and inputs [m/s]; three expressions of `s` and `t`, or nothing.
+        variables: named expressions for use in the others; or { of = "…", table = [[…]] }, a table over an expression; a table, or nothing.
+        states: first-order states at each point: { derivative = "…", start = 0, magnitude = 1 }; a table, or nothing.
+    """
+
+    _table: ClassVar[str] = "local_loads"
+
+    on: str
+    at: Place | None = None
+    axes: Literal["section", "global"] | None = None
+    force: Vector | None = None
+    moment: Vector | None = None
+    flow: Vector | None = None
+    variables: Table | None = None
+    states: Table | None = None

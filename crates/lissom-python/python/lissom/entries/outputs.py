@@ -332,6 +332,19 @@ class ContactForce(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class LocalLoad(Output):
+    """Resultant force of a local load, its moment about the origin, and the power that it supplies, global axes.
+
+    Args:
+        of: the local load; the name of an entry of `[local_loads]`.
+    """
+
+    _form: ClassVar[str] = "local_load"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
 class Spring(Output):
     """Elongation or rotation of a spring, its rate, and its force or moment.
 

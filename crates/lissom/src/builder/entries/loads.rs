@@ -1,8 +1,9 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
 //! Applied forces and moments, and those of actuators.
 
+use super::words;
 use crate::builder::entry::{entry, keys};
-use crate::builder::expression::Function;
+use crate::builder::expression::{Expression, Function};
 use crate::builder::ids::JointId;
 use crate::builder::values::Node;
 
@@ -61,6 +62,26 @@ entry! {
     /// - `inertia`: Inertia of the rotor about its axis \[kg m²\]
     /// - `spin`: Rate of spin relative to the body \[rad/s\]
     new(on: Node = "on", axis: [f64; 3] = "axis", inertia: f64 = "inertia", spin: f64 = "spin")
+}
+
+entry! {
+    /// A force and a moment that depend on the motion of their own points.
+    LocalLoad => LocalLoadId, "local_load";
+    []
+    /// With what must be given.
+    ///
+    /// - `on`: a beam, along which it is distributed, or a node
+    new(on: Node = "on")
+    /// Where it acts on a node, at the start; default the node \[m\].
+    at: [f64; 3] = "at";
+    /// Axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones.
+    axes: words::Axes = "axes";
+    /// Per length of a beam, or on a node: three numbers or expressions \[N/m, N\].
+    force: [Expression; 3] = "force";
+    /// The same for the moment \[N, N m\].
+    moment: [Expression; 3] = "moment";
+    /// Velocity of the surrounding fluid in global axes: three numbers or expressions of x, y, z, t and inputs \[m/s\].
+    flow: [Expression; 3] = "flow";
 }
 
 keys! {

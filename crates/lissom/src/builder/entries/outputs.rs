@@ -157,7 +157,7 @@ entry! {
     /// - `of`: the joint
     new(of: JointId = "of")
     /// Global axes, or those of the joint frame fixed in base or tip; default ground.
-    axes: words::Axes = "axes";
+    axes: words::AxesOfTip = "axes";
 }
 
 entry! {
@@ -208,6 +208,16 @@ entry! {
     ///
     /// - `of`: the contact
     new(of: ContactId = "of")
+}
+
+entry! {
+    /// Resultant force of a local load, its moment about the origin, and the power that it supplies, global axes.
+    LocalLoad => OutputId, "local_load";
+    ["kind" = "local_load"]
+    /// With what must be given.
+    ///
+    /// - `of`: the local load
+    new(of: LocalLoadId = "of")
 }
 
 entry! {

@@ -11,8 +11,15 @@ words! {
 }
 
 words! {
-    /// One of `ground`, `base`, `tip`.
+    /// One of `section`, `global`.
     Axes;
+    Section = "section";
+    Global = "global";
+}
+
+words! {
+    /// One of `ground`, `base`, `tip`.
+    AxesOfTip;
     Ground = "ground";
     Base = "base";
     Tip = "tip";

@@ -1,0 +1,464 @@
+//! Force and moment at a point of a node that functions of the motion of this point determine: aerodynamic and hydrodynamic forces on
+//! sections, supports by soil, drag.
+//!
+//! Legend: (R, p) frame of the node, r point and Q axes of the section in it, (v, ω) twist of the node in its axes, w(x, t) velocity
+//! of the fluid in inertial axes, S axes of the load in those of the node: Q for the section, Rᵀ for inertial axes; f force and m
+//! moment in the axes of the load, y states of the load.
+//!
+//! ```text
+//! x = p + R r,      c = Sᵀ (v + ω × r),      o = Sᵀ ω,      u = Sᵀ Rᵀ w - c
+//! f, m = functions of x, c, o, u, y, t,      y' = function of the same
+//! wrench on the node:  (S f, S m + r × S f)
+//! δx = R (δu + δθ × r),      δ(Sᵀ Rᵀ w) = Sᵀ Rᵀ δw + Qᵀ (Rᵀ w × δθ),      δ(Rᵀ f) = Rᵀ δf + Rᵀ f × δθ
+//! ```
+//!
+//! Functions are evaluated one after the other, and each may use those before it. Derivatives are accumulated forwards.
+
+use std::sync::Arc;
+
+use lissom_motion::{Matrix3, Rotation, Vector3, rotation_part, skew, translation_part};
+use nalgebra::SVector;
+
+use super::{Capabilities, Element, ForceLaws, Load, Tangents, Unknowns};
+use crate::evaluation::switch_states::SwitchStates;
+use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
+use crate::law::VisitLaw;
+use crate::registry::Function;
+use crate::signals::{MAX_ARGUMENTS, SignalFunction};
+
+/// Most states of a load.
+pub const MAX_STATES: usize = 6;
+/// Most functions of a load.
+pub const MAX_FUNCTIONS: usize = 48;
+
+/// Derivatives by displacement and rotation of the node, by its twist, and by the states.
+type Row = SVector<f64, { 12 + MAX_STATES }>;
+
+/// An argument of a function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LocalArgument {
+    /// Component of x [m], inertial axes.
+    Position(usize),
+    /// Component of the change of x since the start [m], inertial axes.
+    Displacement(usize),
+    /// Component of c [m/s].
+    Velocity(usize),
+    /// Component of o [rad/s].
+    AngularVelocity(usize),
+    /// Component of u [m/s].
+    RelativeFlow(usize),
+    /// A state of the load.
+    State(usize),
+    /// An input, or a sampled signal.
+    Held(DiscreteValueId),
+    /// A function before this one.
+    Function(usize),
+    /// A constant.
+    Constant(f64),
+}
+
+/// A function with its arguments.
+#[derive(Clone, Debug)]
+pub struct LocalFunction {
+    /// The function.
+    pub function: Arc<dyn SignalFunction>,
+    /// Its arguments.
+    pub arguments: Vec<LocalArgument>,
+}
+
+/// Functions of a load, the same at all its points.
+#[derive(Clone, Debug, Default)]
+pub struct LocalFunctions {
+    /// All of them, each after those that it uses.
+    pub all: Vec<LocalFunction>,
+    /// The components of w, which use neither velocities nor the flow; zero if there is none.
+    pub flow: [Option<usize>; 3],
+    /// The components of force and moment; zero if there is none.
+    pub wrench: [Option<usize>; 6],
+    /// The rates of the states.
+    pub rates: Vec<usize>,
+}
+
+/// Force and moment at a point of a node.
+#[derive(Clone, Debug)]
+pub struct LocalLoad {
+    node: [NodeId; 1],
+    point: Vector3,
+    /// Q; none if the axes are inertial.
+    axes: Option<Rotation>,
+    start: Vector3,
+    functions: LocalFunctions,
+    states: Vec<CoordinateId>,
+    /// Factor of force and moment.
+    weight: f64,
+    /// Factor over time.
+    scale: Function,
+    group: usize,
+    switch_states: SwitchStates,
+}
+
+/// The motion of the point.
+struct Local {
+    position: Vector3,
+    velocity: Vector3,
+    angular_velocity: Vector3,
+    /// R, S.
+    rotation: Matrix3,
+    axes: Matrix3,
+}
+
+/// Values of all functions.
+struct Values {
+    local: Local,
+    functions: [f64; MAX_FUNCTIONS],
+}
+
+impl LocalLoad {
+    /// At a frame of a node, which is at `start` [m] at the start: with its axes, or inertial ones. Points of one load have the number
+    /// of a `group` in common.
+    pub fn new(
+        group: usize,
+        (frame, start): (CarriedFrame, Vector3),
+        is_inertial: bool,
+        functions: LocalFunctions,
+        states: Vec<CoordinateId>,
+        (weight, scale): (f64, Function),
+    ) -> Self {
+        Self {
+            node: [frame.node],
+            point: frame.offset.position,
+            axes: (!is_inertial).then_some(frame.offset.rotation),
+            start,
+            functions,
+            states,
+            weight,
+            scale,
+            group,
+            switch_states: SwitchStates::default(),
+        }
+    }
+
+    /// Force and moment about the point, inertial axes [N, N m].
+    pub fn resultant(&self, at: &Kinematics) -> [Vector3; 2] {
+        let values = self.values(at);
+        let to_inertial =
+            values.local.rotation * values.local.axes * (self.weight * self.scale.value(at.time));
+        self.wrench(&values).map(|vector| to_inertial * vector)
+    }
+
+    /// The point [m], inertial axes.
+    pub fn position(&self, at: &Kinematics) -> Vector3 {
+        self.local(at).position
+    }
+
+    /// Velocity of the point and angular velocity, inertial axes [m/s, rad/s].
+    pub fn velocities(&self, at: &Kinematics) -> [Vector3; 2] {
+        let Local { velocity, angular_velocity, rotation, axes, .. } = self.local(at);
+        [velocity, angular_velocity].map(|vector| rotation * axes * vector)
+    }
+
+    fn local(&self, at: &Kinematics) -> Local {
+        let motion = &at.nodes[self.node[0]];
+        let rotation = motion.frame.rotation.matrix();
+        let axes = self.axes.map_or_else(|| rotation.transpose(), |own| own.matrix());
+        let turning = rotation_part(&motion.twist);
+        Local {
+            position: motion.frame.position + rotation * self.point,
+            velocity: axes.tr_mul(&(translation_part(&motion.twist) + turning.cross(&self.point))),
+            angular_velocity: axes.tr_mul(&turning),
+            rotation,
+            axes,
+        }
+    }
+
+    /// w.
+    fn fluid(&self, functions: &[f64; MAX_FUNCTIONS]) -> Vector3 {
+        Vector3::from_fn(|k, _| self.functions.flow[k].map_or(0.0, |index| functions[index]))
+    }
+
+    fn argument(&self, argument: LocalArgument, values: &Values, at: &Kinematics) -> f64 {
+        let local = &values.local;
+        match argument {
+            LocalArgument::Position(k) => local.position[k],
+            LocalArgument::Displacement(k) => local.position[k] - self.start[k],
+            LocalArgument::Velocity(k) => local.velocity[k],
+            LocalArgument::AngularVelocity(k) => local.angular_velocity[k],
+            LocalArgument::RelativeFlow(k) => {
+                let fluid = local.rotation.tr_mul(&self.fluid(&values.functions));
+                local.axes.column(k).dot(&fluid) - local.velocity[k]
+            }
+            LocalArgument::State(k) => at.coordinates[self.states[k]].value,
+            LocalArgument::Held(held) => at.held[held.index()],
+            LocalArgument::Function(index) => values.functions[index],
+            LocalArgument::Constant(value) => value,
+        }
+    }
+
+    /// Passes every function with its arguments and the sides of its switches to `visit`, whose results are the values.
+    fn evaluate(&self, at: &Kinematics, mut visit: impl FnMut(usize, &[f64], &[f64]) -> f64) -> Values {
+        let mut values = Values { local: self.local(at), functions: [0.0; MAX_FUNCTIONS] };
+        let mut sides = self.switch_states.of(at);
+        for (index, LocalFunction { function, arguments }) in self.functions.all.iter().enumerate() {
+            let mut numbers = [0.0; MAX_ARGUMENTS];
+            for (number, &argument) in numbers.iter_mut().zip(arguments) {
+                *number = self.argument(argument, &values, at);
+            }
+            let (own, others) = sides.split_at(function.switch_count().min(sides.len()));
+            values.functions[index] = visit(index, &numbers[..arguments.len()], own);
+            sides = others;
+        }
+        values
+    }
+
+    fn values(&self, at: &Kinematics) -> Values {
+        self.evaluate(at, |index, arguments, sides| {
+            self.functions.all[index].function.value(at.time, arguments, sides)
+        })
+    }
+
+    /// f and m.
+    fn wrench(&self, values: &Values) -> [Vector3; 2] {
+        let of = |first: usize| {
+            Vector3::from_fn(|k, _| {
+                self.functions.wrench[first + k].map_or(0.0, |index| values.functions[index])
+            })
+        };
+        [of(0), of(3)]
+    }
+
+    /// Derivatives of the velocity of the point, and of other vectors a in the axes of the node, in the axes of the load: `by` the
+    /// displacement of the node or its twist, as 3 x 3 matrices of displacement and rotation.
+    fn rows_of(&self, by: [Matrix3; 2], first: usize) -> [Row; 3] {
+        std::array::from_fn(|k| {
+            let mut row = Row::zeros();
+            for (j, matrix) in by.iter().enumerate() {
+                for i in 0..3 {
+                    row[first + 3 * j + i] = matrix[(k, i)];
+                }
+            }
+            row
+        })
+    }
+
+    /// Rows of position, velocity and angular velocity.
+    fn motion_rows(&self, local: &Local) -> [[Row; 3]; 3] {
+        let arm = skew(&self.point);
+        let (rotation, axes) = (&local.rotation, local.axes.transpose());
+        let position = self.rows_of([*rotation, -rotation * arm], 0);
+        let mut velocity = self.rows_of([axes, -axes * arm], 6);
+        let mut turning = self.rows_of([Matrix3::zeros(), axes], 6);
+        if self.axes.is_none() {
+            // δ(R a) = -R a~ δθ at constant a.
+            for (rows, vector) in [(&mut velocity, local.velocity), (&mut turning, local.angular_velocity)] {
+                let turned = -skew(&vector) * rotation;
+                let added = self.rows_of([Matrix3::zeros(), turned], 0);
+                rows.iter_mut().zip(&added).for_each(|(row, own)| *row += own);
+            }
+        }
+        [position, velocity, turning]
+    }
+
+    /// Rows of Sᵀ Rᵀ w - c.
+    fn flow_rows(&self, local: &Local, fluid: (&Vector3, &[Row; 3]), velocity: &[Row; 3]) -> [Row; 3] {
+        let (w, by) = fluid;
+        let to_load = local.axes.transpose() * local.rotation.transpose();
+        let mut rows: [Row; 3] =
+            std::array::from_fn(|k| (0..3).fold(-velocity[k], |row, j| row + to_load[(k, j)] * by[j]));
+        if self.axes.is_some() {
+            let turned = local.axes.transpose() * skew(&local.rotation.tr_mul(w));
+            let added = self.rows_of([Matrix3::zeros(), turned], 0);
+            rows.iter_mut().zip(&added).for_each(|(row, own)| *row += own);
+        }
+        rows
+    }
+
+    /// Values and rows of all functions.
+    fn rows(&self, at: &Kinematics) -> (Values, [Row; MAX_FUNCTIONS]) {
+        let local = self.local(at);
+        let [position, velocity, turning] = self.motion_rows(&local);
+        let mut rows = [Row::zeros(); MAX_FUNCTIONS];
+        let mut known = [0.0; MAX_FUNCTIONS];
+        let values = self.evaluate(at, |index, arguments, sides| {
+            let LocalFunction { function, arguments: sources } = &self.functions.all[index];
+            let mut gradient = [0.0; MAX_ARGUMENTS];
+            let gradient = &mut gradient[..arguments.len()];
+            function.gradient(at.time, arguments, sides, gradient);
+            let mut row = Row::zeros();
+            for (&derivative, source) in
+                gradient.iter().zip(sources).filter(|(derivative, _)| **derivative != 0.0)
+            {
+                match *source {
+                    LocalArgument::Position(k) | LocalArgument::Displacement(k) => {
+                        row += derivative * position[k]
+                    }
+                    LocalArgument::Velocity(k) => row += derivative * velocity[k],
+                    LocalArgument::AngularVelocity(k) => row += derivative * turning[k],
+                    LocalArgument::RelativeFlow(k) => {
+                        let by = self.functions.flow.map(|own| own.map_or_else(Row::zeros, |own| rows[own]));
+                        let flow = self.flow_rows(&local, (&self.fluid(&known), &by), &velocity);
+                        row += derivative * flow[k];
+                    }
+                    LocalArgument::State(k) => row[12 + k] += derivative,
+                    LocalArgument::Function(earlier) => row += derivative * rows[earlier],
+                    LocalArgument::Held(_) | LocalArgument::Constant(_) => {}
+                }
+            }
+            rows[index] = row;
+            known[index] = function.value(at.time, arguments, sides);
+            known[index]
+        });
+        (values, rows)
+    }
+
+    /// Force and moment on the node in its axes.
+    fn on_node(&self, [force, moment]: &[Vector3; 2], axes: &Matrix3) -> [Vector3; 2] {
+        let force = axes * force;
+        [force, axes * moment + self.point.cross(&force)]
+    }
+
+    fn factor(&self, at: &Kinematics) -> f64 {
+        self.weight * self.scale.value(at.time)
+    }
+}
+
+impl Element for LocalLoad {
+    fn unknowns(&self) -> Unknowns<'_> {
+        Unknowns { nodes: &self.node, coordinates: &self.states, multipliers: &[] }
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let values = self.values(at);
+        let factor = self.factor(at);
+        let [force, moment] = self.on_node(&self.wrench(&values), &values.local.axes);
+        for k in 0..3 {
+            out[k] -= factor * force[k];
+            out[3 + k] -= factor * moment[k];
+        }
+        for (k, (&state, &rate)) in self.states.iter().zip(&self.functions.rates).enumerate() {
+            out[6 + k] += at.coordinates[state].rate - values.functions[rate];
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let (values, rows) = self.rows(at);
+        let factor = self.factor(at);
+        let (size, axes) = (out.size(), &values.local.axes);
+        let of = |index: Option<usize>, column: usize| index.map_or(0.0, |index| rows[index][column]);
+        let mut add = |row: usize, column: usize, value: f64| match column {
+            0..6 => out.stiffness[row * size + column] += value,
+            6..12 => out.damping[row * size + column - 6] += value,
+            _ => out.stiffness[row * size + column - 6] += value,
+        };
+        for column in 0..12 + self.states.len() {
+            let by =
+                [0, 3].map(|first| Vector3::from_fn(|k, _| of(self.functions.wrench[first + k], column)));
+            let [force, moment] = self.on_node(&by, axes);
+            for k in 0..3 {
+                add(k, column, -factor * force[k]);
+                add(3 + k, column, -factor * moment[k]);
+            }
+            for (k, &rate) in self.functions.rates.iter().enumerate() {
+                add(6 + k, column, -rows[rate][column]);
+            }
+        }
+        if self.axes.is_none() {
+            // δ(Rᵀ f) = (Rᵀ f)~ δθ
+            let [force, moment] = self.wrench(&values).map(|vector| skew(&(axes * vector)));
+            let moment = moment + skew(&self.point) * force;
+            for (k, i) in (0..3).flat_map(|k| (0..3).map(move |i| (k, i))) {
+                add(k, 3 + i, -factor * force[(k, i)]);
+                add(3 + k, 3 + i, -factor * moment[(k, i)]);
+            }
+        }
+        for k in 0..self.states.len() {
+            out.damping[(6 + k) * size + 6 + k] += 1.0;
+        }
+    }
+
+    fn switch_states(&mut self) -> Option<&mut SwitchStates> {
+        Some(&mut self.switch_states)
+    }
+
+    fn capabilities(&self) -> Capabilities<'_> {
+        Capabilities { load: Some(self), laws: Some(self), ..Capabilities::default() }
+    }
+}
+
+impl Load for LocalLoad {
+    fn breakpoints(&self) -> Vec<f64> {
+        let of = |own: &LocalFunction| own.function.breakpoints().to_vec();
+        self.functions.all.iter().flat_map(of).chain(self.scale.breakpoints()).collect()
+    }
+
+    fn depends_on_motion(&self) -> bool {
+        let is_motion = |argument: &LocalArgument| {
+            !matches!(
+                argument,
+                LocalArgument::Held(_) | LocalArgument::Constant(_) | LocalArgument::Function(_)
+            )
+        };
+        self.functions.all.iter().flat_map(|own| &own.arguments).any(is_motion)
+    }
+
+    fn add_by_held(&self, held: DiscreteValueId, at: &Kinematics, out: &mut [f64]) {
+        let mut by = [0.0; MAX_FUNCTIONS];
+        let values = self.evaluate(at, |index, arguments, sides| {
+            let LocalFunction { function, arguments: sources } = &self.functions.all[index];
+            let mut gradient = [0.0; MAX_ARGUMENTS];
+            function.gradient(at.time, arguments, sides, &mut gradient[..arguments.len()]);
+            let local = self.local(at);
+            by[index] = gradient
+                .iter()
+                .zip(sources)
+                .map(|(derivative, source)| match *source {
+                    LocalArgument::Held(own) if own == held => *derivative,
+                    LocalArgument::Function(earlier) => derivative * by[earlier],
+                    LocalArgument::RelativeFlow(k) => {
+                        let fluid = local.rotation.tr_mul(&self.fluid(&by));
+                        derivative * local.axes.column(k).dot(&fluid)
+                    }
+                    _ => 0.0,
+                })
+                .sum();
+            function.value(at.time, arguments, sides)
+        });
+        let by = Values { local: values.local, functions: by };
+        let factor = self.factor(at);
+        let [force, moment] = self.on_node(&self.wrench(&by), &by.local.axes);
+        for k in 0..3 {
+            out[k] -= factor * force[k];
+            out[3 + k] -= factor * moment[k];
+        }
+        for (k, &rate) in self.functions.rates.iter().enumerate() {
+            out[6 + k] -= by.functions[rate];
+        }
+    }
+}
+
+impl ForceLaws for LocalLoad {
+    fn switch_count(&self) -> usize {
+        self.functions.all.iter().map(|own| own.function.switch_count()).sum()
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<Switch>) {
+        self.evaluate(at, |index, arguments, sides| {
+            let function = &self.functions.all[index].function;
+            function.switches(at.time, arguments, sides, out);
+            function.value(at.time, arguments, sides)
+        });
+    }
+
+    fn group(&self) -> Option<usize> {
+        Some(self.group)
+    }
+
+    fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
+        self.evaluate(at, |index, arguments, sides| {
+            let function = &self.functions.all[index].function;
+            if !function.is_polynomial() {
+                visit(&&**function, arguments);
+            }
+            function.value(at.time, arguments, sides)
+        });
+    }
+}

@@ -1,0 +1,196 @@
+//! Loads that depend on the motion of their own points.
+
+use std::sync::Arc;
+
+use lissom_core::elements::Contribution;
+use lissom_core::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
+use lissom_core::kinematics::{CarriedFrame, DiscreteValueId};
+use lissom_core::law::{Enclosure, Interval};
+use lissom_core::registry::{Constant, ForceFunction, Function};
+use lissom_core::signals::{Argument, SignalFunction};
+use lissom_core::system::Builder;
+use lissom_motion::{Motion, Rotation};
+
+use super::{Names, distributed};
+use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName};
+use crate::expression::OverTime;
+use crate::functions::Ramp;
+use crate::report::{Located, Problem};
+use crate::table::Table;
+
+/// A table over an argument.
+#[derive(Debug)]
+struct OverArgument(Table);
+
+impl SignalFunction for OverArgument {
+    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
+        ForceFunction::evaluate(&self.0, arguments[0], 0.0)[0]
+    }
+
+    fn gradient(&self, _: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
+        out[0] = ForceFunction::evaluate(&self.0, arguments[0], 0.0)[1];
+    }
+
+    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
+        ForceFunction::bounds(&self.0, arguments[0], [0.0; 2])
+    }
+
+    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        ForceFunction::enclosure(&self.0, &arguments[0], &Enclosure::of_constant([0.0; 2]))
+    }
+}
+
+/// Adds a load, and returns its elements.
+pub(super) fn add(
+    document: &Document,
+    entry: &LocalLoadEntry,
+    names: &Names,
+    builder: &mut Builder,
+) -> Result<Vec<LocalLoad>, Problem> {
+    let laws: Vec<Arc<dyn SignalFunction>> = entry.functions.iter().map(law).collect();
+    let held = outside(document, entry, (names, builder))?;
+    let scale = |weight: f64| {
+        let ramp = document.analysis.ramp.then_some((document.analysis.start, document.analysis.end));
+        let scale: Function = match ramp {
+            Some(span) => Arc::new(Ramp { value: 1.0, span }),
+            None => Arc::new(Constant(1.0)),
+        };
+        (weight, scale)
+    };
+    let points = points(document, entry, names, builder)?;
+    let mut loads = Vec::new();
+    for Point { frame, station, weight } in points {
+        if weight == 0.0 {
+            continue;
+        }
+        let mut contribution = Contribution::to(builder.model());
+        let states = entry.states.iter().map(|(state, _)| {
+            let name = format!("{} {}, {}", entry.name.value, loads.len() + 1, state.name);
+            contribution.add_state(name, state.start, state.magnitude)
+        });
+        let states = states.collect();
+        let all = entry.functions.iter().zip(&laws).zip(&held).map(|((own, law), held)| LocalFunction {
+            function: Arc::clone(law),
+            arguments: own
+                .arguments
+                .iter()
+                .zip(held)
+                .map(|(name, held)| argument(name, *held, station))
+                .collect(),
+        });
+        let functions = LocalFunctions {
+            all: all.collect(),
+            flow: entry.flow,
+            wrench: entry.wrench,
+            rates: entry.states.iter().map(|(_, rate)| *rate).collect(),
+        };
+        let start = builder.initial_frame(frame.node).transform_point(&frame.offset.position);
+        let load = LocalLoad::new(
+            names.local_loads.len(),
+            (frame, start),
+            entry.is_global,
+            functions,
+            states,
+            scale(weight),
+        );
+        builder.add(contribution.with(load.clone()));
+        loads.push(load);
+    }
+    Ok(loads)
+}
+
+fn law(expression: &LocalExpression) -> Arc<dyn SignalFunction> {
+    match &expression.law {
+        LocalLaw::Formula(formula) => {
+            let unknown = vec![None; formula.arguments().len()];
+            Arc::new(OverTime::new(formula.clone(), &unknown))
+        }
+        LocalLaw::Table(table) => Arc::new(OverArgument(table.clone())),
+    }
+}
+
+fn argument(name: &LocalName, held: Option<DiscreteValueId>, station: f64) -> LocalArgument {
+    match *name {
+        LocalName::Position(k) => LocalArgument::Position(k),
+        LocalName::Displacement(k) => LocalArgument::Displacement(k),
+        LocalName::Velocity(k) => LocalArgument::Velocity(k),
+        LocalName::AngularVelocity(k) => LocalArgument::AngularVelocity(k),
+        LocalName::RelativeFlow(k) => LocalArgument::RelativeFlow(k),
+        LocalName::State(k) => LocalArgument::State(k),
+        LocalName::Function(index) => LocalArgument::Function(index),
+        LocalName::Station => LocalArgument::Constant(station),
+        LocalName::Outside(_) => held.map_or(LocalArgument::Constant(f64::NAN), LocalArgument::Held),
+    }
+}
+
+/// The held values of inputs and sampled signals that each expression names, by argument.
+fn outside(
+    document: &Document,
+    entry: &LocalLoadEntry,
+    known: (&Names, &Builder),
+) -> Result<Vec<Vec<Option<DiscreteValueId>>>, Problem> {
+    let of = |name: &LocalName| match name {
+        LocalName::Outside(name) => held(entry, known, name).map(Some),
+        LocalName::Displacement(_) if document.assembly.is_some() => {
+            let message = format!(
+                "local load `{}` names a displacement, which has no reference where [assembly] moves the parts",
+                entry.name.value
+            );
+            Err(Problem::error(entry.name.span, message).help("name x, y and z instead"))
+        }
+        _ => Ok(None),
+    };
+    entry.functions.iter().map(|own| own.arguments.iter().map(of).collect()).collect()
+}
+
+fn held(
+    entry: &LocalLoadEntry,
+    (names, builder): (&Names, &Builder),
+    name: &Located<String>,
+) -> Result<DiscreteValueId, Problem> {
+    let found = match names.signals.get(&name.value) {
+        Some(Argument::Held(held)) => Some(*held),
+        Some(Argument::Signal(signal)) => builder.sample_of(*signal),
+        _ => None,
+    };
+    found.ok_or_else(|| {
+        let message = format!(
+            "local load `{}` names the signal `{}`, which is not sampled",
+            entry.name.value, name.value
+        );
+        let help = "add `sample` to the signal, or write its expression in the `variables` of the load";
+        Problem::error(name.span, message).help(help)
+    })
+}
+
+/// A point on which a load acts.
+struct Point {
+    frame: CarriedFrame,
+    station: f64,
+    /// Length that belongs to it, or 1.
+    weight: f64,
+}
+
+fn points(
+    document: &Document,
+    entry: &LocalLoadEntry,
+    names: &Names,
+    builder: &Builder,
+) -> Result<Vec<Point>, Problem> {
+    if let Some(beam) = &entry.beam {
+        let unknown = || Problem::error(entry.name.span, format!("there is no beam `{beam}`"));
+        let line = names.lines.get(beam).ok_or_else(unknown)?;
+        let weights = distributed::lengths(document.beam(beam).ok_or_else(unknown)?, line);
+        let point = |k: usize| Point {
+            frame: CarriedFrame { node: line.nodes[k], offset: line.offsets[k] },
+            station: line.places[k],
+            weight: weights[k],
+        };
+        return Ok((0..line.nodes.len()).map(point).collect());
+    }
+    let node = names.node(&entry.node)?;
+    let own = builder.initial_frame(node);
+    let position = entry.at.map(|at| own.inverse_transform_point(&at)).unwrap_or_default();
+    let offset = Motion { rotation: Rotation::identity(), position };
+    Ok(vec![Point { frame: CarriedFrame { node, offset }, station: 0.0, weight: 1.0 }])
+}
