@@ -339,3 +339,104 @@ fn parts_that_pass_through_each_other_are_reported() {
         assert_eq!(codes.contains(&"contact-too-deep"), is_reported, "{stiffness}: {codes:?}");
     }
 }
+
+/// A ball that cannot rotate, in the penetration of rest, under a gravity with a component `pull` along the plane.
+fn pressed(pull: f64, friction: f64, speed: f64, end: f64) -> String {
+    let depth = 9.81 / 1e5;
+    format!(
+        r#"
+lissom = 1
+gravity = [{pull}, 0, -9.81]
+[ground]
+shape = {{ kind = "plane" }}
+[bodies.block]
+mass = 1
+inertia = {{ sphere = 0.1 }}
+shape = {{ sphere = 0.1 }}
+position = [0, 0, {}]
+velocity = [{speed}, 0, 0]
+[joints.guide]
+kind = "generic"
+base = "ground"
+tip = "block"
+locked = ["rx", "ry", "rz"]
+[contacts.floor]
+base = "ground"
+tip = "block"
+stiffness = 1e5
+friction = {friction}
+[outputs.block]
+kind = "displacement"
+of = "block"
+[outputs.motion]
+kind = "velocity"
+of = "block"
+[analysis]
+kind = "dynamics"
+end = {end}
+"#,
+        0.1 - depth
+    )
+}
+
+fn modes_about(text: &str, about: OperatingPoint) -> lissom::modes::ModeReport {
+    let request =
+        ModeRequest { count: Some(30), about: Some(about), no_plots: true, ..ModeRequest::default() };
+    modes(&Model::from_text("contact.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A part that sticks vibrates on its bristles: with the deflection z, λ² + (1 - z²/z_c²) μ g/v_s λ + μ g/z_c = 0 in both directions.
+#[test]
+fn modes_of_a_sticking_part_are_those_of_its_bristles() {
+    let (coefficient, slip, stribeck) = (0.4, 1e-5_f64, 0.01);
+    for (pull, about) in [(0.0, OperatingPoint::Static), (0.5 * 0.4 * 9.81, OperatingPoint::Time(1.0))] {
+        let report = modes_about(&pressed(pull, coefficient, 0.0, 1.0), about);
+        let points = report.friction.expect("a contact with friction");
+        assert_eq!((points.sticking, points.sliding), (1, 0), "{about:?}");
+        let rate = (coefficient * 9.81 / slip).sqrt();
+        let share = pull / (coefficient * 9.81);
+        // Across the deflection the damping is the same: it depends on its length alone.
+        let damping = (1.0 - share * share) * coefficient * 9.81 / stribeck / (2.0 * rate);
+        let of_bristles = |mode: &&lissom_core::linearized::Mode| {
+            (mode.frequency / (rate / std::f64::consts::TAU) - 1.0).abs() < 1e-4
+                && (mode.damping / damping - 1.0).abs() < 1e-3
+        };
+        let found: Vec<[f64; 2]> = report.modes.iter().map(|mode| [mode.frequency, mode.damping]).collect();
+        assert_eq!(
+            report.modes.iter().filter(of_bristles).count(),
+            2,
+            "{about:?}: {found:?}, {rate} {damping}"
+        );
+        let normal = 1e5_f64.sqrt() / std::f64::consts::TAU;
+        assert!(report.modes.iter().any(|mode| (mode.frequency / normal - 1.0).abs() < 1e-4), "{found:?}");
+    }
+}
+
+/// A part that slides has no stiffness along the plane.
+#[test]
+fn modes_of_a_sliding_part_have_no_bristles() {
+    let report = modes_about(&pressed(0.0, 0.4, 3.0, 0.5), OperatingPoint::Time(0.2));
+    let points = report.friction.expect("a contact with friction");
+    assert_eq!((points.sticking, points.sliding), (0, 1));
+    let bristles = (0.4 * 9.81 / 1e-5_f64).sqrt() / std::f64::consts::TAU;
+    for mode in &report.modes {
+        let is_oscillation = mode.kind == lissom_core::linearized::ModeKind::Oscillation;
+        assert!(!is_oscillation || mode.frequency < 0.6 * bristles, "{} Hz {}", mode.frequency, mode.damping);
+    }
+    assert!(
+        modes_about(&pressed(0.0, 0.4, 0.0, 1.0).replace("friction = 0.4\n", ""), OperatingPoint::Static)
+            .friction
+            .is_none()
+    );
+}
+
+/// Static equilibria are still rejected: bristles have no equation there.
+#[test]
+fn statics_with_friction_are_rejected() {
+    let text = pressed(0.0, 0.4, 0.0, 1.0).replace("kind = \"dynamics\"", "kind = \"statics\"\nsteps = 2");
+    let error = match Model::from_text("contact.toml", &text).session(&[]) {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("statics without rates"),
+    };
+    assert!(error.contains("floor, friction 1"), "{error}");
+}
