@@ -228,7 +228,8 @@ catalogued! {
         Feedback {} => "gradient-feedback" {
             cause: "outputs of models with feedback, states or sampled signals cannot be differentiated",
             remedy: "remove loads and states whose signals depend on the motion",
-            meaning: "Derivatives along the motion are not implemented for feedback, states and sampled signals.",
+            meaning: "Derivatives along the motion are not implemented for feedback, states, events and sampled signals, except those of \
+                      contacts.",
             advice: "Remove loads and states whose signals depend on the motion, or compare runs.",
         }
         InParts { 0 => time } => "gradient-bisected-step" {

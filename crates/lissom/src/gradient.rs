@@ -281,7 +281,12 @@ pub fn gradient(
     let document = prepared(model, overrides, target)?;
     let mut session = Session::new(&document)?;
     let system = session.simulation().system();
-    if system.has_feedback() || system.signals().has_samples() || !system.signals().events().is_empty() {
+    let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
+    let has_samples = system.signals().has_samples();
+    let is_direct = !system.has_feedback() && !has_samples && system.signals().events().is_empty();
+    // Restitution and friction of contacts are events and states, which whole runs include.
+    let has_contacts = is_dynamic && !document.contacts.is_empty() && document.events.is_empty();
+    if !(is_direct || has_contacts && !has_samples) {
         return Err(GradientError::Feedback);
     }
     let Some(column) = crate::Column::named(session.columns(), &target.column) else {
@@ -289,11 +294,15 @@ pub fn gradient(
         return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });
     };
     let question = Question { model, overrides, target, document: &document, session: &session };
+    if !is_direct {
+        let numbers = paths.iter().map(|path| Ok((path.clone(), question.number(path)?)));
+        let numbers = numbers.collect::<Result<_, GradientError>>()?;
+        return across_switches((model, overrides, target), column, numbers);
+    }
     let mut sensitivities = ParameterSensitivities::new(&question, paths)?;
     let mut history = OutputHistory::new(target.measure);
     history.note(&session, column, &mut |column| sensitivities.derivatives(&session, column));
     let mut switches = Switches::default();
-    let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
     switches.have_changed(&session);
     while !session.is_finished() {
         session.advance()?;

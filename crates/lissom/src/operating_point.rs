@@ -1,6 +1,7 @@
 //! States about which a model is linearised: the positions of the file, static equilibrium, an instant of a run.
 
 use lissom_core::errors::Warning;
+use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::linearized::{LinearModel, steady};
 use lissom_core::settings::Settings;
 use lissom_core::simulation::equilibrium::at_rest;
@@ -9,7 +10,7 @@ use lissom_model::Document;
 use lissom_model::channels::Channel;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
-use lissom_motion::rotation_part;
+use lissom_motion::{rotation_part, translation_part};
 use serde::Deserialize;
 
 use crate::analysis_warning::AnalysisWarning;
@@ -231,7 +232,16 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     let time = session.progress().time;
     let simulation = session.simulation();
-    let model = linear(simulation.system(), simulation.state(), simulation.settings())?;
+    let mut model = linear(simulation.system(), simulation.state(), simulation.settings())?;
+    let duration = document.analysis.end - document.analysis.start;
+    if !is_static && has_come_to_rest(&model, duration) {
+        let mut still = simulation.state().clone();
+        stop(&mut still);
+        let resting = linear(simulation.system(), &still, simulation.settings())?;
+        if resting.imbalance() <= STILL_BALANCED {
+            model = resting;
+        }
+    }
     if is_static {
         if time > document.analysis.start {
             balanced(&model, "computed state", STILL_BALANCED, "use more load steps")?;
@@ -249,6 +259,23 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
     }
     hand(LinearizationPoint { model: &model, channels: session.observed().channels(), warnings });
     Ok(())
+}
+
+/// Whether the velocities would displace the model by a negligible fraction of its length during the whole analysis, as after
+/// vibrations have decayed.
+fn has_come_to_rest(model: &LinearModel<'_>, duration: f64) -> bool {
+    let (at, layout) = (model.kinematics(), model.system().layout());
+    let of_nodes = at.nodes.iter().map(|node| {
+        (translation_part(&node.twist).norm() / model.length()).max(rotation_part(&node.twist).norm())
+    });
+    let of_coordinates = CoordinateId::enumerate(&at.coordinates).map(|(coordinate, motion)| {
+        match layout.coordinate_quantity(coordinate) {
+            Quantity::Length => motion.rate.abs() / model.length(),
+            Quantity::Angle => motion.rate.abs(),
+            Quantity::State => 0.0,
+        }
+    });
+    of_nodes.chain(of_coordinates).fold(0.0, f64::max) * duration < BALANCED
 }
 
 fn linear<'a>(system: &'a System, state: &State, settings: &Settings) -> Result<LinearModel<'a>, ModesError> {

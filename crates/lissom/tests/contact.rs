@@ -80,6 +80,35 @@ fn an_impact_has_the_restitution_asked_for() {
     assert!(forces.iter().any(|force| *force < -500.0));
 }
 
+/// A mass on a linear spring and damper that never pulls: contact ends where the force vanishes, at ω_d t = π - 2 asin ζ, and
+/// e = exp(-ζ/√(1 - ζ²) (π - 2 asin ζ)).
+#[test]
+fn an_impact_on_a_damped_stop_has_the_restitution_of_the_linear_oscillator() {
+    for ratio in [0.05_f64, 0.2, 0.6] {
+        let damping = 2.0 * ratio * (2.0_f64 * 1e6).sqrt();
+        let decay = ratio / (1.0 - ratio * ratio).sqrt();
+        let restitution = (-decay * (std::f64::consts::PI - 2.0 * ratio.asin())).exp();
+        for scheme in SCHEMES {
+            for steps in ["step = 2e-5", "relative_tolerance = 1e-6"] {
+                let law = format!("stiffness = 1e6\ndamping = {damping}");
+                let run = finished(&bounce(&law, &format!("scheme = \"{scheme}\"\n{steps}")));
+                let found = run.value("slide.velocity").unwrap();
+                assert!(
+                    (found / restitution - 1.0).abs() < 1e-2,
+                    "{ratio}, {scheme}, {steps}: {found} {restitution}"
+                );
+            }
+        }
+    }
+    let (_, forces) = column(&bounce("stiffness = 1e6\ndamping = 500", "step = 2e-5"), "stop", "force");
+    assert!(forces.iter().all(|force| *force <= 0.0), "a stop never pulls");
+    let both = refused(&bounce(
+        "stiffness = 1e6\ndamping = 5\nrestitution = 0.5\nimpact_velocity = 1",
+        "step = 1e-4",
+    ));
+    assert!(both.contains("and `restitution` are alternatives"), "{both}");
+}
+
 /// With steps of given size a stiff contact may be over before anybody looks: Radau IIA then keeps a fraction of the velocity.
 #[test]
 fn a_contact_that_steps_do_not_resolve_is_reported() {

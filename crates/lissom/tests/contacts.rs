@@ -1,5 +1,6 @@
 //! Contacts between parts: restitution, friction that sticks, rolling, clearance, chains of balls, and wrong models.
 
+use lissom::gradient::{GradientError, Method, gradient};
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
 use lissom::{Model, Record, SessionError};
 
@@ -338,4 +339,207 @@ fn parts_that_pass_through_each_other_are_reported() {
         let codes: Vec<_> = session.warnings().map(lissom_core::errors::Warning::code).collect();
         assert_eq!(codes.contains(&"contact-too-deep"), is_reported, "{stiffness}: {codes:?}");
     }
+}
+
+/// A ball that cannot rotate, in the penetration of rest, under a gravity with a component `pull` along the plane.
+fn pressed(pull: f64, friction: f64, speed: f64, end: f64) -> String {
+    let depth = 9.81 / 1e5;
+    format!(
+        r#"
+lissom = 1
+gravity = [{pull}, 0, -9.81]
+[ground]
+shape = {{ kind = "plane" }}
+[bodies.block]
+mass = 1
+inertia = {{ sphere = 0.1 }}
+shape = {{ sphere = 0.1 }}
+position = [0, 0, {}]
+velocity = [{speed}, 0, 0]
+[joints.guide]
+kind = "generic"
+base = "ground"
+tip = "block"
+locked = ["rx", "ry", "rz"]
+[contacts.floor]
+base = "ground"
+tip = "block"
+stiffness = 1e5
+friction = {friction}
+[outputs.block]
+kind = "displacement"
+of = "block"
+[outputs.motion]
+kind = "velocity"
+of = "block"
+[analysis]
+kind = "dynamics"
+end = {end}
+"#,
+        0.1 - depth
+    )
+}
+
+fn modes_about(text: &str, about: OperatingPoint) -> lissom::modes::ModeReport {
+    let request =
+        ModeRequest { count: Some(30), about: Some(about), no_plots: true, ..ModeRequest::default() };
+    modes(&Model::from_text("contact.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A part that sticks vibrates on its bristles: with the deflection z, λ² + (1 - z²/z_c²) μ g/v_s λ + μ g/z_c = 0 in both directions.
+#[test]
+fn modes_of_a_sticking_part_are_those_of_its_bristles() {
+    let (coefficient, slip, stribeck) = (0.4, 1e-5_f64, 0.01);
+    for (pull, about) in [(0.0, OperatingPoint::Static), (0.5 * 0.4 * 9.81, OperatingPoint::Time(1.0))] {
+        let report = modes_about(&pressed(pull, coefficient, 0.0, 1.0), about);
+        let points = report.friction.expect("a contact with friction");
+        assert_eq!((points.sticking, points.sliding), (1, 0), "{about:?}");
+        // Vibrations have decayed, so that it is at rest. There are fewer modes than requested.
+        assert_eq!(report.warnings.len(), 1, "{about:?}: {:?}", report.warnings);
+        let rate = (coefficient * 9.81 / slip).sqrt();
+        let share = pull / (coefficient * 9.81);
+        // Across the deflection the damping is the same: it depends on its length alone.
+        let damping = (1.0 - share * share) * coefficient * 9.81 / stribeck / (2.0 * rate);
+        let of_bristles = |mode: &&lissom_core::linearized::Mode| {
+            (mode.frequency / (rate / std::f64::consts::TAU) - 1.0).abs() < 1e-4
+                && (mode.damping / damping - 1.0).abs() < 1e-3
+        };
+        let found: Vec<[f64; 2]> = report.modes.iter().map(|mode| [mode.frequency, mode.damping]).collect();
+        assert_eq!(
+            report.modes.iter().filter(of_bristles).count(),
+            2,
+            "{about:?}: {found:?}, {rate} {damping}"
+        );
+        let normal = 1e5_f64.sqrt() / std::f64::consts::TAU;
+        assert!(report.modes.iter().any(|mode| (mode.frequency / normal - 1.0).abs() < 1e-4), "{found:?}");
+    }
+}
+
+/// A part that slides has no stiffness along the plane.
+#[test]
+fn modes_of_a_sliding_part_have_no_bristles() {
+    let report = modes_about(&pressed(0.0, 0.4, 3.0, 0.5), OperatingPoint::Time(0.2));
+    let points = report.friction.expect("a contact with friction");
+    assert_eq!((points.sticking, points.sliding), (0, 1));
+    let bristles = (0.4 * 9.81 / 1e-5_f64).sqrt() / std::f64::consts::TAU;
+    for mode in &report.modes {
+        let is_oscillation = mode.kind == lissom_core::linearized::ModeKind::Oscillation;
+        assert!(!is_oscillation || mode.frequency < 0.6 * bristles, "{} Hz {}", mode.frequency, mode.damping);
+    }
+    assert!(
+        modes_about(&pressed(0.0, 0.4, 0.0, 1.0).replace("friction = 0.4\n", ""), OperatingPoint::Static)
+            .friction
+            .is_none()
+    );
+}
+
+/// Static equilibria are still rejected: bristles have no equation there.
+#[test]
+fn statics_with_friction_are_rejected() {
+    let text = pressed(0.0, 0.4, 0.0, 1.0).replace("kind = \"dynamics\"", "kind = \"statics\"\nsteps = 2");
+    let error = match Model::from_text("contact.toml", &text).session(&[]) {
+        Err(error) => error.to_string(),
+        Ok(_) => panic!("statics without rates"),
+    };
+    assert!(error.contains("floor, friction 1"), "{error}");
+}
+
+/// Derivatives of an output by whole runs, in the order of `paths`.
+fn derivatives(text: &str, of: &str, paths: &[&str]) -> Vec<f64> {
+    let paths: Vec<String> = paths.iter().map(|path| (*path).to_owned()).collect();
+    let model = Model::from_text("contact.toml", text);
+    let found = gradient(&model, &[], &of.parse().expect("a target"), &paths, true)
+        .unwrap_or_else(|error| panic!("{of}: {error}"));
+    assert!(found.derivatives.iter().all(|of| of.method == Method::Runs));
+    found.derivatives.iter().map(|of| of.value).collect()
+}
+
+fn slope_of(of: impl Fn(f64) -> f64, at: f64) -> f64 {
+    let apart = 1e-5 * at;
+    (of(at + apart) - of(at - apart)) / (2.0 * apart)
+}
+
+/// Without gravity the velocity after an impact is e v, whatever the stiffness. With gravity and e = 1 the ball is in contact for
+/// 2 (π - atan(v ω/g))/ω, ω = √(k/m).
+#[test]
+fn bounces_are_differentiated() {
+    let text = DROP
+        .replace("gravity = [0, 0, -9.81]", "[parameters]\nspeed = 2")
+        .replace("position = [0, 0, 1.1]", "position = [0, 0, 0.2]\nvelocity = [0, 0, \"-speed\"]")
+        .replace("end = 0.46", "end = 0.1\n[outputs.motion]\nkind = \"velocity\"\nof = \"ball\"");
+    let paths =
+        ["contacts.floor.restitution", "parameters.speed", "contacts.floor.stiffness", "bodies.ball.mass"];
+    let found = derivatives(&text, "motion.v3", &paths);
+    for (found, wanted) in found.iter().zip([2.0, 0.5, 0.0, 0.0]) {
+        let size = if wanted == 0.0 { 1e-5 } else { 1e-4 * wanted };
+        assert!((found - wanted).abs() < size, "{found} {wanted}");
+    }
+
+    let height_at = |height: f64, mass: f64, stiffness: f64| {
+        let (gravity, rate) = (9.81, (stiffness / mass).sqrt());
+        let fall = (2.0 * height / gravity).sqrt();
+        let speed = gravity * fall;
+        let contact = 2.0 * (std::f64::consts::PI - (speed * rate / gravity).atan()) / rate;
+        let flight = 0.6 - fall - contact;
+        speed * flight - 0.5 * gravity * flight * flight
+    };
+    let text = DROP
+        .replace("gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\n[parameters]\nheight = 0.5")
+        .replace("position = [0, 0, 1.1]", "position = [0, 0, \"0.1 + height\"]")
+        .replace("stiffness = 1e7\nexponent = 1.5\nrestitution = 0.5", "stiffness = 1e4\nrestitution = 1")
+        .replace("end = 0.46", "end = 0.6\n[outputs.place]\nkind = \"position\"\nof = \"ball\"");
+    let paths = ["parameters.height", "bodies.ball.mass", "contacts.floor.stiffness"];
+    let found = derivatives(&text, "place.z", &paths);
+    let wanted = [
+        slope_of(|height| height_at(height, 1.0, 1e4), 0.5),
+        slope_of(|mass| height_at(0.5, mass, 1e4), 1.0),
+        slope_of(|stiffness| height_at(0.5, 1.0, stiffness), 1e4),
+    ];
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
+    }
+}
+
+/// A rigid ball: height e v τ - g τ²/2 at the time τ after the impact.
+#[test]
+fn bounces_of_rigid_contacts_are_differentiated() {
+    let text = DROP
+        .replace("gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\n[parameters]\nheight = 0.5")
+        .replace("position = [0, 0, 1.1]", "position = [0, 0, \"0.1 + height\"]")
+        .replace("stiffness = 1e7\nexponent = 1.5\nrestitution = 0.5", "rigid = true\nrestitution = 0.7")
+        .replace("end = 0.46", "end = 0.6\n[outputs.place]\nkind = \"position\"\nof = \"ball\"");
+    let height_at = |height: f64, restitution: f64| {
+        let fall = (2.0 * height / 9.81_f64).sqrt();
+        let flight = 0.6 - fall;
+        restitution * 9.81 * fall * flight - 0.5 * 9.81 * flight * flight
+    };
+    let found = derivatives(&text, "place.z", &["parameters.height", "contacts.floor.restitution"]);
+    let wanted = [slope_of(|height| height_at(height, 0.7), 0.5), slope_of(|e| height_at(0.5, e), 0.7)];
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!((found / wanted - 1.0).abs() < 1e-4, "{found} {wanted}");
+    }
+}
+
+/// A block that slides: its way is v t - μ g t²/2, and v²/(2 μ g) when it stops.
+#[test]
+fn friction_of_contacts_is_differentiated() {
+    let (speed, coefficient) = (3.0, 0.4);
+    let text = pressed(0.0, coefficient, speed, 1.0);
+    let found = derivatives(&text, "block.u1@0.5", &["contacts.floor.friction"]);
+    let wanted = -0.5 * 9.81 * 0.25;
+    assert!((found[0] / wanted - 1.0).abs() < 1e-3, "{} {wanted}", found[0]);
+    let found = derivatives(&text, "block.u1", &["contacts.floor.friction"]);
+    let wanted = -speed * speed / (2.0 * coefficient * coefficient * 9.81);
+    assert!((found[0] / wanted - 1.0).abs() < 2e-3, "{} {wanted}", found[0]);
+    // Events of the model are not compared.
+    let event = format!("{text}[events.far]\nzero_of = \"block.u1 - 0.1\"\nstop = true\n");
+    let model = Model::from_text("contact.toml", &event);
+    let refused = gradient(
+        &model,
+        &[],
+        &"block.u1".parse().expect("a target"),
+        &["contacts.floor.friction".to_owned()],
+        true,
+    );
+    assert!(matches!(refused, Err(GradientError::Feedback)), "{refused:?}");
 }

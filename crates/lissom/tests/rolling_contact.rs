@@ -2,6 +2,8 @@
 
 use lissom::{Model, Record, SessionError};
 
+use crate::support::refused::refused;
+
 const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 const GRAVITY: f64 = 9.81;
 const RADIUS: f64 = 0.3;
@@ -103,6 +105,91 @@ fn a_wheel_that_is_thrown_slides_and_then_rolls() {
             let last = record.times.len() - 1;
             assert!((column(&record, "velocity", "v1")[last] - rolling).abs() < 5e-3, "{set:?}");
         }
+    }
+}
+
+/// A wheel of inertia m r²/2 decelerates by 2 ρ g/(3 r) until it stands, and stays.
+#[test]
+fn rolling_friction_stops_a_wheel() {
+    let arm = 0.01;
+    let deceleration = 2.0 / 3.0 * GRAVITY * arm / RADIUS;
+    let law = format!("{LAW}\nrolling_friction = {arm}\nrolling_rate = 1e-3");
+    for (speed, scheme) in [5.0, -5.0].into_iter().flat_map(|speed| SCHEMES.map(|scheme| (speed, scheme))) {
+        let record = run(&wheel(speed, speed / RADIUS, "", &law), &[("analysis.scheme", scheme)]);
+        let velocity = column(&record, "velocity", "v1");
+        let wanted = speed - speed.signum() * deceleration * 1.5;
+        assert!(
+            (velocity[velocity.len() - 1] - wanted).abs() < 3e-3,
+            "{scheme}: {} {wanted}",
+            velocity[velocity.len() - 1]
+        );
+    }
+    let record = run(&wheel(0.2, 0.2 / RADIUS, "", &law), &[]);
+    let (place, spin) = (column(&record, "place", "x"), column(&record, "spin", "w2"));
+    let last = place.len() - 1;
+    let wanted = 0.04 / (2.0 * deceleration);
+    assert!((place[last] / wanted - 1.0).abs() < 1e-2, "{} {wanted}", place[last]);
+    assert!(spin[last].abs() < 1e-4, "{}", spin[last]);
+}
+
+/// A moment N c ω: the velocity decays with 2 g c/(3 r²).
+#[test]
+fn rolling_damping_slows_a_wheel_exponentially() {
+    let damping = 0.01;
+    let decay = 2.0 / 3.0 * GRAVITY * damping / (RADIUS * RADIUS);
+    let law = format!("{LAW}\nrolling_damping = {damping}");
+    let record = run(&wheel(5.0, 5.0 / RADIUS, "", &law), &[]);
+    for (velocity, time) in column(&record, "velocity", "v1").iter().zip(&record.times) {
+        let wanted = 5.0 * (-decay * time).exp();
+        assert!((velocity - wanted).abs() < 6e-3, "{time}: {velocity} {wanted}");
+    }
+}
+
+/// Rolling friction of a ball acts in every direction, and not against its spin about the normal.
+#[test]
+fn rolling_friction_of_a_ball_acts_in_the_plane() {
+    let (arm, spin) = (0.01, 7.0);
+    let law = format!("{LAW}\nrim = {RADIUS}\nrolling_friction = {arm}\nrolling_rate = 1e-3");
+    let turning = format!("[{}, {}, {spin}]", -4.0 / RADIUS, 3.0 / RADIUS);
+    let set = [
+        ("springs.road.radius", "0"),
+        ("bodies.wheel.inertia", "[0.18, 0.18, 0.18]"),
+        ("bodies.wheel.velocity", "[3, 4, 0]"),
+        ("bodies.wheel.angular_velocity", turning.as_str()),
+        ("analysis.relative_tolerance", "1e-7"),
+    ];
+    let record = run(&wheel(1.0, 1.0, "", &law), &set);
+    let speed = 5.0 - 2.0 / 3.0 * GRAVITY * arm / RADIUS * 1.5;
+    let last = record.times.len() - 1;
+    for (component, share) in [("v1", 0.6), ("v2", 0.8)] {
+        let velocity = column(&record, "velocity", component)[last];
+        assert!((velocity - share * speed).abs() < 1e-3, "{component}: {velocity}");
+    }
+    assert!((column(&record, "spin", "w3")[last] - spin).abs() < 1e-4);
+    let lonely = format!("{LAW}\nrolling_rate = 1");
+    let text = refused(&wheel(1.0, 1.0, "", &lonely));
+    assert!(text.contains("has no meaning without `rolling_friction`"), "{text}");
+}
+
+/// A wheel that is dropped on a linear spring and damper: see the same test of stops.
+#[test]
+fn a_damped_wheel_has_the_restitution_of_the_linear_oscillator() {
+    let (ratio, mass, stiffness) = (0.2_f64, 4.0_f64, 1e6_f64);
+    let damping = 2.0 * ratio * (mass * stiffness).sqrt();
+    let decay = ratio / (1.0 - ratio * ratio).sqrt();
+    let restitution = (-decay * (std::f64::consts::PI - 2.0 * ratio.asin())).exp();
+    let set = [
+        ("gravity", "[0, 0, 0]"),
+        ("bodies.wheel.position", "[0, 0, 0.31]"),
+        ("bodies.wheel.velocity", "[0, 0, -1]"),
+        ("analysis.end", "0.03"),
+        ("analysis.step", "5e-5"),
+    ];
+    for scheme in SCHEMES {
+        let set: Vec<_> = set.into_iter().chain([("analysis.scheme", scheme)]).collect();
+        let record = run(&wheel(0.0, 0.0, "", &format!("damping = {damping}")), &set);
+        let found = *column(&record, "velocity", "v3").last().expect("a record");
+        assert!((found / restitution - 1.0).abs() < 1e-2, "{scheme}: {found} {restitution}");
     }
 }
 

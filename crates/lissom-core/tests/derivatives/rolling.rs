@@ -12,7 +12,7 @@ use lissom_motion::{Motion, Vector3};
 use crate::derivatives::check;
 use crate::derivatives::configuration::Random;
 
-/// Wheels that are pressed into the plane and slide, by both laws of friction.
+/// Wheels and balls that are pressed into the plane and slide, by both laws of friction, with damping and rolling friction.
 #[test]
 fn wheels_that_yield_and_slip() {
     let kind = SPRINGS.iter().find(|kind| kind.name == "rolling_contact").expect("there");
@@ -31,7 +31,11 @@ fn wheels_that_yield_and_slip() {
             .with("radius", Value::Number(radius))
             .with("rim", Value::Number(rim))
             .with("stiffness", Value::Number(3.0))
-            .with("dissipation", Value::Number(0.2));
+            .with("dissipation", Value::Number(0.2))
+            .with("damping", Value::Number(if given { 0.4 } else { 0.0 }))
+            .with("rolling_friction", Value::Number(0.6))
+            .with("rolling_rate", Value::Number(2.0))
+            .with("rolling_damping", Value::Number(0.3));
         if given {
             parameters.insert("traction", Value::Function(Arc::new(Grip)));
         } else {

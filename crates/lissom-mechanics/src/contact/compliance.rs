@@ -1,14 +1,15 @@
 //! The normal force of a compliant contact, by the law of Hunt and Crossley [1975].
 //!
-//! Legend: δ penetration, k stiffness, n exponent, a dissipation factor, e restitution, v velocity of impact.
+//! Legend: δ penetration, k stiffness, n exponent, a dissipation factor, c damping, e restitution, v velocity of impact.
 //!
 //! ```text
-//! f = k δⁿ max(0, 1 + a δ̇),      P = k δⁿ⁺¹/(n + 1)
+//! f = max(0, k δⁿ max(0, 1 + a δ̇) + c δ̇),      P = k δⁿ⁺¹/(n + 1)
 //! A (1 + e) = ln((1 + A)/(1 - e A)),      a = A/v
 //! ```
 //!
 //! The second line is exact for a body that meets the contact at v under no other force: m δ̇ dδ̇/(1 + a δ̇) = -k δⁿ dδ over
-//! the whole contact, for any m, k and n. The force is continuous at touch and never pulls.
+//! the whole contact, for any m, k and n, and c = 0. The force never pulls. Without damping it is continuous at touch, with damping it
+//! jumps there by c δ̇.
 
 /// Smallest restitution of a contact.
 pub const MIN_RESTITUTION: f64 = 0.01;
@@ -33,6 +34,16 @@ impl Compliance {
         let elastic = self.stiffness * depth.powf(self.exponent);
         let slope = self.stiffness * self.exponent * depth.powf(self.exponent - 1.0);
         [elastic * factor, slope * factor, elastic * dissipation]
+    }
+
+    /// The same with a damping c: the sum never pulls.
+    pub fn damped_force(&self, depth: f64, rate: f64, [dissipation, damping]: [f64; 2]) -> [f64; 3] {
+        let [force, stiffness, slope] = self.force(depth, rate, dissipation);
+        if damping == 0.0 {
+            return [force, stiffness, slope];
+        }
+        let sum = force + damping * rate;
+        if sum > 0.0 { [sum, stiffness, slope + damping] } else { [0.0; 3] }
     }
 
     /// Energy at a penetration.
@@ -87,7 +98,7 @@ impl RestitutionLaw {
 
 #[cfg(test)]
 mod tests {
-    use super::{RestitutionLaw, relative_dissipation};
+    use super::{Compliance, RestitutionLaw, relative_dissipation};
 
     /// For small losses all laws agree.
     #[test]
@@ -99,6 +110,26 @@ mod tests {
         assert!(
             RestitutionLaw::LankaraniNikravesh.relative_dissipation(0.3) < 0.5 * relative_dissipation(0.3)
         );
+    }
+
+    /// Penetrating, departing with a force, and departing so fast that the force vanishes.
+    #[test]
+    fn derivatives_of_damped_forces_are_those_of_differences() {
+        let of =
+            |depth, rate| Compliance { stiffness: 3.0, exponent: 1.5 }.damped_force(depth, rate, [0.2, 0.7]);
+        let (depth, step) = (0.4, 1e-6);
+        for (rate, is_pushing) in [(0.5, true), (-0.5, true), (-3.0, false)] {
+            let [force, by_depth, by_rate] = of(depth, rate);
+            let elastic = 3.0 * depth.powf(1.5);
+            let wanted = (elastic * (1.0 + 0.2 * rate) + 0.7 * rate).max(0.0);
+            assert!((force - wanted).abs() < 1e-12, "{rate}: {force}");
+            assert_eq!(force > 0.0, is_pushing, "{rate}");
+            let slopes = [
+                (of(depth + step, rate)[0] - of(depth - step, rate)[0]) / (2.0 * step),
+                (of(depth, rate + step)[0] - of(depth, rate - step)[0]) / (2.0 * step),
+            ];
+            assert!((slopes[0] - by_depth).abs() < 1e-8 && (slopes[1] - by_rate).abs() < 1e-8, "{rate}");
+        }
     }
 
     #[test]

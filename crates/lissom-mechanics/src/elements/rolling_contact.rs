@@ -2,21 +2,27 @@
 //! velocity.
 //!
 //! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative
-//! twist, η its variation of position, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
+//! twist, η its variation of position, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction, r_k rows of
+//! the rolling rates ω_k = r_k·V: (0, a) of a wheel with the axis a, (0, T_k) of a ball; ω = |(ω_k)|, ρ lever arm and c damping per
+//! normal force of rolling friction.
 //!
 //! ```text
-//! g = ±x₃ - r S - ρ,     N = k δ max(0, 1 + a δ̇) for δ > 0,     wrench on the tip N b_n - N μ(σ) Σ s_k/σ b_k
+//! N = max(0, k δ max(0, 1 + a δ̇) + d δ̇) for δ > 0,      ν(ω) = ρ tanh(ω/ω_s) + c ω
+//! wrench on the tip  N b_n - N μ(σ) Σ s_k/σ b_k - N ν(ω) Σ ω_k/ω r_k
 //! ```
 //!
 //! Friction acts in the plane, not at the lowest point of the undeformed rim below it. The normal force is that of Hunt and Crossley 1975. Without `traction` the law is μ(σ) = μ₀ tanh(σ/v_s).
 
-use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix};
+use lissom_motion::{
+    Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix, rotation_part, screw, skew,
+};
 
 use super::contribution::Contribution;
 use super::force_law::Response;
 use super::initial_model::InitialModel;
 use super::kind::{Attached, ElementKind};
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, Tangents, Unknowns};
+use crate::contact::compliance::Compliance;
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
@@ -27,6 +33,8 @@ use crate::signals::measurement::Gradient;
 
 /// Sliding velocities below this are those of rolling, where the law is linear [m/s].
 const ROLLING_SPEED: f64 = 1e-9;
+/// The same of rolling rates, relative to ω_s.
+const STANDSTILL: f64 = 1e-7;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -62,6 +70,12 @@ pub const KIND: ElementKind = ElementKind {
             "Relative increase of the normal force per penetration velocity; default 0.",
         ),
         Parameter::optional(
+            "damping",
+            ParameterType::NotNegative,
+            "N s/m",
+            "Normal force per penetration velocity, while in contact; default 0.",
+        ),
+        Parameter::optional(
             "friction_coefficient",
             ParameterType::NotNegative,
             "",
@@ -79,6 +93,24 @@ pub const KIND: ElementKind = ElementKind {
             "",
             "Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`.",
         ),
+        Parameter::optional(
+            "rolling_friction",
+            ParameterType::NotNegative,
+            "m",
+            "Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane; default 0.",
+        ),
+        Parameter::optional(
+            "rolling_damping",
+            ParameterType::NotNegative,
+            "m s/rad",
+            "Additional moment per normal force and rolling rate; default 0.",
+        ),
+        Parameter::optional(
+            "rolling_rate",
+            ParameterType::Positive,
+            "rad/s",
+            "Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps; default 0.01.",
+        ),
     ],
     ports: Ports::TWO_LOCATIONS,
     build,
@@ -89,9 +121,11 @@ pub const KIND: ElementKind = ElementKind {
 pub struct RollingContact {
     frames: FramePair,
     contact: Contact,
-    stiffness: f64,
-    dissipation: f64,
+    compliance: Compliance,
+    /// Factor a and damping d.
+    dissipation: [f64; 2],
     traction: Traction,
+    resistance: Option<RollingResistance>,
     switch_states: SwitchStates,
 }
 
@@ -115,6 +149,29 @@ impl Traction {
         };
         let ratio = value / at;
         if sliding > ROLLING_SPEED { (ratio, (slope - ratio) / (at * at)) } else { (ratio, 0.0) }
+    }
+}
+
+/// ν(ω).
+#[derive(Clone, Copy, Debug)]
+struct RollingResistance {
+    /// ρ [m].
+    arm: f64,
+    /// c [m s/rad].
+    damping: f64,
+    /// ω_s [rad/s].
+    rate: f64,
+}
+
+impl RollingResistance {
+    /// ν(ω)/ω, and its derivative with respect to ω, over ω.
+    fn per_rate(&self, rolling: f64) -> (f64, f64) {
+        let least = STANDSTILL * self.rate;
+        let at = rolling.max(least);
+        let value = (at / self.rate).tanh();
+        let (ratio, slope) = (self.arm * value / at, self.arm * (1.0 - value * value) / self.rate);
+        let bend = if rolling > least { (slope - ratio) / (at * at) } else { 0.0 };
+        (ratio + self.damping, bend)
     }
 }
 
@@ -155,9 +212,10 @@ fn build(
         RollingContact {
             frames: FramePair::new(frames),
             contact,
-            stiffness: parameters.number("stiffness")?,
-            dissipation: parameters.number_or("dissipation", 0.0)?,
+            compliance: Compliance { stiffness: parameters.number("stiffness")?, exponent: 1.0 },
+            dissipation: [parameters.number_or("dissipation", 0.0)?, parameters.number_or("damping", 0.0)?],
             traction: traction(parameters)?,
+            resistance: resistance(parameters)?,
             switch_states: SwitchStates::default(),
         },
     ))
@@ -200,6 +258,16 @@ fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
     Ok(Traction::Given(function))
 }
 
+fn resistance(parameters: &Parameters) -> Result<Option<RollingResistance>, ParameterError> {
+    let [arm, damping] =
+        [parameters.number_or("rolling_friction", 0.0)?, parameters.number_or("rolling_damping", 0.0)?];
+    if parameters.has("rolling_rate") && arm == 0.0 {
+        return Err(ParameterError::new("rolling_rate", "has no meaning without `rolling_friction`"));
+    }
+    let rate = parameters.number_or("rolling_rate", 0.01)?;
+    Ok((arm > 0.0 || damping > 0.0).then_some(RollingResistance { arm, damping, rate }))
+}
+
 /// Forces between wheel and plane.
 struct Touch {
     motion: RelativeMotion,
@@ -213,8 +281,27 @@ struct Touch {
     normal: [f64; 3],
     /// μ/σ, and its derivative with respect to σ, over σ.
     traction: (f64, f64),
+    /// Without rolling friction none.
+    rolling: Option<Rolling>,
     /// On the left-hand side, on the tip's frame.
     wrench: Vector6,
+}
+
+/// Rolling friction.
+struct Rolling {
+    /// r_k.
+    rows: [Vector6; DIRECTIONS],
+    /// ω_k.
+    rates: [f64; DIRECTIONS],
+    /// ν/ω, and its derivative with respect to ω, over ω.
+    resistance: (f64, f64),
+}
+
+impl Rolling {
+    /// Σ ν/ω ω_k r_k.
+    fn direction(&self) -> Vector6 {
+        self.resistance.0 * (self.rates[0] * self.rows[0] + self.rates[1] * self.rows[1])
+    }
 }
 
 impl RollingContact {
@@ -224,19 +311,64 @@ impl RollingContact {
         let rows = self.contact.rows(&motion.rotation, gap);
         let gap_rate = normal_row.dot(&motion.twist);
         let sliding = rows.map(|row| row.dot(&motion.twist));
-        let factor = 1.0 - self.dissipation * gap_rate;
-        let is_touching = is_on_upper_branch(self.switch_states.of(at).first(), -gap) && factor > 0.0;
-        let normal = if is_touching {
-            let elastic = -self.stiffness * gap;
-            [elastic * factor, -self.stiffness * factor, -elastic * self.dissipation]
+        let normal = if is_on_upper_branch(self.switch_states.of(at).first(), -gap) {
+            let [force, by_depth, by_closing] =
+                self.compliance.damped_force(-gap, -gap_rate, self.dissipation);
+            [force, -by_depth, -by_closing]
         } else {
             [0.0; 3]
         };
         let traction = self.traction.per_velocity(sliding[0].hypot(sliding[1]));
         let friction = normal[0] * traction.0;
-        let wrench =
+        let mut wrench =
             -normal[0] * normal_row + friction * sliding[0] * rows[0] + friction * sliding[1] * rows[1];
-        Touch { motion, normal_row, rows, gap, gap_rate, sliding, normal, traction, wrench }
+        let rolling = self.resistance.as_ref().map(|resistance| self.rolling(resistance, &motion));
+        if let Some(rolling) = &rolling {
+            wrench += normal[0] * rolling.direction();
+        }
+        Touch { motion, normal_row, rows, gap, gap_rate, sliding, normal, traction, rolling, wrench }
+    }
+
+    fn is_ball(&self) -> bool {
+        self.contact.radius == 0.0
+    }
+
+    fn rolling(&self, resistance: &RollingResistance, motion: &RelativeMotion) -> Rolling {
+        let about = |axis: &Vector3| screw(&Vector3::zeros(), axis);
+        let rows = if self.is_ball() {
+            [0, 1].map(|k| about(&motion.rotation.row(k).transpose()))
+        } else {
+            [about(&self.contact.axis), Vector6::zeros()]
+        };
+        let rates = rows.map(|row| row.dot(&motion.twist));
+        Rolling { rows, rates, resistance: resistance.per_rate(rates[0].hypot(rates[1])) }
+    }
+
+    /// ∂(N Σ ν/ω ω_k r_k)/∂η at a constant N, and with respect to η̇.
+    fn rolling_by(&self, touch: &Touch, rolling: &Rolling) -> [Matrix6; 2] {
+        let Rolling { rows, rates, resistance: (ratio, bend) } = rolling;
+        let (force, motion) = (touch.normal[0], &touch.motion);
+        let (mut by_place, mut by_rate) = (Matrix6::zeros(), Matrix6::zeros());
+        let bracket = lie_bracket_matrix(&motion.carried);
+        // T_k is fixed in the base, a in the tip: ∂T_k/∂η_θ = T̃_k.
+        let turned = |row: &Vector6| {
+            let mut of = Matrix6::zeros();
+            if self.is_ball() {
+                of.fixed_view_mut::<3, 3>(3, 3).copy_from(&skew(&rotation_part(row)));
+            }
+            of
+        };
+        let rates_by = rows.map(|row| turned(&row).tr_mul(&motion.twist) - bracket.tr_mul(&row));
+        for k in 0..DIRECTIONS {
+            by_place += force * ratio * rates[k] * turned(&rows[k]);
+            for l in 0..DIRECTIONS {
+                let same = if k == l { *ratio } else { 0.0 };
+                let slope = force * (same + bend * rates[k] * rates[l]);
+                by_place += slope * rows[k] * rates_by[l].transpose();
+                by_rate += slope * rows[k] * rows[l].transpose();
+            }
+        }
+        [by_place, by_rate]
     }
 
     /// Derivative of the gap's rate with respect to η at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
@@ -271,7 +403,10 @@ impl Element for RollingContact {
         let closing = self.closing(&touch);
         let force_by_place = by_gap * normal_row + by_gap_rate * closing;
         let force_by_rate = by_gap_rate * normal_row;
-        let direction = -normal_row + ratio * (sliding[0] * rows[0] + sliding[1] * rows[1]);
+        let mut direction = -normal_row + ratio * (sliding[0] * rows[0] + sliding[1] * rows[1]);
+        if let Some(rolling) = &touch.rolling {
+            direction += rolling.direction();
+        }
         by_place += direction * force_by_place.transpose();
         let mut by_rate: Matrix6 = direction * force_by_rate.transpose();
         for k in 0..DIRECTIONS {
@@ -282,6 +417,11 @@ impl Element for RollingContact {
                 by_rate += slope * rows[k] * rows[l].transpose();
             }
         }
+        if let Some(rolling) = &touch.rolling {
+            let [more_by_place, more_by_rate] = self.rolling_by(&touch, rolling);
+            by_place += more_by_place;
+            by_rate += more_by_rate;
+        }
         let size = out.size();
         self.frames.add_stiffness(motion, (&touch.wrench, &by_place), (size, &mut out.stiffness));
         self.frames.add_damping(motion, &by_rate, (size, &mut out.damping));
@@ -290,7 +430,7 @@ impl Element for RollingContact {
     fn energy(&self, at: &Kinematics) -> Energy {
         let touch = self.touch(at);
         let depth = if touch.normal[0] > 0.0 || touch.gap < 0.0 { touch.gap } else { 0.0 };
-        Energy { strain: 0.5 * self.stiffness * depth * depth, ..Energy::default() }
+        Energy { strain: self.compliance.energy(-depth), ..Energy::default() }
     }
 
     fn switch_states(&mut self) -> Option<&mut SwitchStates> {

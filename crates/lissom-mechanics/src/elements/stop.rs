@@ -39,6 +39,12 @@ pub const TORSIONAL: ElementKind = ElementKind {
             "Factor a of the penetration rate; default 0.",
         ),
         Parameter::optional(
+            "damping",
+            ParameterType::NotNegative,
+            "N m s/rad",
+            "Moment per penetration rate, while in contact; default 0.",
+        ),
+        Parameter::optional(
             "restitution",
             ParameterType::Positive,
             "",
@@ -72,6 +78,12 @@ pub const AXIAL: ElementKind = ElementKind {
             "Factor a of the penetration rate; default 0.",
         ),
         Parameter::optional(
+            "damping",
+            ParameterType::NotNegative,
+            "N s/m",
+            "Force per penetration rate, while in contact; default 0.",
+        ),
+        Parameter::optional(
             "restitution",
             ParameterType::Positive,
             "",
@@ -90,7 +102,8 @@ pub struct Stop {
     coordinate: [CoordinateId; 1],
     range: [f64; 2],
     compliance: Compliance,
-    dissipation: f64,
+    /// Factor a and damping c.
+    dissipation: [f64; 2],
     switch_states: SwitchStates,
 }
 
@@ -111,7 +124,7 @@ fn add(
         coordinate: [coordinate],
         range,
         compliance: Compliance { stiffness: parameters.number("stiffness")?, exponent },
-        dissipation: dissipation(parameters)?,
+        dissipation: [dissipation(parameters)?, parameters.number_or("damping", 0.0)?],
         switch_states: SwitchStates::default(),
     };
     Ok(Contribution::of(model, stop))
@@ -130,6 +143,10 @@ fn dissipation(parameters: &Parameters) -> Result<f64, ParameterError> {
             "dissipation",
             "and `restitution` are alternatives: remove one of them",
         ));
+    }
+    if parameters.has("damping") {
+        let problem = "and `restitution` are alternatives: remove one of them, the damping would reduce the restitution";
+        return Err(ParameterError::new("damping", problem));
     }
     let restitution = parameters.number("restitution")?;
     if !(MIN_RESTITUTION..=1.0).contains(&restitution) {
@@ -166,7 +183,7 @@ impl Stop {
     /// The force with its derivatives.
     fn response(&self, at: &Kinematics) -> Response {
         let Some((depth, rate, direction)) = self.contact(at) else { return Response::default() };
-        let [force, stiffness, damping] = self.compliance.force(depth, rate, self.dissipation);
+        let [force, stiffness, damping] = self.compliance.damped_force(depth, rate, self.dissipation);
         Response { force: direction * force, stiffness, damping }
     }
 }
@@ -202,7 +219,7 @@ impl Element for Stop {
 
 impl Spring for Stop {
     fn dissipates(&self) -> bool {
-        self.dissipation > 0.0
+        self.dissipation.iter().any(|of| *of > 0.0)
     }
 
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {

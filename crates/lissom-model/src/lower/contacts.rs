@@ -18,8 +18,8 @@ use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation, Vector3};
 use nalgebra::Vector2;
 
-use super::Names;
 use super::straight_line::Line;
+use super::{Lowered, Names};
 use crate::contact_point::ContactPoint;
 use crate::document::{ContactEntry, Document, NodeReference, Restitution};
 use crate::report::Problem;
@@ -63,6 +63,31 @@ pub(super) fn solids<'d>(document: &'d Document, part: &NodeReference) -> &'d [P
         _ => Some(&document.ground.solids),
     };
     found.map_or(&[], Vec::as_slice)
+}
+
+/// Points of contact with friction that touch, of all contacts that are not rigid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrictionPoints {
+    /// Those whose bristles do not slip.
+    pub sticking: usize,
+    /// Those whose bristles slip.
+    pub sliding: usize,
+}
+
+impl Lowered {
+    /// Points of contact with friction that touch in the state `at` of the model of `document`; none without such contacts.
+    pub fn friction_points(&self, document: &Document, at: &Kinematics) -> Option<FrictionPoints> {
+        let with_friction = document.contacts.iter().filter(|entry| entry.friction.is_some());
+        let mut names = with_friction.map(|entry| &entry.name.value).peekable();
+        names.peek()?;
+        let mut found = FrictionPoints::default();
+        for point in names.filter_map(|name| self.names.contacts.get(name)).flatten() {
+            let forces = point.contact.forces_at(at);
+            found.sliding += usize::from(forces.is_touching && forces.is_sliding);
+            found.sticking += usize::from(forces.is_touching && !forces.is_sliding);
+        }
+        Some(found)
+    }
 }
 
 /// Adds a contact.

@@ -39,6 +39,8 @@ use lissom_core::simulation::accumulated::Accumulated;
 use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 
+pub use contacts::FrictionPoints;
+
 use crate::channels::Channel;
 use crate::contact_point::{ContactPoint, RigidPoint};
 use crate::document::{

@@ -81,7 +81,8 @@ pub(super) struct ParameterSensitivities {
 }
 
 impl Question<'_> {
-    fn number(&self, path: &str) -> Result<f64, GradientError> {
+    /// The number at `path`.
+    pub(super) fn number(&self, path: &str) -> Result<f64, GradientError> {
         if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
             let words = format!(
                 "`{path}` belongs to the analysis, not to the model: outputs have no derivative with respect to it"

@@ -14,6 +14,7 @@ use lissom_core::linearized::{
 };
 use lissom_model::Report;
 use lissom_model::document::AnalysisKind;
+use lissom_model::lower::{FrictionPoints, lower};
 use serde::Deserialize;
 
 use crate::analysis::{Analysis, AnalysisError, Origin};
@@ -201,6 +202,8 @@ pub struct ModeReport {
     pub time: f64,
     /// Number of coordinates and of multipliers.
     pub unknowns: [usize; 2],
+    /// Points of contact with friction that touch; none without such contacts.
+    pub friction: Option<FrictionPoints>,
     /// Warnings.
     pub warnings: Vec<AnalysisWarning>,
 }
@@ -248,6 +251,9 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         report.moved.clear();
     }
     report.about = about.name();
+    if !document.contacts.is_empty() {
+        report.friction = lower(&document)?.friction_points(&document, &report.state);
+    }
     if let Completeness::Missing(missed) = report.completeness {
         return Err(ModesError::Missing(missed));
     }
@@ -376,6 +382,7 @@ fn report_of(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport 
         about: String::new(),
         time: model.kinematics().time,
         unknowns: [layout.coordinate_count(), layout.multiplier_rows().len()],
+        friction: None,
         warnings,
     }
 }

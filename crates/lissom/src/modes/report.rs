@@ -140,6 +140,9 @@ impl AnalysisReport for ModeReport {
         insert("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
         insert("multipliers", json!(self.unknowns[1]));
         insert("rigid_modes", json!(self.count(ModeKind::Rigid)));
+        if let Some(points) = self.friction {
+            insert("friction_points", json!({ "sticking": points.sticking, "sliding": points.sliding }));
+        }
         insert("masses", json!(self.masses));
         let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
             json!({
@@ -192,6 +195,13 @@ impl AnalysisReport for ModeReport {
                 written(mode.damping, 4),
                 mode.kind.name(),
                 largest(&self.shares[index])
+            );
+        }
+        if let Some(points) = self.friction {
+            let _ = writeln!(
+                text,
+                "  points of contact with friction: {} stick, {} slide",
+                points.sticking, points.sliding
             );
         }
         if number > LISTED {

@@ -107,9 +107,13 @@ class RollingContact(Spring):
         rim: Rounding radius of the rim; default 0 [m]; a number ≥ 0, or nothing.
         stiffness: Normal force per penetration [N/m]; a number > 0.
         dissipation: Relative increase of the normal force per penetration velocity; default 0 [s/m]; a number ≥ 0, or nothing.
+        damping: Normal force per penetration velocity, while in contact; default 0 [N s/m]; a number ≥ 0, or nothing.
         friction_coefficient: Coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         slip_velocity: Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps; default 0.01 [m/s]; a number > 0, or nothing.
         traction: Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`; an expression of `slip`, or a table of it written as a function of time, or nothing.
+        rolling_friction: Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane; default 0 [m]; a number ≥ 0, or nothing.
+        rolling_damping: Additional moment per normal force and rolling rate; default 0 [m s/rad]; a number ≥ 0, or nothing.
+        rolling_rate: Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps; default 0.01 [rad/s]; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "rolling_contact"
@@ -125,9 +129,13 @@ class RollingContact(Spring):
     rim: Number | None = None
     stiffness: Number
     dissipation: Number | None = None
+    damping: Number | None = None
     friction_coefficient: Number | None = None
     slip_velocity: Number | None = None
     traction: Function | None = None
+    rolling_friction: Number | None = None
+    rolling_damping: Number | None = None
+    rolling_rate: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -317,6 +325,7 @@ class AxialStop(Spring):
         stiffness: Force at a penetration of 1 m [N/m^n]; a number > 0.
         exponent: Exponent n, at least 1; default 1; a number > 0, or nothing.
         dissipation: Factor a of the penetration rate; default 0 [s/m]; a number ≥ 0, or nothing.
+        damping: Force per penetration rate, while in contact; default 0 [N s/m]; a number ≥ 0, or nothing.
         restitution: Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`; a number > 0, or nothing.
         impact_velocity: Velocity of that impact [m/s]; a number > 0, or nothing.
         coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
@@ -330,6 +339,7 @@ class AxialStop(Spring):
     stiffness: Number
     exponent: Number | None = None
     dissipation: Number | None = None
+    damping: Number | None = None
     restitution: Number | None = None
     impact_velocity: Number | None = None
     coordinate: Number | None = None
@@ -346,6 +356,7 @@ class TorsionalStop(Spring):
         stiffness: Moment at a penetration of 1 rad [N m/rad^n]; a number > 0.
         exponent: Exponent n, at least 1; default 1; a number > 0, or nothing.
         dissipation: Factor a of the penetration rate; default 0 [s/rad]; a number ≥ 0, or nothing.
+        damping: Moment per penetration rate, while in contact; default 0 [N m s/rad]; a number ≥ 0, or nothing.
         restitution: Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`; a number > 0, or nothing.
         impact_velocity: Rate of that impact [rad/s]; a number > 0, or nothing.
         coordinate: Number of the joint's coordinate, from 1; default: the first suitable one; a number > 0, or nothing.
@@ -359,6 +370,7 @@ class TorsionalStop(Spring):
     stiffness: Number
     exponent: Number | None = None
     dissipation: Number | None = None
+    damping: Number | None = None
     restitution: Number | None = None
     impact_velocity: Number | None = None
     coordinate: Number | None = None

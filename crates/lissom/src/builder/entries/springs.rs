@@ -50,12 +50,20 @@ entry! {
     rim: f64 = "rim";
     /// Relative increase of the normal force per penetration velocity; default 0 \[s/m\].
     dissipation: f64 = "dissipation";
+    /// Normal force per penetration velocity, while in contact; default 0 \[N s/m\].
+    damping: f64 = "damping";
     /// Coefficient of sliding friction; default 0.
     friction_coefficient: f64 = "friction_coefficient";
     /// Velocity v\_s of the law μ tanh(v/v\_s), below which the wheel creeps; default 0.01 \[m/s\].
     slip_velocity: f64 = "slip_velocity";
     /// Coefficient of friction over the sliding velocity `slip` \[m/s\], instead of the law of `friction_coefficient`.
     traction: Function = "traction";
+    /// Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane; default 0 \[m\].
+    rolling_friction: f64 = "rolling_friction";
+    /// Additional moment per normal force and rolling rate; default 0 \[m s/rad\].
+    rolling_damping: f64 = "rolling_damping";
+    /// Rate ω\_s of the law tanh(ω/ω\_s) of `rolling_friction`, below which the wheel creeps; default 0.01 \[rad/s\].
+    rolling_rate: f64 = "rolling_rate";
 }
 
 entry! {
@@ -203,6 +211,8 @@ entry! {
     new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
     /// Factor a of the penetration rate; default 0 \[s/m\].
     dissipation: f64 = "dissipation";
+    /// Force per penetration rate, while in contact; default 0 \[N s/m\].
+    damping: f64 = "damping";
     /// Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`.
     restitution: f64 = "restitution";
     /// Velocity of that impact \[m/s\].
@@ -221,6 +231,8 @@ entry! {
     new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
     /// Factor a of the penetration rate; default 0 \[s/rad\].
     dissipation: f64 = "dissipation";
+    /// Moment per penetration rate, while in contact; default 0 \[N m s/rad\].
+    damping: f64 = "damping";
     /// Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`.
     restitution: f64 = "restitution";
     /// Rate of that impact \[rad/s\].
