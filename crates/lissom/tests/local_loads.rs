@@ -307,3 +307,106 @@ fn wrong_loads_are_rejected_with_a_remedy() {
         assert!(problem.contains(remedy), "{remedy}: {problem}");
     }
 }
+
+const ACTUATOR: &str = r#"
+lissom = 1
+
+[bodies.a]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [0.3, 0, 0]
+
+[bodies.b]
+mass = 3
+inertia = [0.1, 0.1, 0.1]
+position = [0.3, 1.2, 0.9]
+velocity = [0.2, 0, 0]
+
+[outputs.line]
+kind = "distance"
+of = "b"
+relative_to = "a"
+
+[outputs.b]
+kind = "position"
+of = "b"
+
+[loads.actuator]
+kind = "force_between"
+base = "a"
+tip = "b"
+force = "80*(1.2 - line.distance) - 3*line.rate"
+
+[springs.same]
+kind = "point"
+base = "a"
+tip = "b"
+length = 1.2
+stiffness = 80
+damping = 3
+
+[analysis]
+kind = "dynamics"
+end = 2
+relative_tolerance = 1e-9
+"#;
+
+/// A force over distance and rate is a spring with a damper.
+#[test]
+fn a_force_between_points_that_names_their_distance_is_a_spring() {
+    let spring = ACTUATOR.find("[springs.same]").unwrap();
+    let load = ACTUATOR.find("[loads.actuator]").unwrap();
+    let analysis = ACTUATOR.find("[analysis]").unwrap();
+    let with_load = format!("{}{}", &ACTUATOR[..spring], &ACTUATOR[analysis..]);
+    let with_spring = format!("{}{}", &ACTUATOR[..load], &ACTUATOR[spring..]);
+    let [one, other] = [with_load, with_spring].map(|text| run(&text, &[]));
+    for (output, component) in [("b", "x"), ("b", "y"), ("b", "z"), ("line", "distance"), ("line", "rate")] {
+        let [one, other] = [&one, &other].map(|record| last(record, output, component));
+        assert!((one - other).abs() < 1e-7, "{output}.{component}: {one} {other}");
+    }
+}
+
+const ROTOR: &str = r#"
+lissom = 1
+
+[parameters]
+m = 10
+load = 98.1
+k = 1e5
+
+[bodies.rotor]
+mass = "m"
+inertia = [0.2, 0.1, 0.1]
+rotation = [0, 0, 0]
+
+[joints.plane]
+kind = "planar"
+base = "ground"
+tip = "rotor"
+axis = [1, 0, 0]
+
+# A bearing whose matrices of stiffness and damping are not symmetric.
+[local_loads.bearing]
+on = "rotor"
+axes = "global"
+force = [0, "-k*dy - q*dz - c*v2", "q*dy - k*dz - c*v3"]
+
+[analysis]
+kind = "dynamics"
+end = 1
+"#;
+
+/// A rigid rotor on a bearing with stiffness k, damping c and cross coupling q: m s² + c s + k ± i q = 0 is unstable beyond
+/// q = c √(k/m).
+#[test]
+fn a_rotor_whirls_beyond_the_cross_coupling_that_damping_can_bear() {
+    let onset = 40.0 * (1e5_f64 / 10.0).sqrt();
+    for (share, is_stable) in [(0.99, true), (1.01, false)] {
+        let text = ROTOR.replace("k = 1e5\n", &format!("k = 1e5\nc = 40\nq = {}\n", share * onset));
+        let request = ModeRequest { about: Some(OperatingPoint::Undeformed), ..ModeRequest::default() };
+        let report = modes(&Model::from_text("rotor.toml", &text), &[], &request).unwrap();
+        let least = report.modes.iter().filter(|mode| mode.frequency > 1.0).map(|mode| mode.damping);
+        let least = least.fold(f64::INFINITY, f64::min);
+        assert_eq!(least > 0.0, is_stable, "{share}: {least}");
+    }
+}

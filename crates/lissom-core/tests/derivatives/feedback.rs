@@ -44,7 +44,7 @@ fn signal(arguments: Vec<Argument>, sampling: Option<Sampling>) -> Signal {
 }
 
 /// Quantities of frames that signals depend on.
-const MEASURED: [Of; 4] = [Of::Position, Of::Velocity, Of::Rotation, Of::AngularVelocity];
+const MEASURED: [Of; 5] = [Of::Position, Of::Velocity, Of::Rotation, Of::AngularVelocity, Of::Distance];
 
 /// Signals of everything that can be measured, one upon the other; the last one.
 fn graph(builder: &mut Builder, nodes: [NodeId; 2], own: CoordinateId, random: &mut Random) -> SignalId {

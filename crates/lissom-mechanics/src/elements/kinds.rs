@@ -2,8 +2,8 @@
 
 use super::kind::ElementKind;
 use super::{
-    bushing, coordinate_dynamics, coordinate_spring, force, friction, gyrostat, joint_load, latch, moment,
-    point_spring, rolling_contact, rope, stop,
+    bushing, coordinate_dynamics, coordinate_spring, force, force_between, friction, gyrostat, joint_load,
+    latch, moment, point_spring, rolling_contact, rope, stop,
 };
 
 /// Springs and dampers, one line each.
@@ -25,4 +25,4 @@ pub static SPRINGS: &[ElementKind] = &[
 
 /// Loads, one line each.
 pub static LOADS: &[ElementKind] =
-    &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE, gyrostat::KIND];
+    &[force::KIND, moment::KIND, force_between::KIND, joint_load::TORQUE, joint_load::FORCE, gyrostat::KIND];

@@ -13,6 +13,7 @@ pub mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
 pub mod creep_force;
 pub mod force;
+mod force_between;
 pub(crate) mod force_law;
 pub mod friction;
 pub mod gyrostat;

@@ -165,7 +165,7 @@ impl PointSpring {
 }
 
 /// Adds the forces of a pull on the base's point, and the opposite one on the tip's [N, inertial axes].
-fn add_pull(points: &[Point; 2], pull: &Vector3, out: &mut [f64]) {
+pub(super) fn add_pull(points: &[Point; 2], pull: &Vector3, out: &mut [f64]) {
     for (i, sign) in [(0, -1.0), (1, 1.0)] {
         let local = points[i].rotation.tr_mul(&(sign * pull));
         let moment = points[i].offset.cross(&local);

@@ -1,12 +1,13 @@
 //! Quantities of a frame that a node carries, relative to the global frame or to an observer's: the formulas of the outputs
 //! `position`, `displacement`, `rotation`, `quaternion`, `cardan_angles`, `velocity`, `angular_velocity`, `acceleration`,
-//! `line` and `relative_motion`.
+//! `line`, `relative_motion` and `distance`.
 //!
 //! Legend: R, x, v, w of the frame, R_F, x_F, v_F, w_F of the observer's frame, twists in their own axes; r = R_Fᵀ (x - x_F).
 //!
 //! ```text
 //! position          r                                   rotation          log (R_Fᵀ R R₀ᵀ)
 //! velocity          R_Fᵀ R v - (v_F + w_F × r)          angular velocity  R_Fᵀ R w - w_F
+//! distance          |r|, r·velocity/|r|
 //! acceleration      R_Fᵀ R (v' + w × v) - (v_F' + w_F' × r + w_F × (v_F + w_F × r)) - 2 w_F × velocity
 //! ```
 
@@ -40,6 +41,8 @@ pub enum Of {
     Acceleration,
     /// Position of its origin [m] and rotation vector [rad].
     Pose,
+    /// Distance of its origin from the observer's [m], and its rate [m/s].
+    Distance,
 }
 
 impl Of {
@@ -48,6 +51,7 @@ impl Of {
         match self {
             Self::Quaternion => 4,
             Self::Pose => 6,
+            Self::Distance => 2,
             _ => 3,
         }
     }
@@ -98,6 +102,12 @@ impl Formula {
                 );
                 let coriolis = cross(observer.spin, velocity()).map(|part| part.scaled(2.0));
                 difference(difference(absolute, transport), coriolis)
+            }
+            Of::Distance => {
+                let distance = dot(position, position).square_root();
+                let is_apart = distance.value() > 0.0;
+                let rate = if is_apart { dot(position, velocity()) / distance } else { zero };
+                return [distance, rate, zero, zero, zero, zero];
             }
             Of::Pose => {
                 let ([x, y, z], [a, b, c]) = (position, logarithm(rotation));

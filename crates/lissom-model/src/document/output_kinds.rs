@@ -104,6 +104,8 @@ kinds! {
     Angle = outputs::angle::ANGLE,
     /// Velocity [m/s], global axes.
     Velocity = outputs::frames::VELOCITY,
+    /// Distance from the origin or from another node, and its rate [m, m/s].
+    Distance = outputs::frames::DISTANCE,
     /// Angular velocity [rad/s], global axes.
     AngularVelocity = outputs::frames::ANGULAR_VELOCITY,
     /// Acceleration [m/s²], global axes.

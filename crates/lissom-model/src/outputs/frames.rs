@@ -97,6 +97,15 @@ pub(crate) const RELATIVE_MOTION: Declaration = Declaration {
     components: &[("x", "m"), ("y", "m"), ("z", "m"), ("r1", "rad"), ("r2", "rad"), ("r3", "rad")],
     build: Build::Motion(relative_motion),
 };
+/// Registry entry.
+pub(crate) const DISTANCE: Declaration = Declaration {
+    word: "distance",
+    summary: "Distance of a node, or of a point fixed to it, from the origin or from another node, and its rate.",
+    subject: Subject::Node,
+    features: &[Feature::Observer, Feature::Point, Feature::Velocities],
+    components: &[("distance", "m"), ("rate", "m/s")],
+    build: Build::Motion(|output, subjects| quantity(Of::Distance, output, subjects)),
+};
 /// Of a frame that a node carries.
 struct OfFrame(Arc<dyn Measurement>);
 

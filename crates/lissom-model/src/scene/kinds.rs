@@ -159,6 +159,9 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
             base(vec![b.block([0.8, 0.8, 0.8], [0.0, 2.2, 0.0], Dark), b.ring(0.6, 0.12, 1.2, Spring)])
         }),
         "force" | "moment" => Drawn::Arrow,
+        "force_between" => {
+            Drawn::WithRod(|[b, t]| [vec![b.ball(0.5, [0.0; 3], Load)], vec![t.ball(0.5, [0.0; 3], Load)]])
+        }
         "joint_torque" => Solids(|[b, _]| base(b.turn(Moment))),
         "joint_force" => Solids(|[b, _]| base(b.arrow(Load))),
         "gyrostat" => {
