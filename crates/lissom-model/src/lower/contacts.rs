@@ -365,7 +365,8 @@ fn touching(base: &Form, tip: &Form, is_first: bool) -> Result<Option<(Vec<Touch
         }
         (Form::HalfSpace, Form::Solid(Solid::Tube { outer, length, .. })) => {
             let rim: Arc<dyn Pair> = Arc::new(RimOnPlane { radius: *outer, rounding: 0.0 });
-            [-0.5, 0.5].map(|side| (rim.clone(), along(side * length))).into()
+            let half = (0.5 * length - RimOnPlane::inset(*outer)).max(0.0);
+            [-1.0, 1.0].map(|side| (rim.clone(), along(side * half))).into()
         }
         (Form::HalfSpace, Form::Solid(Solid::Ellipsoid(axes))) => {
             one(Arc::new(EllipsoidOnPlane { semi_axes: *axes }))
