@@ -13,6 +13,7 @@ mod campbell;
 #[cfg(feature = "command-line")]
 mod command_line;
 mod contact;
+mod contact_benchmarks;
 mod contact_shapes;
 mod contacts;
 mod controlled_forces;

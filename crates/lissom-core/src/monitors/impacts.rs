@@ -4,7 +4,8 @@
 //! Legend: g switching function, at whose zero a force has a kink or a jump (a gap), ω frequency of the contact, h step.
 //!
 //! A resolved contact slows an approach ġ like cos ωt. An approach that has lost half of its rate two steps after g has
-//! crossed zero has ωh > π/6, and one that reverses without having crossed it was stopped within a step.
+//! crossed zero has ωh > π/6, and one that reverses without having crossed it was stopped within a step. A contact that is over
+//! after less than six of its longest steps has ωh > π/6 at its end.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,8 +15,12 @@ use crate::errors::{Warning, report};
 use crate::kinematics::{Kinematics, Switch};
 use crate::system::System;
 
-/// Steps after a crossing at whose ends the rate is checked.
-const STEPS: u8 = 2;
+/// The rate is checked at the ends of steps until so many whole steps after a crossing.
+const STEPS: f64 = 2.0;
+/// A contact of fewer steps than this is not resolved.
+const RESOLVED: f64 = 6.0;
+/// A step that is shorter than this fraction of the one before it was ended early, by an event or a record.
+const EARLY_END: f64 = 0.5;
 /// Approaches slower than this fraction of the fastest one of the same switch have no significant energy: a
 /// hundredth.
 const SLOW_APPROACH: f64 = 0.1;
@@ -26,8 +31,12 @@ struct Approach {
     value: f64,
     rate: Option<f64>,
     fastest: f64,
-    /// Rate at the last crossing of zero, and steps since then.
-    passed: Option<(f64, u8)>,
+    /// Size of a whole step [s].
+    step: f64,
+    /// Rate at the last crossing of zero, and the duration since then [s].
+    passed: Option<(f64, f64)>,
+    /// Rate at the last crossing, the duration since then [s] and the longest step since then [s].
+    crossed: Option<(f64, f64, f64)>,
     /// Rate and end [s] of the fastest approach that was stopped.
     stopped: Option<(f64, f64)>,
 }
@@ -108,9 +117,10 @@ impl Approach {
     /// Records the value at `time` [s], after a step of this duration [s].
     fn accept(&mut self, value: f64, duration: f64, time: f64) {
         let entry = self.passed.map(|(entry, _)| entry);
+        let crossed = self.crossed.map(|(entry, ..)| entry);
         let last = self.rate;
         if self.is_stopped(value, duration) {
-            let rate = entry.or(last).unwrap_or(0.0).abs();
+            let rate = entry.or(crossed).or(last).unwrap_or(0.0).abs();
             if self.stopped.is_none_or(|(fastest, _)| rate > fastest) {
                 self.stopped = Some((rate, time));
             }
@@ -121,20 +131,32 @@ impl Approach {
     fn is_stopped(&mut self, value: f64, duration: f64) -> bool {
         let before = std::mem::replace(&mut self.value, value);
         let rate = (value - before) / duration;
+        self.step = duration.max(EARLY_END * self.step);
         let Some(last) = self.rate.replace(rate) else { return false };
         self.fastest = self.fastest.max(last.abs());
         let is_slow = last.abs() < SLOW_APPROACH * self.fastest;
-        let is_beyond = |place: f64| before != 0.0 && (before > 0.0) != (place > 0.0);
-        if is_beyond(value) || is_beyond(before + last * duration) {
-            // It has crossed, or should have.
-            self.passed = (!is_slow).then_some((last, 0));
+        // A step that ends at an event ends at zero.
+        let is_beyond = |place: f64| before != 0.0 && (place == 0.0 || (before > 0.0) != (place > 0.0));
+        let mut is_short = false;
+        if let Some((_, since, longest)) = &mut self.crossed {
+            *since += duration;
+            *longest = longest.max(duration);
+            is_short = is_beyond(value) && *since < RESOLVED * *longest;
         }
-        let Some((entry, steps)) = &mut self.passed else { return false };
-        *steps += 1;
+        if is_beyond(value) {
+            self.crossed = (!is_slow).then_some((last, 0.0, 0.0));
+        }
+        if is_beyond(value) || is_beyond(before + last * duration) {
+            // It has crossed, or should have: where the rate `last` leads to zero.
+            let since = (duration + before / last).clamp(0.0, duration);
+            self.passed = (!is_slow).then_some((last, since - duration));
+        }
+        let Some((entry, since)) = &mut self.passed else { return is_short };
+        *since += duration;
         // An approach through a contact that is resolved retains more than half of its rate at the next ends of steps.
-        let is_stopped = rate / *entry < 0.5;
+        let is_stopped = is_short || rate / *entry < 0.5;
         // The step with the crossing itself contains two motions.
-        let is_over = *steps > STEPS || is_stopped;
+        let is_over = *since >= STEPS * self.step || is_stopped;
         if is_over {
             self.passed = None;
         }
@@ -196,6 +218,20 @@ mod tests {
         assert!(is_reported(&approach), "stopped at once: {approach:?}");
         (4..10).for_each(|k| approach.accept(-f64::from(k), 1.0, f64::from(k)));
         assert!(!is_reported(&approach), "{approach:?}");
+    }
+
+    /// A step that ends where the contact begins, and the remainder of the planned step, are no whole steps.
+    #[test]
+    fn steps_that_end_at_the_contact_are_not_counted() {
+        for (remainder, omega) in [(0.01, 1.0), (0.25, 1.5), (0.5, 2.0), (0.9, 1.0)] {
+            let gap = |time: f64| if time <= 0.0 { -time } else { -(omega * time).sin() / omega };
+            let (mut approach, mut end) = (Approach { value: gap(-1.5), ..Approach::default() }, -1.5);
+            let ends = [-0.5, 0.0, remainder, 1.0 + remainder, 2.0 + remainder];
+            let is_reported = ends
+                .into_iter()
+                .any(|next| approach.is_stopped(gap(next), next - std::mem::replace(&mut end, next)));
+            assert!(is_reported, "{remainder} {omega}: {approach:?}");
+        }
     }
 
     #[test]

@@ -34,7 +34,9 @@ const GRID: usize = 32;
 /// Values smaller than this fraction of the largest so far have no sign.
 const NOISE: f64 = 1e-9;
 /// Maximum number of repeated steps for one root: three are usual.
-const MAX_REFINEMENTS: usize = 6;
+const MAX_REFINEMENTS: usize = 30;
+/// A refinement after which more than this fraction of the function's value remains beyond the root is slow.
+const SLOW_REFINEMENT: f64 = 0.1;
 /// Changes of sign within a longest step above which the motion slides along the switching surface.
 const MAX_CROSSINGS: usize = 1000;
 
@@ -83,6 +85,33 @@ pub(crate) struct LocatedRoot {
     /// Whether the functions jump there.
     is_jump: bool,
     refinements: usize,
+    /// Largest size whose step ends before the root, and smallest one whose step ends beyond it [s].
+    bracket: [f64; 2],
+    /// Magnitude of the function at the end of the last step that was tried.
+    remaining: f64,
+}
+
+impl LocatedRoot {
+    /// In a step of `whole` [s], at this fraction of it.
+    fn new(share: f64, whole: f64, indices: Vec<usize>, is_jump: bool) -> Self {
+        let (size, bracket) = (share * whole, [0.0, whole]);
+        Self { size, whole, indices, is_jump, refinements: 0, bracket, remaining: f64::INFINITY }
+    }
+
+    /// Size of the next step to try after one that ended at `value` of the function, `is_beyond` the root, and proposes `size` [s].
+    /// A force that begins at the root may stop the motion just beyond it, where the slope of the function does not determine the root.
+    fn bracketed(&mut self, size: f64, value: f64, is_beyond: bool) -> f64 {
+        let [low, high] = &mut self.bracket;
+        if is_beyond {
+            *high = high.min(self.size);
+        } else {
+            *low = low.max(self.size);
+        }
+        let last = std::mem::replace(&mut self.remaining, value.abs());
+        let is_slow = is_beyond && value.abs() > SLOW_REFINEMENT * last;
+        let is_within = size >= *low && size <= *high;
+        if *low < *high && (is_slow || !is_within) { 0.5 * (*low + *high) } else { size }
+    }
 }
 
 /// The switching functions of one simulation: those of events, then those of signals, then those of elements.
@@ -250,7 +279,7 @@ impl EventDetector {
             // A continuous function is still within its noise here.
             let is_jump =
                 self.values[indices[0]].number.abs() > round_off::STEP_END * self.known.largest[indices[0]];
-            return Some(LocatedRoot { size: share * size, whole: size, indices, is_jump, refinements: 0 });
+            return Some(LocatedRoot::new(share, size, indices, is_jump));
         }
         self.root_at_end(system, step, size)
     }
@@ -319,7 +348,7 @@ impl EventDetector {
         let share = roots.iter().map(|root| root.1).reduce(f64::min)?;
         let indices =
             roots.iter().filter(|root| root.1 <= share + round_off::ROOT).map(|root| root.0).collect();
-        Some(LocatedRoot { size: share * size, whole: size, indices, is_jump: false, refinements: 0 })
+        Some(LocatedRoot::new(share, size, indices, false))
     }
 
     /// Changes the branches of forces that switch at the start of the step. Returns false if they switch repeatedly: the
@@ -359,7 +388,9 @@ impl EventDetector {
         if is_there || located.refinements > MAX_REFINEMENTS {
             return true;
         }
-        let size = (located.size + change).clamp(round_off::STEP_END * located.whole, located.whole);
+        let side = self.known.sides[first];
+        let size = located.bracketed(located.size + change, value, side * value < 0.0);
+        let size = size.clamp(round_off::STEP_END * located.whole, located.whole);
         let is_moved = size != located.size;
         located.size = size;
         !is_moved

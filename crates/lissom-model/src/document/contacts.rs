@@ -210,7 +210,9 @@ pub(super) fn contacts(
             let message = format!("{} has no solid that could touch", words(&part.value));
             let help = match part.value {
                 NodeReference::Ground => "add [ground] with shape = { kind = \"plane\" }",
-                _ => "add a `shape` to it, such as { kind = \"sphere\", radius = 0.1 }; a mesh is only drawn",
+                _ => {
+                    "add a `shape` to it, such as { kind = \"sphere\", radius = 0.1 }; one with `touches = false` is only drawn"
+                }
             };
             return context.fail(part.span, message, help);
         }
@@ -281,13 +283,28 @@ fn others(
     Some(found)
 }
 
-/// Checks the exponent and the coefficients of friction.
+/// Penetration at which the force of a contact is checked [m].
+const SMALL_PENETRATION: f64 = 1e-6;
+/// Largest force at this penetration: the round-off of a position of 1 m then causes up to 0.1 N [N].
+const MAX_FORCE: f64 = 1e9;
+
+/// Checks stiffness, exponent and the coefficients of friction.
 fn check_law(reader: &Reader<'_, '_>, entry: ContactEntry) -> Option<ContactEntry> {
     let context = reader.context;
     if entry.exponent < 1.0 {
         let span = reader.node("exponent").map_or(reader.name, |node| node.span);
         let message = format!("`exponent` of {} is below 1", reader.what);
         return context.fail(span, message, "the stiffness at touch would be infinite");
+    }
+    if let Ok(stiffness) = entry.stiffness
+        && stiffness * SMALL_PENETRATION.powf(entry.exponent) > MAX_FORCE
+    {
+        let span = reader.node("stiffness").map_or(reader.name, |node| node.span);
+        let message = format!(
+            "{} pushes with more than 1e9 N at a penetration of 1 µm: no step resolves this",
+            reader.what
+        );
+        return context.fail(span, message, "lower `stiffness`, or set `rigid = true` instead");
     }
     if let Some([friction, at_rest]) = entry.friction
         && at_rest < friction

@@ -170,6 +170,10 @@ fn outline(own: &Reader<'_, '_>) -> Option<Form> {
     let (context, node) = (own.context, own.node("points")?);
     let rows = context.number_rows(node, Some(2), &own.words("points"))?;
     let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[0], row[1]]).collect();
+    if let Some([first, second]) = crossing(&points) {
+        let message = format!("{} cross themselves between {first:?} and {second:?}", own.words("points"));
+        return context.fail(node.span, message, "give the points in their order around the outline");
+    }
     let is_smooth = own.has("smooth") && own.flag("smooth")?.value;
     let form = if is_smooth {
         Spline::new(&points).map(|curve| Form::Outline(Arc::new(Outline::new(curve))))
@@ -184,6 +188,25 @@ fn outline(own: &Reader<'_, '_>) -> Option<Form> {
             "give at least three points in their order, each one apart from the next",
         )
     })
+}
+
+/// The first points of two sides of a polygon that cross.
+fn crossing(points: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
+    let count = points.len();
+    let end = |k: usize| points[(k + 1) % count];
+    // Twice the area of a triangle, positive counterclockwise.
+    let area =
+        |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let separates = |[a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]| area(a, b, c) * area(a, b, d) < 0.0;
+    for first in 0..count {
+        for second in first + 2..count {
+            let sides = [[points[first], end(first)], [points[second], end(second)]];
+            if separates(sides[0], sides[1]) && separates(sides[1], sides[0]) {
+                return Some([sides[0][0], sides[1][0]]);
+            }
+        }
+    }
+    None
 }
 
 /// The convex hull of points.

@@ -21,7 +21,7 @@ use nalgebra::Vector2;
 use super::straight_line::Line;
 use super::{Lowered, Names};
 use crate::contact_point::ContactPoint;
-use crate::document::{ContactEntry, Document, NodeReference, Restitution};
+use crate::document::{ContactEntry, Document, NodeLocation, NodeReference, Restitution};
 use crate::report::Problem;
 use crate::solid::{Form, PlacedSolid, Solid};
 
@@ -304,6 +304,12 @@ pub(super) fn solid_pairs<'d>(
     let name = &entry.name.value;
     let mut all = Vec::new();
     for parts in entry.pairs() {
+        if let Some(clamp) = clamp_between(document, parts.map(|part| &part.value)) {
+            let message =
+                format!("contact `{name}` is between parts that the clamp `{clamp}` makes one rigid part");
+            return Err(Problem::error(parts[1].span, message)
+                .help("remove the contact, or join the parts by a joint that moves"));
+        }
         let nodes = [names.node(parts[0])?, names.node(parts[1])?];
         let [first, second] = parts.map(|part| solids(document, &part.value));
         for solids in first.iter().flat_map(|one| second.iter().map(move |other| [one, other])) {
@@ -322,6 +328,14 @@ pub(super) fn solid_pairs<'d>(
         }
     }
     Ok(all)
+}
+
+/// The clamp between two parts, if there is one.
+fn clamp_between<'d>(document: &'d Document, parts: [&NodeReference; 2]) -> Option<&'d str> {
+    let joins =
+        |nodes: &[NodeLocation]| parts.iter().all(|part| nodes.iter().any(|at| at.node.value == **part));
+    let mut clamps = document.joints.iter().filter(|joint| joint.kind.value == "clamp");
+    clamps.find(|clamp| joins(&clamp.attachment.nodes)).map(|clamp| clamp.name.value.as_str())
 }
 
 /// The points at which two solids may touch; none if that is not available.
@@ -390,7 +404,8 @@ fn touching(base: &Form, tip: &Form, is_first: bool) -> Result<Option<(Vec<Touch
         }
         (Form::HalfSpace, Form::Solid(Solid::Tube { outer, length, .. })) => {
             let rim: Arc<dyn Pair> = Arc::new(RimOnPlane { radius: *outer, rounding: 0.0 });
-            [-0.5, 0.5].map(|side| (rim.clone(), along(side * length))).into()
+            let half = (0.5 * length - RimOnPlane::inset(*outer)).max(0.0);
+            [-1.0, 1.0].map(|side| (rim.clone(), along(side * half))).into()
         }
         (Form::HalfSpace, Form::Solid(Solid::Ellipsoid(axes))) => {
             one(Arc::new(EllipsoidOnPlane { semi_axes: *axes }))

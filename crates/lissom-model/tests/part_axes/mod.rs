@@ -208,7 +208,8 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         OutputKind::Energy => vec![values[0], values[1]],
         OutputKind::ContactForce => {
             let force = rotation.apply(&Vector3::from_column_slice(&values[3..6]));
-            [&values[..3], force.as_slice(), &values[6..]].concat()
+            let centre = pose().transform_point(&Vector3::from_column_slice(&values[9..12]));
+            [&values[..3], force.as_slice(), &values[6..9], centre.as_slice()].concat()
         }
         OutputKind::SectionForce
         | OutputKind::SectionMoment

@@ -79,15 +79,31 @@ impl CurveOnSurface {
         }
         let count = samples.len();
         let value = |k: usize| of(samples[k % count]).value;
-        let least = (0..count).map(value).fold(f64::INFINITY, f64::min);
-        let mut best: Option<(Candidate, bool)> = None;
-        let [mut before, mut own] = [value(count - 1), value(0)];
+        let point = |k: usize| self.curve.point(samples[k % count])[0];
+        // A distance changes by at most the distance between two points, so that samples far from the surface bound those beside them.
+        let coarse = (0..count).step_by(count.isqrt());
+        let mut least = coarse.map(value).fold(f64::INFINITY, f64::min);
+        let mut last = (0, f64::NEG_INFINITY);
         for k in 0..count {
-            let (interval, after) = (self.curve.beside(k), value(k + 1));
+            if last.1 - (point(k) - point(last.0)).norm() <= least {
+                last = (k, value(k));
+                least = least.min(last.1);
+            }
+        }
+        let mut best: Option<(Candidate, bool)> = None;
+        // Sample and value, of the last sample evaluated.
+        let mut last = (count - 1, value(count - 1));
+        for k in 0..count {
+            let interval = self.curve.beside(k);
             // Between samples the distance is smaller by at most the length of the curve there.
-            let is_candidate = own <= least + (interval.1 - interval.0) && own <= after && own <= before;
-            (before, own) = (own, after);
-            if is_candidate {
+            let most = least + (interval.1 - interval.0);
+            if last.1 - (point(k) - point(last.0)).norm() > most {
+                continue;
+            }
+            let previous = (k + count - 1) % count;
+            let before = if last.0 == previous { last.1 } else { value(previous) };
+            last = (k, value(k));
+            if last.1 <= most && last.1 <= before && last.1 <= value(k + 1) {
                 let found = self.between(interval, samples[k], (x, rotation));
                 if best.as_ref().is_none_or(|(best, _)| found.0.value < best.value) {
                     best = Some(found);

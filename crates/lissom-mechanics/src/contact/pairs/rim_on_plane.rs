@@ -3,11 +3,12 @@
 //! Legend: a direction of the tip's third axis, ρ radius of the disc, r rounding.
 //!
 //! ```text
-//! u = 1 - a₃²,     S² = u + ε²,    g = x₃ - ρ (S - ε) - r,    p = x + ρ a₃ a/S in the plane
+//! u = 1 - a₃²,     S² = u + ε²,    g = x₃ - ρ S - r,    p = x + ρ a₃ a/S in the plane
 //! ```
 //!
 //! With the small number ε the ends of an upright cylinder are slightly conical, so that the point of contact moves smoothly from
-//! one side to the other. S and p belong to one convex body.
+//! one side to the other. S and p belong to one convex body. Its rim bulges out of the disc by ρ ε along the axis: the disc of a
+//! cylinder is inside its end by as much. The radius of a cylinder that rolls is then exact to ρ ε²/2.
 
 use lissom_motion::{Matrix3, Vector3, skew};
 
@@ -25,6 +26,13 @@ pub struct RimOnPlane {
     pub rounding: f64,
 }
 
+impl RimOnPlane {
+    /// Distance of the disc from the end of a cylinder of this radius, so that the cylinder stands on its end [m].
+    pub fn inset(radius: f64) -> f64 {
+        END_INCLINATION * radius
+    }
+}
+
 impl Pair for RimOnPlane {
     fn gap(&self, x: &Vector3, rotation: &Matrix3) -> Gap {
         let Self { radius, rounding } = self;
@@ -40,7 +48,7 @@ impl Pair for RimOnPlane {
         // δa = R (η_θ × e₃).
         let axis_by = -rotation * skew(&Vector3::z());
         Gap {
-            value: x.z - radius * (upright - END_INCLINATION) - rounding,
+            value: x.z - radius * upright - rounding,
             normal,
             point: in_plane * x + cosine * side,
             normal_by: Matrix3x6::zeros(),

@@ -91,15 +91,16 @@ impl Surface for Outline {
         let own = y.xy();
         let points = self.curve.points();
         let count = points.len();
-        let far = |k: usize| (points[k] - own).norm();
-        let least = (0..count).map(far).fold(f64::INFINITY, f64::min);
+        let squared = |k: usize| (points[k] - own).norm_squared();
+        let least = (0..count).map(squared).fold(f64::INFINITY, f64::min);
+        // The foot of a point is at most a chord nearer than the points beside it.
+        let most = (least.sqrt() + self.spacing).powi(2);
         let (mut foot, mut nearest) = (0.0, f64::INFINITY);
+        let [mut before, mut at] = [squared(count - 1), squared(0)];
         for k in 0..count {
-            let distance = far(k);
-            // The foot of a point is at most a chord nearer than the points beside it.
-            let is_candidate = distance <= least + self.spacing
-                && distance <= far((k + 1) % count)
-                && distance <= far((k + count - 1) % count);
+            let after = squared((k + 1) % count);
+            let is_candidate = at <= most && at <= after && at <= before;
+            (before, at) = (at, after);
             if is_candidate {
                 let t = self.foot(&own, k);
                 let distance = (self.curve.at(t)[0] - own).norm();
