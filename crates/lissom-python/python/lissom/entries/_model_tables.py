@@ -80,6 +80,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "loads": {
         "force": loads.Force,
         "moment": loads.Moment,
+        "force_between": loads.ForceBetween,
         "joint_torque": loads.JointTorque,
         "joint_force": loads.JointForce,
         "gyrostat": loads.Gyrostat,
@@ -98,6 +99,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "cardan_angles": outputs.CardanAngles,
         "angle": outputs.Angle,
         "velocity": outputs.Velocity,
+        "distance": outputs.Distance,
         "angular_velocity": outputs.AngularVelocity,
         "acceleration": outputs.Acceleration,
         "section_force": outputs.SectionForce,

@@ -64,6 +64,29 @@ class Moment(Load):
 
 
 @dataclass(kw_only=True, slots=True)
+class ForceBetween(Load):
+    """Force of an actuator between two points, along the line through them: a cylinder, a muscle, a cable of given tension.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
+        force: Force on the tip's point, positive where it pushes the points apart [N]; a size.
+    """
+
+    _form: ClassVar[str] = "force_between"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    force: Function
+
+
+@dataclass(kw_only=True, slots=True)
 class JointTorque(Load):
     """Torque of an actuator on a joint's relative rotation, from the base on the tip.
 

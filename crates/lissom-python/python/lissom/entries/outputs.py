@@ -135,6 +135,23 @@ class Velocity(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class Distance(Output):
+    """Distance of a node, or of a point fixed to it, from the origin or from another node, and its rate.
+
+    Args:
+        of: the node, such as "beam@0.5"; a node.
+        relative_to: body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground; a node, or nothing.
+        point: position at the start of a point fixed to the node; default: the node [m]; a position, or nothing.
+    """
+
+    _form: ClassVar[str] = "distance"
+
+    of: str
+    relative_to: str | None = None
+    point: Place | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class AngularVelocity(Output):
     """Angular velocity of a node.
 

@@ -30,6 +30,22 @@ entry! {
 }
 
 entry! {
+    /// Force of an actuator between two points, along the line through them: a cylinder, a muscle, a cable of given tension.
+    ForceBetween => LoadId, "force_between";
+    ["kind" = "force_between"]
+    /// With what must be given.
+    ///
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
+    /// - `force`: Force on the tip's point, positive where it pushes the points apart \[N\]
+    new(base: Node = "base", tip: Node = "tip", force: Function = "force")
+    /// Location on the base; default: the node's position \[m\].
+    at_base: [f64; 3] = "at_base";
+    /// Location on the tip; default: the node's position \[m\].
+    at_tip: [f64; 3] = "at_tip";
+}
+
+entry! {
     /// Torque of an actuator on a joint's relative rotation, from the base on the tip.
     JointTorque => LoadId, "joint_torque";
     ["kind" = "joint_torque"]

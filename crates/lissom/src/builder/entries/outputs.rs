@@ -4,7 +4,7 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Expression;
-use crate::builder::ids::{BeamId, ContactId, JointId, SpringId, SuperelementId};
+use crate::builder::ids::{BeamId, ContactId, JointId, LocalLoadId, SpringId, SuperelementId};
 use crate::builder::values::{Node, Quantity};
 
 entry! {
@@ -72,6 +72,16 @@ entry! {
     /// Velocity of a node, or of a point fixed to it.
     Velocity => OutputId, "velocity";
     ["kind" = "velocity"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, such as "beam@0.5"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Distance of a node, or of a point fixed to it, from the origin or from another node, and its rate.
+    Distance => OutputId, "distance";
+    ["kind" = "distance"]
     /// With what must be given.
     ///
     /// - `of`: the node, such as "beam@0.5"
@@ -287,7 +297,7 @@ entry! {
 }
 
 keys! {
-    [Position, Displacement, Rotation, Angle, Velocity, AngularVelocity, Acceleration]
+    [Position, Displacement, Rotation, Angle, Velocity, Distance, AngularVelocity, Acceleration]
     /// Body, or position on a beam, relative to which the motion is measured, in its axes; default: the ground.
     relative_to: Node = "relative_to";
 }
@@ -299,7 +309,7 @@ keys! {
 }
 
 keys! {
-    [Position, Displacement, Velocity, Acceleration]
+    [Position, Displacement, Velocity, Distance, Acceleration]
     /// Position at the start of a point fixed to the node; default: the node \[m\].
     point: [f64; 3] = "point";
 }
