@@ -435,9 +435,7 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         let own = own.chain(self.variables.keys().copied());
         let near = suggest::help(name, own);
         let problem = Problem::error(place, format!("{what} cannot name `{name}`")).label("unknown here");
-        let help = "it may contain x, y, z, dx, dy, dz, v1 to v3, w1 to w3, u1 to u3, s, t, its variables and states, parameters, \
-                    inputs and sampled signals";
-        context.report(problem.help(help).maybe_help(near));
+        context.report(problem.maybe_help(near));
         None
     }
 }

@@ -9,10 +9,10 @@ use lissom_core::law::{Enclosure, Interval};
 use lissom_core::registry::{Constant, ForceFunction, Function};
 use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::Builder;
-use lissom_motion::{Motion, Rotation};
+use lissom_motion::Motion;
 
 use super::{Names, distributed};
-use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName};
+use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName, NodeReference};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
 use crate::report::{Located, Problem};
@@ -189,8 +189,16 @@ fn points(
         return Ok((0..line.nodes.len()).map(point).collect());
     }
     let node = names.node(&entry.node)?;
-    let own = builder.initial_frame(node);
-    let position = entry.at.map(|at| own.inverse_transform_point(&at)).unwrap_or_default();
-    let offset = Motion { rotation: Rotation::identity(), position };
+    let mut offset = Motion::identity();
+    if let NodeReference::Beam { beam, .. } = &entry.node.value
+        && let Some(line) = names.lines.get(beam)
+        && let Some(k) = line.nodes.iter().position(|&own| own == node)
+    {
+        // The node may be another part's: axes and position are those of the section.
+        offset = line.offsets[k];
+    }
+    if let Some(at) = entry.at {
+        offset.position = builder.initial_frame(node).inverse_transform_point(&at);
+    }
     Ok(vec![Point { frame: CarriedFrame { node, offset }, station: 0.0, weight: 1.0 }])
 }
