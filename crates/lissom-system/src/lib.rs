@@ -348,7 +348,7 @@ impl System {
 
     /// For each of the [`switches`](Self::switches) the index of the first one of its group.
     pub fn leaders_of_switches(&self) -> Vec<usize> {
-        self.leaders(|element| element.switch_count())
+        self.leaders(ForceLaws::switch_count)
     }
 
     /// For each of the laws of elements the index of the first one of its group; those of signals are before them.

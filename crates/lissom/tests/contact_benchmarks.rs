@@ -204,7 +204,7 @@ fn dominoes(count: usize, law: &str, end: f64) -> String {
     for k in 0..count {
         let x = pitch * k as f64;
         let spin = if k == 0 { 2.0 } else { 0.0 };
-        text += &format!(
+        text.extend([format!(
             "[bodies.d{k}]\nmass = {mass}\ninertia = [{moment}, {moment}, {moment}]\nposition = [{x}, {0}, 0]\n\
              velocity = [{1}, 0, 0]\nangular_velocity = [0, 0, {2}]\nshape = {{ kind = \"outline\", length = 0.02, \
              points = [[-{3}, -{0}], [{3}, -{0}], [{3}, {0}], [-{3}, {0}]] }}\n[joints.d{k}]\nkind = \"revolute\"\n\
@@ -213,12 +213,12 @@ fn dominoes(count: usize, law: &str, end: f64) -> String {
             0.5 * height * spin,
             -spin,
             0.5 * thickness,
-        );
+        )]);
         if let Some(before) = k.checked_sub(1) {
-            text += &format!(
+            text.extend([format!(
                 "[contacts.c{k}]\nbase = \"d{before}\"\ntip = \"d{k}\"\n{law}\n[outputs.c{k}]\nkind = \"contact_force\"\n\
                  of = \"c{k}\"\n"
-            );
+            )]);
         }
     }
     text + &format!("[analysis]\nkind = \"dynamics\"\nend = {end}\n")

@@ -8,7 +8,7 @@ fn run(text: &str, set: &[(&str, &str)]) -> Record {
     let mut session = Model::from_text("model.toml", text).session(&set).unwrap_or_else(|e| panic!("{e}"));
     let (record, report) = session.record();
     assert!(report.error().is_none(), "{}", report.error().unwrap());
-    let warnings: Vec<_> = session.warnings().map(|warning| warning.to_string()).collect();
+    let warnings: Vec<_> = session.warnings().map(ToString::to_string).collect();
     assert!(warnings.is_empty(), "{warnings:?}");
     record
 }

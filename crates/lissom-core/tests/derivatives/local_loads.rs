@@ -50,7 +50,7 @@ fn loads_have_the_derivatives_of_their_functions() {
         AngularVelocity, Constant as Number, Displacement, Function, Held, Position, RelativeFlow, State,
         Velocity,
     };
-    for (seed, is_inertial, has_flow) in
+    for (seed, is_global, has_flow) in
         [(1, false, true), (2, true, true), (3, false, false), (4, true, false)]
     {
         let mut random = Random::new(seed);
@@ -79,7 +79,7 @@ fn loads_have_the_derivatives_of_their_functions() {
         let load = LocalLoad::new(
             0,
             (frame, random.vector()),
-            is_inertial,
+            (random.motion(), is_global),
             functions,
             states,
             (1.3, Arc::new(Constant(0.8))),

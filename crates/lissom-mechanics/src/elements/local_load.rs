@@ -1,8 +1,9 @@
 //! Force and moment at a point of a node that functions of the motion of this point determine: aerodynamic and hydrodynamic forces on
 //! sections, supports by soil, drag.
 //!
-//! Legend: (R, p) frame of the node, r point and Q axes of the section in it, (v, ω) twist of the node in its axes, w(x, t) velocity
-//! of the fluid in inertial axes, S axes of the load in those of the node: Q for the section, Rᵀ for inertial axes; f force and m
+//! Legend: global frame, that of the model or of a part; (R, p) frame of the node in it, r point and Q axes of the section in that of
+//! the node, (v, ω) twist of the node in its axes, w(x, t) velocity of the fluid in global axes, S axes of the load in those of the
+//! node: Q for the section, Rᵀ for global axes; f force and m
 //! moment in the axes of the load, y states of the load.
 //!
 //! ```text
@@ -16,7 +17,7 @@
 
 use std::sync::Arc;
 
-use lissom_motion::{Matrix3, Rotation, Vector3, rotation_part, skew, translation_part};
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, skew, translation_part};
 use nalgebra::SVector;
 
 use super::{Capabilities, Element, ForceLaws, Load, Tangents, Unknowns};
@@ -37,9 +38,9 @@ type Row = SVector<f64, { 12 + MAX_STATES }>;
 /// An argument of a function.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LocalArgument {
-    /// Component of x [m], inertial axes.
+    /// Component of x [m], global axes.
     Position(usize),
-    /// Component of the change of x since the start [m], inertial axes.
+    /// Component of the change of x since the start [m], global axes.
     Displacement(usize),
     /// Component of c [m/s].
     Velocity(usize),
@@ -84,8 +85,10 @@ pub struct LocalFunctions {
 pub struct LocalLoad {
     node: [NodeId; 1],
     point: Vector3,
-    /// Q; none if the axes are inertial.
+    /// Q; none if the axes are global.
     axes: Option<Rotation>,
+    /// The global frame in the inertial one.
+    global: Motion,
     start: Vector3,
     functions: LocalFunctions,
     states: Vec<CoordinateId>,
@@ -113,13 +116,27 @@ struct Values {
     functions: [f64; MAX_FUNCTIONS],
 }
 
+/// Rows of a vector whose derivatives by displacement and rotation of the node, or by its twist, are these matrices; their columns
+/// are from `first` on.
+fn rows_of(by: [Matrix3; 2], first: usize) -> [Row; 3] {
+    std::array::from_fn(|k| {
+        let mut row = Row::zeros();
+        for (j, matrix) in by.iter().enumerate() {
+            for i in 0..3 {
+                row[first + 3 * j + i] = matrix[(k, i)];
+            }
+        }
+        row
+    })
+}
+
 impl LocalLoad {
-    /// At a frame of a node, which is at `start` [m] at the start: with its axes, or inertial ones. Points of one load have the number
-    /// of a `group` in common.
+    /// At a frame of a node, which is at `start` [m] at the start: with its axes, or those of the `global` frame. Points of one load
+    /// have the number of a `group` in common.
     pub fn new(
         group: usize,
         (frame, start): (CarriedFrame, Vector3),
-        is_inertial: bool,
+        (global, is_global): (Motion, bool),
         functions: LocalFunctions,
         states: Vec<CoordinateId>,
         (weight, scale): (f64, Function),
@@ -127,8 +144,9 @@ impl LocalLoad {
         Self {
             node: [frame.node],
             point: frame.offset.position,
-            axes: (!is_inertial).then_some(frame.offset.rotation),
-            start,
+            axes: (!is_global).then_some(frame.offset.rotation),
+            global,
+            start: global.inverse_transform_point(&start),
             functions,
             states,
             weight,
@@ -141,29 +159,33 @@ impl LocalLoad {
     /// Force and moment about the point, inertial axes [N, N m].
     pub fn resultant(&self, at: &Kinematics) -> [Vector3; 2] {
         let values = self.values(at);
-        let to_inertial =
-            values.local.rotation * values.local.axes * (self.weight * self.scale.value(at.time));
+        let to_inertial = self.global.rotation.matrix()
+            * values.local.rotation
+            * values.local.axes
+            * (self.weight * self.scale.value(at.time));
         self.wrench(&values).map(|vector| to_inertial * vector)
     }
 
     /// The point [m], inertial axes.
     pub fn position(&self, at: &Kinematics) -> Vector3 {
-        self.local(at).position
+        self.global.transform_point(&self.local(at).position)
     }
 
     /// Velocity of the point and angular velocity, inertial axes [m/s, rad/s].
     pub fn velocities(&self, at: &Kinematics) -> [Vector3; 2] {
         let Local { velocity, angular_velocity, rotation, axes, .. } = self.local(at);
-        [velocity, angular_velocity].map(|vector| rotation * axes * vector)
+        let to_inertial = self.global.rotation.matrix() * rotation * axes;
+        [velocity, angular_velocity].map(|vector| to_inertial * vector)
     }
 
     fn local(&self, at: &Kinematics) -> Local {
         let motion = &at.nodes[self.node[0]];
-        let rotation = motion.frame.rotation.matrix();
+        let frame = motion.frame.relative_to(&self.global);
+        let rotation = frame.rotation.matrix();
         let axes = self.axes.map_or_else(|| rotation.transpose(), |own| own.matrix());
         let turning = rotation_part(&motion.twist);
         Local {
-            position: motion.frame.position + rotation * self.point,
+            position: frame.position + rotation * self.point,
             velocity: axes.tr_mul(&(translation_part(&motion.twist) + turning.cross(&self.point))),
             angular_velocity: axes.tr_mul(&turning),
             rotation,
@@ -226,32 +248,18 @@ impl LocalLoad {
         [of(0), of(3)]
     }
 
-    /// Derivatives of the velocity of the point, and of other vectors a in the axes of the node, in the axes of the load: `by` the
-    /// displacement of the node or its twist, as 3 x 3 matrices of displacement and rotation.
-    fn rows_of(&self, by: [Matrix3; 2], first: usize) -> [Row; 3] {
-        std::array::from_fn(|k| {
-            let mut row = Row::zeros();
-            for (j, matrix) in by.iter().enumerate() {
-                for i in 0..3 {
-                    row[first + 3 * j + i] = matrix[(k, i)];
-                }
-            }
-            row
-        })
-    }
-
     /// Rows of position, velocity and angular velocity.
     fn motion_rows(&self, local: &Local) -> [[Row; 3]; 3] {
         let arm = skew(&self.point);
         let (rotation, axes) = (&local.rotation, local.axes.transpose());
-        let position = self.rows_of([*rotation, -rotation * arm], 0);
-        let mut velocity = self.rows_of([axes, -axes * arm], 6);
-        let mut turning = self.rows_of([Matrix3::zeros(), axes], 6);
+        let position = rows_of([*rotation, -rotation * arm], 0);
+        let mut velocity = rows_of([axes, -axes * arm], 6);
+        let mut turning = rows_of([Matrix3::zeros(), axes], 6);
         if self.axes.is_none() {
             // δ(R a) = -R a~ δθ at constant a.
             for (rows, vector) in [(&mut velocity, local.velocity), (&mut turning, local.angular_velocity)] {
                 let turned = -skew(&vector) * rotation;
-                let added = self.rows_of([Matrix3::zeros(), turned], 0);
+                let added = rows_of([Matrix3::zeros(), turned], 0);
                 rows.iter_mut().zip(&added).for_each(|(row, own)| *row += own);
             }
         }
@@ -266,7 +274,7 @@ impl LocalLoad {
             std::array::from_fn(|k| (0..3).fold(-velocity[k], |row, j| row + to_load[(k, j)] * by[j]));
         if self.axes.is_some() {
             let turned = local.axes.transpose() * skew(&local.rotation.tr_mul(w));
-            let added = self.rows_of([Matrix3::zeros(), turned], 0);
+            let added = rows_of([Matrix3::zeros(), turned], 0);
             rows.iter_mut().zip(&added).for_each(|(row, own)| *row += own);
         }
         rows
@@ -289,7 +297,7 @@ impl LocalLoad {
             {
                 match *source {
                     LocalArgument::Position(k) | LocalArgument::Displacement(k) => {
-                        row += derivative * position[k]
+                        row += derivative * position[k];
                     }
                     LocalArgument::Velocity(k) => row += derivative * velocity[k],
                     LocalArgument::AngularVelocity(k) => row += derivative * turning[k],
@@ -316,6 +324,15 @@ impl LocalLoad {
         [force, axes * moment + self.point.cross(&force)]
     }
 
+    /// Adds force and moment on the node to the left-hand side of its equations.
+    fn add_wrench(&self, values: &Values, factor: f64, out: &mut [f64]) {
+        let [force, moment] = self.on_node(&self.wrench(values), &values.local.axes);
+        for k in 0..3 {
+            out[k] -= factor * force[k];
+            out[3 + k] -= factor * moment[k];
+        }
+    }
+
     fn factor(&self, at: &Kinematics) -> f64 {
         self.weight * self.scale.value(at.time)
     }
@@ -329,11 +346,7 @@ impl Element for LocalLoad {
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let values = self.values(at);
         let factor = self.factor(at);
-        let [force, moment] = self.on_node(&self.wrench(&values), &values.local.axes);
-        for k in 0..3 {
-            out[k] -= factor * force[k];
-            out[3 + k] -= factor * moment[k];
-        }
+        self.add_wrench(&values, factor, out);
         for (k, (&state, &rate)) in self.states.iter().zip(&self.functions.rates).enumerate() {
             out[6 + k] += at.coordinates[state].rate - values.functions[rate];
         }
@@ -402,11 +415,11 @@ impl Load for LocalLoad {
 
     fn add_by_held(&self, held: DiscreteValueId, at: &Kinematics, out: &mut [f64]) {
         let mut by = [0.0; MAX_FUNCTIONS];
+        let local = self.local(at);
         let values = self.evaluate(at, |index, arguments, sides| {
             let LocalFunction { function, arguments: sources } = &self.functions.all[index];
             let mut gradient = [0.0; MAX_ARGUMENTS];
             function.gradient(at.time, arguments, sides, &mut gradient[..arguments.len()]);
-            let local = self.local(at);
             by[index] = gradient
                 .iter()
                 .zip(sources)
@@ -424,11 +437,7 @@ impl Load for LocalLoad {
         });
         let by = Values { local: values.local, functions: by };
         let factor = self.factor(at);
-        let [force, moment] = self.on_node(&self.wrench(&by), &by.local.axes);
-        for k in 0..3 {
-            out[k] -= factor * force[k];
-            out[3 + k] -= factor * moment[k];
-        }
+        self.add_wrench(&by, factor, out);
         for (k, &rate) in self.functions.rates.iter().enumerate() {
             out[6 + k] -= by.functions[rate];
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lissom_core::elements::local_load::{MAX_FUNCTIONS, MAX_STATES};
 use lissom_core::signals::MAX_ARGUMENTS;
-use lissom_motion::Vector3;
+use lissom_motion::{Motion, Vector3};
 
 use super::NodeReference;
 use super::entries::each;
@@ -107,7 +107,9 @@ pub struct LocalLoadEntry {
     pub at: Option<Vector3>,
     /// The beam along which it acts, if it acts along one.
     pub beam: Option<String>,
-    /// Whether its axes are global.
+    /// The frame of the model, or of the part in which it is written, for positions, flow and global axes.
+    pub frame: Motion,
+    /// Whether its axes are those of this frame.
     pub is_global: bool,
     /// All expressions, each after those that it names.
     pub functions: Vec<LocalExpression>,
@@ -128,7 +130,7 @@ pub(super) fn keys() -> Vec<Key> {
             "axes",
             choice(&AXES),
             "",
-            "axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones",
+            "axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones, in a part those of the part",
         ),
         optional(
             "force",
@@ -141,7 +143,7 @@ pub(super) fn keys() -> Vec<Key> {
             "flow",
             Shape::SectionDistribution,
             "m/s",
-            "velocity of the surrounding fluid in global axes: three numbers or expressions of x, y, z, t and inputs",
+            "velocity of the surrounding fluid in global axes, in a part in those of the part: three numbers or expressions of x, y, z, t and inputs",
         ),
         optional(
             "variables",
@@ -201,6 +203,7 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             node,
             at,
             beam,
+            frame: context.frame(reader.scope)?,
             is_global: reader.choice("axes").is_some_and(|word| word.value == AXES[1]),
             functions,
             flow,
@@ -373,12 +376,12 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         let reader = Reader::open(context, node, (what.to_owned(), node.span), keys)?;
         let of = self.formula(reader.node("of")?, &format!("`of` of {what}"))?;
         let table = context.table_of(&reader, node, Extrapolation::Constant)?;
-        self.push(LocalLaw::Table(table), vec![LocalName::Function(of)], node.span)
+        Some(self.push(LocalLaw::Table(table), vec![LocalName::Function(of)], node.span))
     }
 
-    fn push(&mut self, law: LocalLaw, arguments: Vec<LocalName>, span: Span) -> Option<usize> {
+    fn push(&mut self, law: LocalLaw, arguments: Vec<LocalName>, span: Span) -> usize {
         self.functions.push(LocalExpression { law, arguments, span });
-        Some(self.functions.len() - 1)
+        self.functions.len() - 1
     }
 
     /// An expression, after those that it names.
@@ -396,7 +399,7 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         if arguments.len() > MAX_ARGUMENTS {
             return context.fail(node.span, format!("{what} names too much"), "divide it into `variables`");
         }
-        self.push(LocalLaw::Formula(formula), arguments, node.span)
+        Some(self.push(LocalLaw::Formula(formula), arguments, node.span))
     }
 
     fn meaning(&mut self, name: &str, (place, node): (Span, &Node), what: &str) -> Option<LocalName> {

@@ -88,7 +88,7 @@ pub(super) fn add(
         let load = LocalLoad::new(
             names.local_loads.len(),
             (frame, start),
-            entry.is_global,
+            (entry.frame, entry.is_global),
             functions,
             states,
             scale(weight),

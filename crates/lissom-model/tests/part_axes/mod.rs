@@ -182,11 +182,15 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         | OutputKind::AngularVelocity
         | OutputKind::Acceleration
         | OutputKind::Reaction => turned().collect(),
-        OutputKind::Momentum => {
-            let own: Vec<f64> = turned().collect();
+        OutputKind::Momentum | OutputKind::LocalLoad => {
+            let own: Vec<f64> = values[..6]
+                .chunks(3)
+                .flat_map(|own| rotation.apply(&Vector3::from_column_slice(own)).data.0[0])
+                .collect();
             let (linear, angular) =
                 (Vector3::from_column_slice(&own[..3]), Vector3::from_column_slice(&own[3..]));
-            linear.iter().chain((angular + position.cross(&linear)).iter()).copied().collect()
+            let about_origin = angular + position.cross(&linear);
+            linear.iter().chain(about_origin.iter()).chain(&values[6..]).copied().collect()
         }
         OutputKind::Quaternion => {
             let own =
@@ -218,6 +222,7 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         | OutputKind::RelativeMotion
         | OutputKind::Contact
         | OutputKind::Spring
+        | OutputKind::Distance
         | OutputKind::Power
         | OutputKind::Work
         | OutputKind::Angle
