@@ -18,11 +18,24 @@ const MAX_POINTS = 120000;
 /** Vertices that represent a solid. */
 const MAX_CORNERS = 64;
 
-/** Vertices that represent a geometry: all, or some at equal distances. */
+/** Directions in which no vertex of a geometry may be missed: those of a cube's faces, edges and corners. */
+const OUTWARD = [-1, 0, 1].flatMap((x) => [-1, 0, 1].flatMap((y) => [-1, 0, 1].map((z) => [x, y, z])));
+
+/** Vertices that represent a geometry: all, or some at equal distances and the outermost ones. */
 const corners = ({ attributes }) => {
-  const { count } = attributes.position;
+  const { array, count } = attributes.position;
   const stride = Math.max(1, Math.floor(count / MAX_CORNERS));
-  return Array.from({ length: Math.ceil(count / stride) }, (_, k) => k * stride);
+  const found = Array.from({ length: Math.ceil(count / stride) }, (_, k) => k * stride);
+  if (stride === 1) return found;
+  for (const [x, y, z] of OUTWARD) {
+    let [farthest, most] = [0, -Infinity];
+    for (let k = 0; k < count; k++) {
+      const reach = x * array[3 * k] + y * array[3 * k + 1] + z * array[3 * k + 2];
+      if (reach > most) [farthest, most] = [k, reach];
+    }
+    found.push(farthest);
+  }
+  return found;
 };
 
 const isShown = (object) => object === null || (object.visible && isShown(object.parent));
@@ -60,10 +73,11 @@ export class ModelView {
     }
     const heaviest = Math.max(...scene.point_masses.map((mass) => mass.mass), 0);
     for (const mass of scene.point_masses) {
-      const own = next();
+      const isGround = mass.node === 0;
+      const own = isGround ? theme.ground : next();
       const shaped = { ...mass, shape: { center: [0, 0, 0] } };
       const drawn = mass.surface ? new BodyMesh(shaped, [], kinematics, size, own) : new PointMassMesh(mass, heaviest, kinematics, size, own);
-      this.add(mass.name, drawn, drawn.group, own, { kind: "point mass", part: mass });
+      this.add(mass.name, drawn, drawn.group, own, { kind: isGround ? "ground" : "point mass", part: mass });
     }
     this.buildConnections(size);
   }

@@ -103,7 +103,7 @@ export const examples = ({ root, folder, view, open }) => {
       for (const file of files) {
         const text = readFileSync(join(root, "examples", file), "utf8");
         const count = (pattern) => text.match(pattern)?.length ?? 0;
-        assert.ok(count(/^shape = \{|^mesh = /gm) >= count(/^\[.*bodies\.\w+\]/gm), `${file}: a body without a shape`);
+        assert.ok(count(/^shape = [[{]|^mesh = /gm) >= count(/^\[.*bodies\.\w+\]/gm), `${file}: a body without a shape`);
       }
       const panel = join(folder, "panel.toml");
       // The inertia of a panel of 1.2 x 0.02 x 1 m, and a cable that becomes slack.
