@@ -94,6 +94,7 @@ fn imports(text: &str) -> String {
                 "ContactId",
                 "InputId",
                 "JointId",
+                "LocalLoadId",
                 "MaterialId",
                 "SectionId",
                 "SpringId",

@@ -276,7 +276,7 @@ fn golands_wing_flutters_at_its_speed() {
             ..ModeRequest::default()
         };
         let report = modes(&Model::from_text("wing.toml", WING), &set, &request).unwrap();
-        let modes = report.modes.modes.iter().filter(|mode| mode.frequency > 5.0);
+        let modes = report.modes.iter().filter(|mode| mode.frequency > 5.0);
         let unstable: Vec<f64> = modes.filter(|mode| mode.damping < 0.0).map(|mode| mode.frequency).collect();
         unstable
     };

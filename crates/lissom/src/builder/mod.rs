@@ -60,7 +60,8 @@ pub use feedback::{Input, Signal};
 pub(crate) use ids::IdNames;
 pub use ids::{
     AnalysisId, BeamId, BodyId, ContactId, EventId, ForeignId, GroundId, InitialId, InputId, JointId, LoadId,
-    MaterialId, MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId, SuperelementId,
+    LocalLoadId, MaterialId, MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId,
+    SuperelementId,
 };
 pub use values::{
     GROUND, Inertia, Mass, Matrix, Node, Part, PositionOrNode, Quantity, SectionMass, Shear, Solid,

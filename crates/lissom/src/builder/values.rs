@@ -2,8 +2,8 @@
 
 use super::entries::sections::SliceMass;
 use super::ids::{
-    AnyId, BeamId, BodyId, ContactId, InputId, JointId, MaterialId, PointMassId, SectionId, SignalId,
-    SpringId, StateId, SuperelementId,
+    AnyId, BeamId, BodyId, ContactId, InputId, JointId, LocalLoadId, MaterialId, PointMassId, SectionId,
+    SignalId, SpringId, StateId, SuperelementId,
 };
 use super::written::{Fields, NameOf, Written};
 
@@ -176,7 +176,7 @@ macro_rules! written_names {
     };
 }
 
-written_names! { MaterialId SectionId JointId SpringId ContactId InputId BeamId SuperelementId }
+written_names! { MaterialId SectionId JointId SpringId ContactId InputId BeamId SuperelementId LocalLoadId }
 
 /// The mass of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

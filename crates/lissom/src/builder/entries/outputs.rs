@@ -4,7 +4,7 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Expression;
-use crate::builder::ids::{BeamId, ContactId, JointId, SpringId, SuperelementId};
+use crate::builder::ids::{BeamId, ContactId, JointId, LocalLoadId, SpringId, SuperelementId};
 use crate::builder::values::{Node, Quantity};
 
 entry! {
