@@ -317,6 +317,46 @@ fn quantities_of_frames_feed_loads_as_coordinates_do() {
     }
 }
 
+/// A table over a measurement acts like the expression through its rows, with its derivative in the tangent.
+#[test]
+fn a_table_over_a_measurement_acts_like_the_expression_through_its_rows() {
+    let table = "[signals]\nlift = { of = \"2*arm.rotation\", table = [[-1, 50], [0, 0], [0.5, -25]], \
+                 extrapolation = \"linear\" }\n";
+    let load = "[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"lift + 20\"\n";
+    for scheme in ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"] {
+        let analysis = format!("scheme = \"{scheme}\"\nend = 0.3\nstep = 5e-3\ntolerance = 1e-11");
+        let session = finished(&arm(&format!("{table}{load}"), &analysis));
+        let expression = load.replace("lift", "-100*arm.rotation");
+        let wanted = finished(&arm(&expression, &analysis)).value("arm.angle").unwrap();
+        let angle = session.value("arm.angle").unwrap();
+        assert!(wanted.abs() > 0.1 && (angle - wanted).abs() < 1e-10, "{scheme}: {angle} {wanted}");
+        let lift = session.value("lift").unwrap();
+        assert!((lift + 100.0 * angle).abs() < 1e-10, "{scheme}: {lift}");
+    }
+}
+
+/// Rows of a table over a line of time end steps, so that the motion is exact; a sampled one is constant in between.
+#[test]
+fn a_table_over_time_is_exact_and_a_sampled_one_is_constant_in_between() {
+    let table = "of = \"1 - 2*t\", table = [[0, 3], [0.754, 3], [1, 0]]";
+    let load = "[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"push\"\n";
+    let analysis = "scheme = \"radau-iia\"\nend = 0.3\nstep = 1e-2\ntolerance = 1e-12";
+    // It rises to 3 until 1 - 2 t = 0.754.
+    let kink = 0.5 * (1.0 - 0.754);
+    let exact = finished(&arm(&format!("[signals]\npush = {{ {table} }}\n{load}"), analysis));
+    let wanted = 3.0 * (0.3 - 0.5 * kink) / INERTIA;
+    assert!((exact.value("arm.rate").unwrap() - wanted).abs() < 1e-10);
+    let sampled = format!("[signals]\npush = {{ {table}, sample = 0.1, start = 7 }}\n{load}");
+    let mut session = session(&arm(&sampled, analysis));
+    for (time, at) in [(0.05, 0.0), (0.15, 0.1), (0.25, 0.2)] {
+        session.step_to(time).unwrap();
+        let wanted = 3.0 * (at / kink).min(1.0);
+        assert!((session.value("push").unwrap() - wanted).abs() < 1e-12, "{time}");
+    }
+    let wanted = 0.1 * 3.0 * 0.1 / kink + 0.05 * 3.0;
+    assert!((session.value("arm.rate").unwrap() - wanted / INERTIA).abs() < 1e-10);
+}
+
 #[test]
 fn a_session_restored_in_the_middle_goes_on_to_the_last_bit() {
     let tables = format!("{SAMPLED_STATE}\n{SAMPLED}");

@@ -182,10 +182,10 @@ impl Graph {
         self.held.iter().position(|(known, _)| known == name).map(DiscreteValueId::new)
     }
 
-    /// The signal called `name`.
+    /// The signal called `name`; its parts, of which messages name the same entry, are before it.
     pub fn signal(&self, name: &str) -> Option<SignalId> {
         let is_named = |signal: &Signal| signal.subject.kind == "signal" && signal.subject.name == name;
-        self.signals.iter().position(is_named).map(SignalId::new)
+        self.signals.iter().rposition(is_named).map(SignalId::new)
     }
 
     /// Whether any signal is sampled.

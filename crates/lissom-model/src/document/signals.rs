@@ -9,15 +9,19 @@ use crate::keys::Shape;
 use crate::parts::ROOT;
 use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
-use crate::text::Value;
+use crate::table::{Extrapolation, Table};
+use crate::table_values::table_key_in;
+use crate::text::{Node, Value};
 
 /// A named expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalEntry {
     /// Name.
     pub name: Located<String>,
-    /// Its expression.
+    /// Its expression, or the argument of its table.
     pub value: Located<Formula>,
+    /// Its table.
+    pub table: Option<Table>,
     /// Time from sample to sample [s] and value before the first, for a sampled one.
     pub sampling: Option<(f64, f64)>,
 }
@@ -82,24 +86,69 @@ pub(super) fn signals(context: &Context<'_>) -> Vec<SignalEntry> {
     let mut signals = Vec::new();
     for (name, span, node) in context.entries("signals") {
         let what = format!("signal `{name}`");
+        let name = Located::new(name.to_owned(), span);
         let entry = if let Value::Table(_) = node.value {
-            Reader::open(context, node, (what, span), Shape::signal_keys()).and_then(|reader| {
-                let period = reader.number("sample");
-                let value = reader.formula("value")?;
-                let start = reader.number("start").map_or(0.0, |start| start.value);
-                let sampling = Some((period?.value, start));
-                Some(SignalEntry { name: Located::new(name.to_owned(), span), value, sampling })
-            })
+            Reader::open(context, node, (what, span), Shape::signal_keys())
+                .and_then(|reader| of_table(&reader, node, name))
         } else {
             context.formula(node, &what).map(|formula| SignalEntry {
-                name: Located::new(name.to_owned(), span),
+                name,
                 value: Located::new(formula, node.span),
+                table: None,
                 sampling: None,
             })
         };
         signals.extend(entry);
     }
     signals
+}
+
+/// A signal whose keys are in a table.
+fn of_table(reader: &Reader<'_, '_>, node: &Node, name: Located<String>) -> Option<SignalEntry> {
+    let (context, what) = (reader.context, &reader.what);
+    let (value, table) = match (reader.node("value"), reader.node("of")) {
+        (Some(value), Some(_)) => {
+            let message = format!("{what} has both `value` and `of`");
+            return context.fail(value.span, message, "remove one of them: `of` is the argument of a table");
+        }
+        (None, Some(_)) => {
+            let table = context.table_of(reader, node, Extrapolation::Constant);
+            (reader.formula("of")?, Some(table?))
+        }
+        (Some(value), None) => {
+            if let Some(word) = table_key_in(reader) {
+                let message = format!("{what} has `{word}`, but no argument of a table");
+                return context.fail(
+                    value.span,
+                    message,
+                    "write `of` instead of `value`, or remove the table",
+                );
+            }
+            (reader.formula("value")?, None)
+        }
+        (None, None) => {
+            let message = format!("{what} lacks `value`");
+            let help =
+                "add `value = …`, an expression, or `of = …` and `table = …`, a table over an expression";
+            return context.fail(reader.name, message, help);
+        }
+    };
+    let sampling = match reader.number("sample") {
+        Some(period) => Some((period.value, reader.number("start").map_or(0.0, |start| start.value))),
+        None if reader.has("sample") => return None,
+        None => {
+            let needed_by = ["start"].into_iter().find(|word| reader.has(word));
+            let needed_by = needed_by.or(table.is_none().then_some("value"));
+            if let Some(word) = needed_by {
+                let message = format!("{what} has `{word}`, but lacks `sample`");
+                let help = "add `sample = …` [s]: time from sample to sample; \
+                            a continuous signal is an expression alone, or a table over one";
+                return context.fail(reader.name, message, help);
+            }
+            None
+        }
+    };
+    Some(SignalEntry { name, value, table, sampling })
 }
 
 pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {

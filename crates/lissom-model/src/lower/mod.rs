@@ -12,6 +12,7 @@ mod latches;
 mod local_loads;
 mod measurements;
 mod order;
+mod over_argument;
 mod parts;
 mod ports;
 mod readings;

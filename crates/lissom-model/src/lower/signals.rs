@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::kinematics::{CoordinateId, Quantity, Subject};
+use lissom_core::registry::ParameterError;
 use lissom_core::signals::coordinate::{Coordinate, Of};
 use lissom_core::signals::event::Event;
 use lissom_core::signals::{Argument, DiscreteValueId, Sampling, Signal, SignalId};
@@ -12,6 +13,7 @@ use lissom_core::system::Builder;
 use super::Names;
 use super::measurements::{Fault, LaterMeasurement, Measured, measure};
 use super::order::by_name;
+use super::over_argument::OverArgument;
 use super::readings::NamedReading;
 use crate::channel_components::coordinate_components;
 use crate::document::{Document, EventEntry, Output, OutputSource, SignalEntry};
@@ -155,10 +157,25 @@ fn add_signal(
         is_sampled: own.is_some(),
         last_sample: own.map(|own| (name.as_str(), own.held)),
     };
-    let (signal, line) = formula(document, builder, names, &reader)?;
-    let signal = builder
-        .add_signal(Signal { sampling: own, ..signal })
-        .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
+    let invalid = |error: ParameterError| Problem::error(entry.value.span, error.to_string());
+    let (mut signal, line) = match &entry.table {
+        None => formula(document, builder, names, &reader)?,
+        Some(table) => {
+            let subject = Subject::new("signal", name).component("`of`");
+            let (argument, line) =
+                formula(document, builder, names, &Reader { subject: &subject, ..reader })?;
+            let text = format!("a table over {}", argument.text);
+            // The argument of a sampled table is sampled as well: between samples it has no effect.
+            let sampling =
+                own.map(|own| Sampling { held: builder.add_held(&subject.to_string(), 0.0), ..own });
+            let argument = builder.add_signal(Signal { sampling, ..argument }).map_err(invalid)?;
+            let function = Arc::new(OverArgument::new(table.clone(), line));
+            let arguments = vec![Argument::Signal(argument)];
+            (Signal { subject: reader.subject.clone(), text, function, arguments, sampling: None }, None)
+        }
+    };
+    signal.sampling = own;
+    let signal = builder.add_signal(signal).map_err(invalid)?;
     names.signals.insert(name.clone(), Argument::Signal(signal));
     // Between samples it is constant, with a value that is not known in advance.
     names.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
@@ -179,6 +196,7 @@ pub(super) fn add_formula(
 }
 
 /// An expression that names quantities.
+#[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
     /// Subject of messages.
     pub(super) subject: &'a Subject,
