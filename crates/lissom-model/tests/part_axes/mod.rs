@@ -182,11 +182,11 @@ fn transformed(kind: OutputKind, name: &str, values: &[f64]) -> Vec<f64> {
         | OutputKind::AngularVelocity
         | OutputKind::Acceleration
         | OutputKind::Reaction => turned().collect(),
-        OutputKind::Momentum => {
-            let own: Vec<f64> = turned().collect();
-            let (linear, angular) =
-                (Vector3::from_column_slice(&own[..3]), Vector3::from_column_slice(&own[3..]));
-            linear.iter().chain((angular + position.cross(&linear)).iter()).copied().collect()
+        OutputKind::Momentum | OutputKind::LocalLoad => {
+            let own = |first: usize| rotation.apply(&Vector3::from_column_slice(&values[first..first + 3]));
+            let (linear, angular) = (own(0), own(3));
+            let moved = angular + position.cross(&linear);
+            [linear.as_slice(), moved.as_slice(), &values[6..]].concat()
         }
         OutputKind::Quaternion => {
             let own =
