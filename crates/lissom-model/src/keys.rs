@@ -248,6 +248,18 @@ impl Shape {
                 "time from sample to sample; the value is held in between",
             ),
             optional("start", Self::Number, "", "value before the first sample, default 0"),
+            optional(
+                "numerator",
+                Self::Numbers,
+                "",
+                "of a discrete filter: [b0, b1, …] of the expression's present and past samples",
+            ),
+            optional(
+                "denominator",
+                Self::Numbers,
+                "",
+                "of a discrete filter: [1, a1, …] of the signal's present and past samples, default [1]",
+            ),
         ];
         keys.extend(table_keys());
         keys

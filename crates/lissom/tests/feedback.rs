@@ -377,6 +377,102 @@ fn a_session_restored_in_the_middle_goes_on_to_the_last_bit() {
     }
 }
 
+/// A session half a sample period after each of the first samples, to evaluate signals at samples.
+fn at_samples(tables: &str, period: f64, count: usize, mut check: impl FnMut(usize, &lissom::Session)) {
+    let mut session = session(&arm(tables, "end = 1\nstep = 7e-3"));
+    for k in 0..count {
+        session.step_to((k as f64 + 0.5) * period).unwrap();
+        check(k, &session);
+    }
+}
+
+/// y_k = p y_(k-1) + (1 - p) u_(k-1): 1 - p^k for u = 1, whatever the first coefficient of the denominator.
+#[test]
+fn the_step_response_of_a_discrete_lag_is_a_geometric_series() {
+    let p: f64 = 0.8;
+    for first in [1.0, -4.0] {
+        let tables = format!(
+            "[signals]\nlag = {{ value = \"1\", sample = 0.01, numerator = [0, {}], denominator = [{first}, {}] }}\n",
+            first * (1.0 - p),
+            -first * p
+        );
+        at_samples(&tables, 0.01, 20, |k, session| {
+            let wanted = 1.0 - p.powi(k as i32);
+            assert!((session.value("lag").unwrap() - wanted).abs() < 1e-14, "{first}, {k}");
+        });
+    }
+}
+
+#[test]
+fn a_moving_average_is_that_of_two_samples() {
+    let tables = "[signals]\nmean = { value = \"t\", sample = 0.01, numerator = [0.5, 0.5], start = 9 }\n";
+    at_samples(tables, 0.01, 10, |k, session| {
+        let wanted = if k == 0 { 0.0 } else { 0.01 * (k as f64 - 0.5) };
+        assert!((session.value("mean").unwrap() - wanted).abs() < 1e-14, "{k}");
+    });
+}
+
+/// A filter of third order over a table of a sampled signal, against its recursion.
+#[test]
+fn a_discrete_filter_follows_its_recursion() {
+    let (b, a) = ([0.3, -0.2, 0.5, 0.1], [-1.1, 0.6, -0.25]);
+    let tables = format!(
+        "[signals]\nsource = {{ value = \"sin(40*t)\", sample = 0.01 }}\n\
+         y = {{ of = \"source + 0.1*y\", table = [[-1, -3], [0, 0], [1, 3]], extrapolation = \"linear\", sample = 0.01, \
+         start = 2, numerator = [0.3, -0.2, 0.5, 0.1], denominator = [1, -1.1, 0.6, -0.25] }}\n"
+    );
+    let (mut u, mut y) = ([0.0; 4], [2.0; 3]);
+    at_samples(&tables, 0.01, 30, |k, session| {
+        u.rotate_right(1);
+        u[0] = 3.0 * ((0.4 * k as f64).sin() + 0.1 * y[0]);
+        let sum =
+            |weights: &[f64], values: &[f64]| -> f64 { weights.iter().zip(values).map(|(w, v)| w * v).sum() };
+        let next = sum(&b, &u) - sum(&a, &y);
+        y.rotate_right(1);
+        y[0] = next;
+        assert!((session.value("y").unwrap() - next).abs() < 1e-12 * next.abs().max(1.0), "{k}: {next}");
+    });
+}
+
+/// a_k = b_(k-1) and b_k = a_(k-1) + b_(k-1), which name each other, are the Fibonacci numbers.
+#[test]
+fn previous_samples_of_other_signals_are_delays_and_no_loops() {
+    let tables = "[signals]\na = { value = \"b.last\", sample = 0.01 }\n\
+                  b = { value = \"a.last + b.last\", sample = 0.01, start = 1 }\n\
+                  c = { value = \"a + b.last\", sample = 0.02 }\n\
+                  [outputs.b]\nkind = \"signal\"\nof = \"b\"\n";
+    let mut fibonacci = vec![0.0, 1.0];
+    at_samples(tables, 0.01, 30, |k, session| {
+        fibonacci.push(fibonacci[k] + fibonacci[k + 1]);
+        let values = ["a", "b", "c"].map(|name| session.value(name).unwrap());
+        // The slower one adds the present a to what b was immediately before.
+        let slow = k - k % 2;
+        assert_eq!(values, [fibonacci[k + 1], fibonacci[k + 2], 2.0 * fibonacci[slow + 1]], "{k}");
+    });
+}
+
+/// A loop through a filter and a previous sample goes on from a snapshot between two samples to the last bit.
+#[test]
+fn filters_go_on_from_a_snapshot_to_the_last_bit() {
+    let tables = "[signals]\nsmooth = { value = \"arm.rotation\", sample = 0.01, numerator = [0.2, 0.1, 0.05], \
+                  denominator = [1, -0.9, 0.25] }\n\
+                  push = { value = \"4*(0.2 - smooth) - 0.2*smooth.last\", sample = 0.01 }\n\
+                  [loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"push\"\n";
+    for scheme in ["generalized-alpha", "radau-iia"] {
+        let text = arm(tables, &format!("scheme = \"{scheme}\"\nend = 0.5\nstep = 4e-3"));
+        let mut whole = session(&text);
+        whole.step_to(0.252).unwrap();
+        let kept = whole.snapshot().to_bytes();
+        whole.step_to(0.5).unwrap();
+        let mut other = session(&text);
+        other.restore(&lissom::SessionSnapshot::from_bytes(&kept).unwrap()).unwrap();
+        other.step_to(0.5).unwrap();
+        assert_eq!(whole.simulation().state(), other.simulation().state(), "{scheme}");
+        // The last samples were taken of another motion than the first.
+        assert!(whole.value("arm.angle").unwrap() > 0.05, "{scheme}");
+    }
+}
+
 const SAMPLED_STATE: &str = r#"
 [inputs]
 push = 0
@@ -486,6 +582,19 @@ fn mistakes_are_reported_with_their_place() {
             &["algebraic loop: `a` names `b` names `c` names `a`"],
         ),
         ("[signals]\na = \"a + 1\"\n".to_owned(), &["algebraic loop: `a` names `a`"]),
+        (
+            "[signals]\na = { value = \"1\", sample = 0.1 }\nb = \"a.last\"\n".to_owned(),
+            &["`a.last` is only known to sampled signals", "add `sample`"],
+        ),
+        (
+            "[signals]\na = \"t\"\nb = { value = \"a.last\", sample = 0.1 }\n".to_owned(),
+            &["`a` is not sampled", "add `sample` to `a`"],
+        ),
+        (
+            "[signals]\na = { value = \"b\", sample = 0.1 }\nb = { value = \"a\", sample = 0.1 }\n"
+                .to_owned(),
+            &["algebraic loop: `a` names `b` names `a`", "`NAME.last`"],
+        ),
         ("[signals]\na = 1\n[inputs]\na = 2\n".to_owned(), &["has the name of"]),
         ("[signals]\nt = 1\n".to_owned(), &["cannot be called `t`"]),
         ("[signals]\na = { value = \"t\" }\n".to_owned(), &["lacks `sample`"]),

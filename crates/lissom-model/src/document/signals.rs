@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use lissom_core::signals::MAX_ARGUMENTS;
+
 use super::entries::each;
 use crate::context::{Context, singular};
 use crate::expression::{self, Formula};
@@ -24,6 +26,18 @@ pub struct SignalEntry {
     pub table: Option<Table>,
     /// Time from sample to sample [s] and value before the first, for a sampled one.
     pub sampling: Option<(f64, f64)>,
+    /// The filter of a sampled one.
+    pub filter: Option<DiscreteFilter>,
+}
+
+/// A transfer function in z: `y_k = Σ_i b_i u_(k-i) - Σ_j a_j y_(k-j)`, i = 0, 1, …, j = 1, 2, …, u the expression and y
+/// the signal at samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscreteFilter {
+    /// b_0, b_1, …
+    pub numerator: Vec<f64>,
+    /// a_1, a_2, …
+    pub denominator: Vec<f64>,
 }
 
 /// A first-order state.
@@ -96,6 +110,7 @@ pub(super) fn signals(context: &Context<'_>) -> Vec<SignalEntry> {
                 value: Located::new(formula, node.span),
                 table: None,
                 sampling: None,
+                filter: None,
             })
         };
         signals.extend(entry);
@@ -137,7 +152,7 @@ fn of_table(reader: &Reader<'_, '_>, node: &Node, name: Located<String>) -> Opti
         Some(period) => Some((period.value, reader.number("start").map_or(0.0, |start| start.value))),
         None if reader.has("sample") => return None,
         None => {
-            let needed_by = ["start"].into_iter().find(|word| reader.has(word));
+            let needed_by = ["start", "numerator", "denominator"].into_iter().find(|word| reader.has(word));
             let needed_by = needed_by.or(table.is_none().then_some("value"));
             if let Some(word) = needed_by {
                 let message = format!("{what} has `{word}`, but lacks `sample`");
@@ -148,7 +163,33 @@ fn of_table(reader: &Reader<'_, '_>, node: &Node, name: Located<String>) -> Opti
             None
         }
     };
-    Some(SignalEntry { name, value, table, sampling })
+    let filter =
+        if reader.has("numerator") || reader.has("denominator") { Some(filter(reader)?) } else { None };
+    Some(SignalEntry { name, value, table, sampling, filter })
+}
+
+/// The filter of a sampled signal, divided by the first coefficient of its denominator.
+fn filter(reader: &Reader<'_, '_>) -> Option<DiscreteFilter> {
+    let (context, what) = (reader.context, &reader.what);
+    let coefficients = |key: &str| context.number_list(reader.node(key)?, &reader.words(key));
+    let denominator = if reader.has("denominator") { coefficients("denominator") } else { Some(vec![1.0]) };
+    let Some(node) = reader.node("numerator") else {
+        let message = format!("{what} has `denominator`, but lacks `numerator`");
+        return context.fail(reader.name, message, "add `numerator = [1]`, or other coefficients");
+    };
+    let (numerator, denominator) = (coefficients("numerator")?, denominator?);
+    let first = denominator[0];
+    if first == 0.0 {
+        let message = format!("`denominator` of {what} begins with 0, the coefficient of the present value");
+        return context.fail(reader.name, message, "begin with 1, such as [1, -0.9] for y_k - 0.9 y_(k-1)");
+    }
+    // The first of the denominator is no argument of the signal.
+    if numerator.len() + denominator.len() - 1 > MAX_ARGUMENTS {
+        let message = format!("{what} has a filter of more than {MAX_ARGUMENTS} past and present values");
+        return context.fail(node.span, message, "divide it into several signals in series");
+    }
+    let normalized = |all: &[f64]| all.iter().map(|own| own / first).collect();
+    Some(DiscreteFilter { numerator: normalized(&numerator), denominator: normalized(&denominator[1..]) })
 }
 
 pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {
