@@ -6,6 +6,8 @@ use std::borrow::Cow;
 use lissom_core::ports::{PortDeclaration, PortType};
 use lissom_core::registry::{ModelAxis, Parameter, ParameterType};
 
+use crate::table_values::table_keys;
+
 /// Shape of the value of a key.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
@@ -236,16 +238,31 @@ impl Shape {
 
     /// Keys of a signal that is given by a table.
     pub(crate) fn signal_keys() -> Vec<Key> {
-        vec![
-            required("value", Self::Formula, "", "its expression"),
-            required(
+        let mut keys = vec![
+            optional("value", Self::Formula, "", "its expression; either it or `of` is required"),
+            optional("of", Self::Formula, "", "the expression over which a table is"),
+            optional(
                 "sample",
                 Self::Positive,
                 "s",
                 "time from sample to sample; the value is held in between",
             ),
             optional("start", Self::Number, "", "value before the first sample, default 0"),
-        ]
+            optional(
+                "numerator",
+                Self::Numbers,
+                "",
+                "of a discrete filter: [b0, b1, …] of the expression's present and past samples",
+            ),
+            optional(
+                "denominator",
+                Self::Numbers,
+                "",
+                "of a discrete filter: [1, a1, …] of the signal's present and past samples, default [1]",
+            ),
+        ];
+        keys.extend(table_keys());
+        keys
     }
 
     /// Keys of a mass that is given by a density.

@@ -218,7 +218,9 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Equation => "an expression of coordinates of joints, such as `arm.angle`, and of `t`",
         Shape::Size => "a size",
         Shape::Formula => "an expression of signals",
-        Shape::Signal => "an expression of signals, or `{ value, sample, start }`",
+        Shape::Signal => {
+            "an expression of signals, `{ value, sample, start, numerator, denominator }`, or `{ of, table }` with the keys of a table"
+        }
         Shape::Profile => "a number or an expression of `s`",
         Shape::Curve => "three expressions of `s`",
         Shape::Distribution | Shape::SectionDistribution => "three expressions of `s` and `t`",

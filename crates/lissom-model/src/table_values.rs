@@ -37,6 +37,11 @@ pub(crate) fn table_keys() -> Vec<Key> {
     ]
 }
 
+/// The word among the keys of a table that the reader has.
+pub(crate) fn table_key_in(reader: &Reader<'_, '_>) -> Option<&'static str> {
+    table_keys().iter().map(|key| key.name).find(|word| reader.has(word))
+}
+
 impl Context<'_> {
     /// A table of rows, or of columns of a file.
     pub(crate) fn read_table(&self, node: &Node, what: &str, beyond: Extrapolation) -> Option<Table> {

@@ -101,6 +101,16 @@ fn an_included_part_has_names_parameters_and_a_place_of_its_own() {
 }
 
 #[test]
+fn previous_samples_are_those_of_the_parts_own_signals() {
+    let signals = "[parts.left.signals]\nslow = { value = \"fast.last\", sample = 0.1 }\n\
+                   fast = { value = \"slow.last + 1\", sample = 0.1 }\n";
+    let document = read(&format!("[parts.left.bodies.rod]\nmass = 1\ninertia = [1, 1, 1]\n{signals}"));
+    let named: Vec<&str> =
+        document.signals.iter().map(|own| own.value.value.arguments()[0].text.as_str()).collect();
+    assert_eq!(named, ["left.fast.last", "left.slow.last"]);
+}
+
+#[test]
 fn arrays_count_and_names_are_numbered() {
     let document = read(
         "[parts.link]\ncount = 4\nposition = [\"index - 1\", 0, 0]\n\

@@ -10,7 +10,9 @@ use lissom::builder::parts::{Beam, Body, PointMass};
 use lissom::builder::sections::{General, Material, Rectangle, SliceMass, Tube};
 use lissom::builder::springs::Torsional;
 use lissom::builder::words::{Direction, Plane, Scheme};
-use lissom::builder::{Event, Expression, GROUND, Input, ModelBuilder, Shear, Signal, State, outputs};
+use lissom::builder::{
+    Event, Expression, GROUND, Input, ModelBuilder, Shear, Signal, State, TabulatedFunction, outputs,
+};
 use lissom::{Model, Override, Record};
 
 /// What is recorded, and the iterations it took.
@@ -103,6 +105,27 @@ fn a_sampled_controller_with_an_actuator() {
     builder.add_named("torque", outputs::Signal::new(torque));
     builder.add(Dynamics::new(1.5).scheme(Scheme::RadauIia).step(1e-3).output_every(5usize));
     assert_same("controlled-arm.toml", &builder, &[("analysis.end", "0.2")]);
+}
+
+#[test]
+fn tables_and_filters_of_signals() {
+    let mut builder = ModelBuilder::new();
+    let block = builder.add(Body::new(1.0, [1.0; 3]));
+    builder.add(Prismatic::new(GROUND, block, [1.0, 0.0, 0.0]));
+    let rows = TabulatedFunction::of_rows([[0.0, 1.0], [1.0, 3.0]]);
+    let table = builder.add_named("table", Signal::tabulated(Expression::time(), rows));
+    let mean = Signal::sampled(table, 0.1, 0.0).filtered([0.5, 0.5], [1.0]);
+    let mean = builder.add_named("mean", mean);
+    let last = builder.add_named("last", Signal::sampled(mean.last(), 0.1, 7.0));
+    for (name, signal) in [("table", table), ("mean", mean), ("last", last)] {
+        builder.add_named(name, outputs::Signal::new(signal));
+    }
+    builder.add(Dynamics::new(0.25).step(0.05));
+    let (record, _) = results(&builder.build().unwrap(), &[]);
+    let at_end = |name: &str| *record.column(name, "value").unwrap().last().unwrap();
+    for (name, wanted) in [("table", 1.5), ("mean", 0.5 * (1.4 + 1.2)), ("last", 0.5 * (1.2 + 1.0))] {
+        assert!((at_end(name) - wanted).abs() < 1e-12, "{name}");
+    }
 }
 
 #[test]

@@ -317,6 +317,46 @@ fn quantities_of_frames_feed_loads_as_coordinates_do() {
     }
 }
 
+/// A table over a measurement acts like the expression through its rows, with its derivative in the tangent.
+#[test]
+fn a_table_over_a_measurement_acts_like_the_expression_through_its_rows() {
+    let table = "[signals]\nlift = { of = \"2*arm.rotation\", table = [[-1, 50], [0, 0], [0.5, -25]], \
+                 extrapolation = \"linear\" }\n";
+    let load = "[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"lift + 20\"\n";
+    for scheme in ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"] {
+        let analysis = format!("scheme = \"{scheme}\"\nend = 0.3\nstep = 5e-3\ntolerance = 1e-11");
+        let session = finished(&arm(&format!("{table}{load}"), &analysis));
+        let expression = load.replace("lift", "-100*arm.rotation");
+        let wanted = finished(&arm(&expression, &analysis)).value("arm.angle").unwrap();
+        let angle = session.value("arm.angle").unwrap();
+        assert!(wanted.abs() > 0.1 && (angle - wanted).abs() < 1e-10, "{scheme}: {angle} {wanted}");
+        let lift = session.value("lift").unwrap();
+        assert!((lift + 100.0 * angle).abs() < 1e-10, "{scheme}: {lift}");
+    }
+}
+
+/// Rows of a table over a line of time end steps, so that the motion is exact; a sampled one is constant in between.
+#[test]
+fn a_table_over_time_is_exact_and_a_sampled_one_is_constant_in_between() {
+    let table = "of = \"1 - 2*t\", table = [[0, 3], [0.754, 3], [1, 0]]";
+    let load = "[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"push\"\n";
+    let analysis = "scheme = \"radau-iia\"\nend = 0.3\nstep = 1e-2\ntolerance = 1e-12";
+    // It rises to 3 until 1 - 2 t = 0.754.
+    let kink = 0.5 * (1.0 - 0.754);
+    let exact = finished(&arm(&format!("[signals]\npush = {{ {table} }}\n{load}"), analysis));
+    let wanted = 3.0 * (0.3 - 0.5 * kink) / INERTIA;
+    assert!((exact.value("arm.rate").unwrap() - wanted).abs() < 1e-10);
+    let sampled = format!("[signals]\npush = {{ {table}, sample = 0.1, start = 7 }}\n{load}");
+    let mut session = session(&arm(&sampled, analysis));
+    for (time, at) in [(0.05, 0.0), (0.15, 0.1), (0.25, 0.2)] {
+        session.step_to(time).unwrap();
+        let wanted = 3.0 * (at / kink).min(1.0);
+        assert!((session.value("push").unwrap() - wanted).abs() < 1e-12, "{time}");
+    }
+    let wanted = 0.1 * 3.0 * 0.1 / kink + 0.05 * 3.0;
+    assert!((session.value("arm.rate").unwrap() - wanted / INERTIA).abs() < 1e-10);
+}
+
 #[test]
 fn a_session_restored_in_the_middle_goes_on_to_the_last_bit() {
     let tables = format!("{SAMPLED_STATE}\n{SAMPLED}");
@@ -334,6 +374,100 @@ fn a_session_restored_in_the_middle_goes_on_to_the_last_bit() {
         other.step_to(0.5).unwrap();
         assert_eq!(whole.simulation().state(), other.simulation().state(), "{scheme}");
         assert_ne!(whole.value("lag"), Some(0.0));
+    }
+}
+
+/// A session half a sample period after each of the first samples, to evaluate signals at samples.
+fn at_samples(tables: &str, period: f64, count: usize, mut check: impl FnMut(usize, &lissom::Session)) {
+    let mut session = session(&arm(tables, "end = 1\nstep = 7e-3"));
+    for k in 0..count {
+        session.step_to((k as f64 + 0.5) * period).unwrap();
+        check(k, &session);
+    }
+}
+
+/// y_k = p y_(k-1) + (1 - p) u_(k-1): 1 - p^k for u = 1, whatever the first coefficient of the denominator.
+#[test]
+fn the_step_response_of_a_discrete_lag_is_a_geometric_series() {
+    let p: f64 = 0.8;
+    for first in [1.0, -4.0] {
+        let tables = format!(
+            "[signals]\nlag = {{ value = \"1\", sample = 0.01, numerator = [0, {}], denominator = [{first}, {}] }}\n",
+            first * (1.0 - p),
+            -first * p
+        );
+        at_samples(&tables, 0.01, 20, |k, session| {
+            let wanted = 1.0 - p.powf(k as f64);
+            assert!((session.value("lag").unwrap() - wanted).abs() < 1e-14, "{first}, {k}");
+        });
+    }
+}
+
+#[test]
+fn a_moving_average_is_that_of_two_samples() {
+    let tables = "[signals]\nmean = { value = \"t\", sample = 0.01, numerator = [0.5, 0.5], start = 9 }\n";
+    at_samples(tables, 0.01, 10, |k, session| {
+        let wanted = if k == 0 { 0.0 } else { 0.01 * (k as f64 - 0.5) };
+        assert!((session.value("mean").unwrap() - wanted).abs() < 1e-14, "{k}");
+    });
+}
+
+/// A filter of third order over a table of a sampled signal, against its recursion.
+#[test]
+fn a_discrete_filter_follows_its_recursion() {
+    let (b, a) = ([0.3, -0.2, 0.5, 0.1], [-1.1, 0.6, -0.25]);
+    let tables = "[signals]\nsource = { value = \"sin(40*t)\", sample = 0.01 }\n\
+         y = { of = \"source + 0.1*y\", table = [[-1, -3], [0, 0], [1, 3]], extrapolation = \"linear\", sample = 0.01, \
+         start = 2, numerator = [0.3, -0.2, 0.5, 0.1], denominator = [1, -1.1, 0.6, -0.25] }\n";
+    let (mut u, mut y) = ([0.0; 4], [2.0; 3]);
+    at_samples(tables, 0.01, 30, |k, session| {
+        u.rotate_right(1);
+        u[0] = 3.0 * ((0.4 * k as f64).sin() + 0.1 * y[0]);
+        let sum =
+            |weights: &[f64], values: &[f64]| -> f64 { weights.iter().zip(values).map(|(w, v)| w * v).sum() };
+        let next = sum(&b, &u) - sum(&a, &y);
+        y.rotate_right(1);
+        y[0] = next;
+        assert!((session.value("y").unwrap() - next).abs() < 1e-12 * next.abs().max(1.0), "{k}: {next}");
+    });
+}
+
+/// a_k = b_(k-1) and b_k = a_(k-1) + b_(k-1), which name each other, are the Fibonacci numbers.
+#[test]
+fn previous_samples_of_other_signals_are_delays_and_no_loops() {
+    let tables = "[signals]\na = { value = \"b.last\", sample = 0.01 }\n\
+                  b = { value = \"a.last + b.last\", sample = 0.01, start = 1 }\n\
+                  c = { value = \"a + b.last\", sample = 0.02 }\n\
+                  [outputs.b]\nkind = \"signal\"\nof = \"b\"\n";
+    let mut fibonacci = vec![0.0, 1.0];
+    at_samples(tables, 0.01, 30, |k, session| {
+        fibonacci.push(fibonacci[k] + fibonacci[k + 1]);
+        let values = ["a", "b", "c"].map(|name| session.value(name).unwrap());
+        // The slower one adds the present a to what b was immediately before.
+        let slow = k - k % 2;
+        assert_eq!(values, [fibonacci[k + 1], fibonacci[k + 2], 2.0 * fibonacci[slow + 1]], "{k}");
+    });
+}
+
+/// A loop through a filter and a previous sample goes on from a snapshot between two samples to the last bit.
+#[test]
+fn filters_go_on_from_a_snapshot_to_the_last_bit() {
+    let tables = "[signals]\nsmooth = { value = \"arm.rotation\", sample = 0.01, numerator = [0.2, 0.1, 0.05], \
+                  denominator = [1, -0.9, 0.25] }\n\
+                  push = { value = \"4*(0.2 - smooth) - 0.2*smooth.last\", sample = 0.01 }\n\
+                  [loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"push\"\n";
+    for scheme in ["generalized-alpha", "radau-iia"] {
+        let text = arm(tables, &format!("scheme = \"{scheme}\"\nend = 0.5\nstep = 4e-3"));
+        let mut whole = session(&text);
+        whole.step_to(0.252).unwrap();
+        let kept = whole.snapshot().to_bytes();
+        whole.step_to(0.5).unwrap();
+        let mut other = session(&text);
+        other.restore(&lissom::SessionSnapshot::from_bytes(&kept).unwrap()).unwrap();
+        other.step_to(0.5).unwrap();
+        assert_eq!(whole.simulation().state(), other.simulation().state(), "{scheme}");
+        // The last samples were taken of another motion than the first.
+        assert!(whole.value("arm.angle").unwrap() > 0.05, "{scheme}");
     }
 }
 
@@ -446,6 +580,19 @@ fn mistakes_are_reported_with_their_place() {
             &["algebraic loop: `a` names `b` names `c` names `a`"],
         ),
         ("[signals]\na = \"a + 1\"\n".to_owned(), &["algebraic loop: `a` names `a`"]),
+        (
+            "[signals]\na = { value = \"1\", sample = 0.1 }\nb = \"a.last\"\n".to_owned(),
+            &["`a.last` is only known to sampled signals", "add `sample`"],
+        ),
+        (
+            "[signals]\na = \"t\"\nb = { value = \"a.last\", sample = 0.1 }\n".to_owned(),
+            &["`a` is not sampled", "add `sample` to `a`"],
+        ),
+        (
+            "[signals]\na = { value = \"b\", sample = 0.1 }\nb = { value = \"a\", sample = 0.1 }\n"
+                .to_owned(),
+            &["algebraic loop: `a` names `b` names `a`", "`NAME.last`"],
+        ),
         ("[signals]\na = 1\n[inputs]\na = 2\n".to_owned(), &["has the name of"]),
         ("[signals]\nt = 1\n".to_owned(), &["cannot be called `t`"]),
         ("[signals]\na = { value = \"t\" }\n".to_owned(), &["lacks `sample`"]),

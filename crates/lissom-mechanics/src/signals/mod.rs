@@ -182,10 +182,10 @@ impl Graph {
         self.held.iter().position(|(known, _)| known == name).map(DiscreteValueId::new)
     }
 
-    /// The signal called `name`.
+    /// The signal called `name`; its parts, of which messages name the same entry, are before it.
     pub fn signal(&self, name: &str) -> Option<SignalId> {
         let is_named = |signal: &Signal| signal.subject.kind == "signal" && signal.subject.name == name;
-        self.signals.iter().position(is_named).map(SignalId::new)
+        self.signals.iter().rposition(is_named).map(SignalId::new)
     }
 
     /// Whether any signal is sampled.
@@ -404,7 +404,8 @@ impl Graph {
     }
 
     /// Takes the samples that are due `elapsed` [s] after the start. Signals are sampled in their order, so that a
-    /// sample uses those taken before it at the same instant.
+    /// sample uses those taken before it at the same instant. Arguments that are held values have their values before
+    /// this instant: the previous sample of a signal.
     ///
     /// # Errors
     /// If a signal is not finite; all held values are then unchanged.
@@ -416,8 +417,10 @@ impl Graph {
                 Some(Sampling { held, period }) if !is_due(at.time, elapsed, period) => at.held[held.index()],
                 _ => self.compute(id, at, &values, self.sides(id, at)),
             };
+        }
+        for (signal, value) in self.signals.iter().zip(values) {
             if let Some(Sampling { held, .. }) = signal.sampling {
-                at.held[held.index()] = values[id.index()];
+                at.held[held.index()] = value;
             }
         }
         let checked = self.check(at);

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use lissom_core::signals::MAX_ARGUMENTS;
+
 use super::entries::each;
 use crate::context::{Context, singular};
 use crate::expression::{self, Formula};
@@ -9,17 +11,33 @@ use crate::keys::Shape;
 use crate::parts::ROOT;
 use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
-use crate::text::Value;
+use crate::table::{Extrapolation, Table};
+use crate::table_values::table_key_in;
+use crate::text::{Node, Value};
 
 /// A named expression.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalEntry {
     /// Name.
     pub name: Located<String>,
-    /// Its expression.
+    /// Its expression, or the argument of its table.
     pub value: Located<Formula>,
+    /// Its table.
+    pub table: Option<Table>,
     /// Time from sample to sample [s] and value before the first, for a sampled one.
     pub sampling: Option<(f64, f64)>,
+    /// The filter of a sampled one.
+    pub filter: Option<DiscreteFilter>,
+}
+
+/// A transfer function in z: `y_k = Σ_i b_i u_(k-i) - Σ_j a_j y_(k-j)`, i = 0, 1, …, j = 1, 2, …, u the expression and y
+/// the signal at samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiscreteFilter {
+    /// b_0, b_1, …
+    pub numerator: Vec<f64>,
+    /// a_1, a_2, …
+    pub denominator: Vec<f64>,
 }
 
 /// A first-order state.
@@ -82,24 +100,96 @@ pub(super) fn signals(context: &Context<'_>) -> Vec<SignalEntry> {
     let mut signals = Vec::new();
     for (name, span, node) in context.entries("signals") {
         let what = format!("signal `{name}`");
+        let name = Located::new(name.to_owned(), span);
         let entry = if let Value::Table(_) = node.value {
-            Reader::open(context, node, (what, span), Shape::signal_keys()).and_then(|reader| {
-                let period = reader.number("sample");
-                let value = reader.formula("value")?;
-                let start = reader.number("start").map_or(0.0, |start| start.value);
-                let sampling = Some((period?.value, start));
-                Some(SignalEntry { name: Located::new(name.to_owned(), span), value, sampling })
-            })
+            Reader::open(context, node, (what, span), Shape::signal_keys())
+                .and_then(|reader| of_table(&reader, node, name))
         } else {
             context.formula(node, &what).map(|formula| SignalEntry {
-                name: Located::new(name.to_owned(), span),
+                name,
                 value: Located::new(formula, node.span),
+                table: None,
                 sampling: None,
+                filter: None,
             })
         };
         signals.extend(entry);
     }
     signals
+}
+
+/// A signal whose keys are in a table.
+fn of_table(reader: &Reader<'_, '_>, node: &Node, name: Located<String>) -> Option<SignalEntry> {
+    let (context, what) = (reader.context, &reader.what);
+    let (value, table) = match (reader.node("value"), reader.node("of")) {
+        (Some(value), Some(_)) => {
+            let message = format!("{what} has both `value` and `of`");
+            return context.fail(value.span, message, "remove one of them: `of` is the argument of a table");
+        }
+        (None, Some(_)) => {
+            let table = context.table_of(reader, node, Extrapolation::Constant);
+            (reader.formula("of")?, Some(table?))
+        }
+        (Some(value), None) => {
+            if let Some(word) = table_key_in(reader) {
+                let message = format!("{what} has `{word}`, but no argument of a table");
+                return context.fail(
+                    value.span,
+                    message,
+                    "write `of` instead of `value`, or remove the table",
+                );
+            }
+            (reader.formula("value")?, None)
+        }
+        (None, None) => {
+            let message = format!("{what} lacks `value`");
+            let help =
+                "add `value = …`, an expression, or `of = …` and `table = …`, a table over an expression";
+            return context.fail(reader.name, message, help);
+        }
+    };
+    let sampling = match reader.number("sample") {
+        Some(period) => Some((period.value, reader.number("start").map_or(0.0, |start| start.value))),
+        None if reader.has("sample") => return None,
+        None => {
+            let needed_by = ["start", "numerator", "denominator"].into_iter().find(|word| reader.has(word));
+            let needed_by = needed_by.or(table.is_none().then_some("value"));
+            if let Some(word) = needed_by {
+                let message = format!("{what} has `{word}`, but lacks `sample`");
+                let help = "add `sample = …` [s]: time from sample to sample; \
+                            a continuous signal is an expression alone, or a table over one";
+                return context.fail(reader.name, message, help);
+            }
+            None
+        }
+    };
+    let filter =
+        if reader.has("numerator") || reader.has("denominator") { Some(filter(reader)?) } else { None };
+    Some(SignalEntry { name, value, table, sampling, filter })
+}
+
+/// The filter of a sampled signal, divided by the first coefficient of its denominator.
+fn filter(reader: &Reader<'_, '_>) -> Option<DiscreteFilter> {
+    let (context, what) = (reader.context, &reader.what);
+    let coefficients = |key: &str| context.number_list(reader.node(key)?, &reader.words(key));
+    let denominator = if reader.has("denominator") { coefficients("denominator") } else { Some(vec![1.0]) };
+    let Some(node) = reader.node("numerator") else {
+        let message = format!("{what} has `denominator`, but lacks `numerator`");
+        return context.fail(reader.name, message, "add `numerator = [1]`, or other coefficients");
+    };
+    let (numerator, denominator) = (coefficients("numerator")?, denominator?);
+    let first = denominator[0];
+    if first == 0.0 {
+        let message = format!("`denominator` of {what} begins with 0, the coefficient of the present value");
+        return context.fail(reader.name, message, "begin with 1, such as [1, -0.9] for y_k - 0.9 y_(k-1)");
+    }
+    // The first of the denominator is no argument of the signal.
+    if numerator.len() + denominator.len() - 1 > MAX_ARGUMENTS {
+        let message = format!("{what} has a filter of more than {MAX_ARGUMENTS} past and present values");
+        return context.fail(node.span, message, "divide it into several signals in series");
+    }
+    let normalized = |all: &[f64]| all.iter().map(|own| own / first).collect();
+    Some(DiscreteFilter { numerator: normalized(&numerator), denominator: normalized(&denominator[1..]) })
 }
 
 pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {

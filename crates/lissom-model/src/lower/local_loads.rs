@@ -5,40 +5,17 @@ use std::sync::Arc;
 use lissom_core::elements::Contribution;
 use lissom_core::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
 use lissom_core::kinematics::{CarriedFrame, DiscreteValueId};
-use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::{Constant, ForceFunction, Function};
+use lissom_core::registry::{Constant, Function};
 use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::Builder;
 use lissom_motion::Motion;
 
+use super::over_argument::OverArgument;
 use super::{Names, distributed};
 use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName, NodeReference};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
 use crate::report::{Located, Problem};
-use crate::table::Table;
-
-/// A table over an argument.
-#[derive(Debug)]
-struct OverArgument(Table);
-
-impl SignalFunction for OverArgument {
-    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
-        ForceFunction::evaluate(&self.0, arguments[0], 0.0)[0]
-    }
-
-    fn gradient(&self, _: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
-        out[0] = ForceFunction::evaluate(&self.0, arguments[0], 0.0)[1];
-    }
-
-    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
-        ForceFunction::bounds(&self.0, arguments[0], [0.0; 2])
-    }
-
-    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        ForceFunction::enclosure(&self.0, &arguments[0], &Enclosure::of_constant([0.0; 2]))
-    }
-}
 
 /// Adds a load, and returns its elements.
 pub(super) fn add(
@@ -105,7 +82,7 @@ fn law(expression: &LocalExpression) -> Arc<dyn SignalFunction> {
             let unknown = vec![None; formula.arguments().len()];
             Arc::new(OverTime::new(formula.clone(), &unknown))
         }
-        LocalLaw::Table(table) => Arc::new(OverArgument(table.clone())),
+        LocalLaw::Table(table) => Arc::new(OverArgument::new(table.clone(), None)),
     }
 }
 

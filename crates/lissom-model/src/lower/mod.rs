@@ -6,12 +6,14 @@ mod beam_contacts;
 mod connections;
 mod contacts;
 mod couplings;
+mod discrete_filter;
 mod distributed;
 mod initial_state;
 mod latches;
 mod local_loads;
 mod measurements;
 mod order;
+mod over_argument;
 mod parts;
 mod ports;
 mod readings;
@@ -34,7 +36,7 @@ use lissom_core::errors::Warning;
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::registry::ParameterError;
 use lissom_core::settings::Settings;
-use lissom_core::signals::{Argument, SignalId};
+use lissom_core::signals::{Argument, DiscreteValueId, SignalId};
 use lissom_core::simulation::accumulated::Accumulated;
 use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
@@ -139,6 +141,8 @@ pub struct Names {
     pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,
+    /// Values of sampled signals between samples.
+    samples: BTreeMap<String, DiscreteValueId>,
     /// Those of the signals that are straight lines of time, a + b t.
     lines_of_time: BTreeMap<SignalId, (f64, f64)>,
     /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the

@@ -4,18 +4,21 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::kinematics::{CoordinateId, Quantity, Subject};
+use lissom_core::registry::ParameterError;
 use lissom_core::signals::coordinate::{Coordinate, Of};
 use lissom_core::signals::event::Event;
-use lissom_core::signals::{Argument, DiscreteValueId, Sampling, Signal, SignalId};
+use lissom_core::signals::{Argument, Sampling, Signal, SignalId};
 use lissom_core::system::Builder;
 
-use super::Names;
 use super::measurements::{Fault, LaterMeasurement, Measured, measure};
 use super::order::by_name;
+use super::over_argument::OverArgument;
 use super::readings::NamedReading;
+use super::{Names, discrete_filter};
 use crate::channel_components::coordinate_components;
 use crate::document::{Document, EventEntry, Output, OutputSource, SignalEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
+use crate::parts::PREVIOUS_SAMPLE;
 use crate::report::{Located, Problem};
 use crate::suggest;
 
@@ -46,7 +49,12 @@ pub(super) fn add(
             return;
         }
     }
-    for entry in order.sorted {
+    let sorted = order.sorted;
+    for (entry, (_, start)) in sorted.iter().filter_map(|entry| Some((entry, entry.sampling?))) {
+        let held = builder.add_held(&entry.name.value, start);
+        names.samples.insert(entry.name.value.clone(), held);
+    }
+    for entry in sorted {
         if let Err(problem) = add_signal(document, builder, names, entry) {
             problems.push(problem);
             // Later expressions that name it are not to be reported.
@@ -113,9 +121,10 @@ impl<'d> Order<'d> {
         self.marks.insert(name, false);
         self.path.push(name);
         for argument in entry.value.value.arguments() {
-            // A sampled signal that names itself means its last sample.
-            let is_last_sample = entry.sampling.is_some() && argument.text == name;
-            if is_last_sample {
+            let is_sampled = |name: &str| {
+                self.document.signals.iter().any(|own| own.name.value == name && own.sampling.is_some())
+            };
+            if entry.sampling.is_some() && previous_sample(&argument.text, name).is_some_and(is_sampled) {
                 continue;
             }
             for named in signals_named(self.document, &argument.text, &mut Vec::new()) {
@@ -134,10 +143,19 @@ impl<'d> Order<'d> {
         let names: Vec<String> =
             self.path[from..].iter().chain([&name]).map(|name| format!("`{name}`")).collect();
         let message = format!("signals form an algebraic loop: {}", names.join(" names "));
-        Problem::error(entry.name.span, message).label("needs its own value").help(
-            "let one of them be a state, or sampled and name only itself: a sampled signal then means its last sample",
-        )
+        Problem::error(entry.name.span, message)
+            .label("needs its own value")
+            .help("make one of them a state, or use the previous sample of a sampled one: `NAME.last`")
     }
+}
+
+/// The sampled signal whose previous sample a name means in the expression of the sampled signal `own`: `NAME.last`, or
+/// its own name.
+fn previous_sample<'n>(name: &'n str, own: &str) -> Option<&'n str> {
+    if name == own {
+        return Some(name);
+    }
+    name.rsplit_once('.').filter(|(_, component)| *component == PREVIOUS_SAMPLE).map(|(owner, _)| owner)
 }
 
 fn add_signal(
@@ -147,18 +165,39 @@ fn add_signal(
     entry: &SignalEntry,
 ) -> Result<(), Problem> {
     let name = &entry.name.value;
-    let own = entry.sampling.map(|(period, start)| Sampling { held: builder.add_held(name, start), period });
+    let held = names.samples.get(name).copied();
+    let own = entry.sampling.zip(held).map(|((period, start), held)| (Sampling { held, period }, start));
     let subject = Subject::new("signal", name).called(name);
     let reader = Reader {
         subject: &subject,
         expression: &entry.value,
         is_sampled: own.is_some(),
-        last_sample: own.map(|own| (name.as_str(), own.held)),
+        own_sample: own.map(|_| name.as_str()),
     };
-    let (signal, line) = formula(document, builder, names, &reader)?;
-    let signal = builder
-        .add_signal(Signal { sampling: own, ..signal })
-        .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
+    let invalid = |error: ParameterError| Problem::error(entry.value.span, error.to_string());
+    let (mut signal, line) = match &entry.table {
+        None => formula(document, builder, names, &reader)?,
+        Some(table) => {
+            let subject = Subject::new("signal", name).component("`of`");
+            let (argument, line) =
+                formula(document, builder, names, &Reader { subject: &subject, ..reader })?;
+            let text = format!("a table over {}", argument.text);
+            // The argument of a sampled table is sampled as well: between samples it has no effect.
+            let sampling =
+                own.map(|(own, _)| Sampling { held: builder.add_held(&subject.to_string(), 0.0), ..own });
+            let argument = builder.add_signal(Signal { sampling, ..argument }).map_err(invalid)?;
+            let function = Arc::new(OverArgument::new(table.clone(), line));
+            let arguments = vec![Argument::Signal(argument)];
+            (Signal { subject: reader.subject.clone(), text, function, arguments, sampling: None }, None)
+        }
+    };
+    match (&entry.filter, own) {
+        (Some(filter), Some(own)) => {
+            signal = discrete_filter::filtered(builder, filter, signal, own).map_err(invalid)?;
+        }
+        _ => signal.sampling = own.map(|(own, _)| own),
+    }
+    let signal = builder.add_signal(signal).map_err(invalid)?;
     names.signals.insert(name.clone(), Argument::Signal(signal));
     // Between samples it is constant, with a value that is not known in advance.
     names.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
@@ -173,20 +212,21 @@ pub(super) fn add_formula(
     subject: &Subject,
     expression: &Located<Formula>,
 ) -> Result<SignalId, Problem> {
-    let reader = Reader { subject, expression, is_sampled: false, last_sample: None };
+    let reader = Reader { subject, expression, is_sampled: false, own_sample: None };
     let (signal, _) = formula(document, builder, names, &reader)?;
     builder.add_signal(signal).map_err(|error| Problem::error(expression.span, error.to_string()))
 }
 
 /// An expression that names quantities.
+#[derive(Clone, Copy)]
 pub(super) struct Reader<'a> {
     /// Subject of messages.
     pub(super) subject: &'a Subject,
     pub(super) expression: &'a Located<Formula>,
     /// Whether it is evaluated at samples alone.
     pub(super) is_sampled: bool,
-    /// Name and last sample of a sampled signal.
-    pub(super) last_sample: Option<(&'a str, DiscreteValueId)>,
+    /// Name of the sampled signal whose expression it is.
+    pub(super) own_sample: Option<&'a str>,
 }
 
 /// An expression as a signal, and the straight line of time that it is.
@@ -199,9 +239,10 @@ fn formula(
     let Reader { subject, expression, .. } = *reader;
     let mut arguments = Vec::new();
     for argument in expression.value.arguments() {
-        arguments.push(match reader.last_sample {
-            Some((name, held)) if name == argument.text => Argument::Held(held),
-            _ => resolve(document, builder, names, reader, argument)?,
+        let previous = reader.own_sample.and_then(|own| previous_sample(&argument.text, own));
+        arguments.push(match previous.and_then(|name| names.samples.get(name)) {
+            Some(held) => Argument::Held(*held),
+            None => resolve(document, builder, names, reader, argument)?,
         });
     }
     let line = |argument: &Argument| match argument {
@@ -254,6 +295,18 @@ fn resolve(
         };
         return Err(problem(message).maybe_help(help));
     };
+    if component == PREVIOUS_SAMPLE
+        && let Some(of) = document.signals.iter().find(|signal| signal.name.value == owner)
+    {
+        let (message, help) = if of.sampling.is_some() {
+            let message = format!("`{}` is only known to sampled signals", name.text);
+            (message, "add `sample` to the signal in whose expression it is".to_owned())
+        } else {
+            let message = format!("the signal `{owner}` is not sampled, so it has no previous sample");
+            (message, format!("add `sample` to `{owner}`"))
+        };
+        return Err(problem(message).help(help));
+    }
     if let Some(of) = outputs_of_signals(document, owner) {
         let output = &of.name.value;
         if component != "value" {
@@ -329,7 +382,7 @@ fn output_value(
         OutputSource::Signal(name) => names.signals.get(&name.value).copied().ok_or(None),
         OutputSource::Expression(expression) => {
             let subject = Subject::new("output", &output.name.value);
-            let reader = Reader { subject: &subject, expression, is_sampled, last_sample: None };
+            let reader = Reader { subject: &subject, expression, is_sampled, own_sample: None };
             let (signal, line) = formula(document, builder, names, &reader)?;
             let signal = builder
                 .add_signal(signal)

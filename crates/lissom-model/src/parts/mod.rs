@@ -16,6 +16,7 @@ use crate::text::{Node, Table};
 
 pub(crate) use expand::expand;
 pub(crate) use found_frames::Frames;
+pub(crate) use names::PREVIOUS_SAMPLE;
 
 /// Number of a scope.
 pub(crate) type ScopeId = usize;

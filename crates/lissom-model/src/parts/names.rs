@@ -12,6 +12,8 @@ use crate::text::{Node, Value};
 const OWNERS: [&str; 2] = ["outputs", "joints"];
 /// Tables whose entries expressions may name.
 const NUMBERS: [&str; 3] = ["signals", "inputs", "states"];
+/// The component of a sampled signal that is its previous sample.
+pub(crate) const PREVIOUS_SAMPLE: &str = "last";
 
 impl Context<'_> {
     /// A text whose `{…}` are replaced by the whole numbers that the expressions in them are.
@@ -113,9 +115,10 @@ impl Context<'_> {
     fn quantity(&self, text: &str, scope: ScopeId) -> String {
         let exists = |full: &str| {
             NUMBERS.iter().any(|table| self.has(table, full))
-                || full
-                    .rsplit_once('.')
-                    .is_some_and(|(owner, _)| OWNERS.iter().any(|table| self.has(table, owner)))
+                || full.rsplit_once('.').is_some_and(|(owner, component)| {
+                    let is_previous = component == PREVIOUS_SAMPLE && self.has("signals", owner);
+                    is_previous || OWNERS.iter().any(|table| self.has(table, owner))
+                })
         };
         // A name unknown inside must remain unknown: it may be the name of another entry outside.
         self.resolve(text, scope, &exists).unwrap_or_else(|| format!("{}{text}", self.scopes[scope].prefix))

@@ -227,6 +227,13 @@ macro_rules! named {
 
 named! { InputId SignalId StateId }
 
+impl SignalId {
+    /// Its previous sample, in the expression of a sampled signal.
+    pub fn last(self) -> Expression {
+        Expression::named(self.0, "last")
+    }
+}
+
 impl JointId {
     /// Its relative rotation [rad].
     pub fn angle(self) -> Expression {
@@ -298,7 +305,7 @@ impl From<Expression> for Written {
 /// A function given by rows of argument and value, arguments ascending; linear between the rows by default.
 #[derive(Clone, Debug, PartialEq)]
 #[must_use]
-pub struct TabulatedFunction(Fields);
+pub struct TabulatedFunction(pub(crate) Fields);
 
 impl TabulatedFunction {
     /// A function through `rows` of argument and value.

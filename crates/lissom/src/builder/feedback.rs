@@ -2,7 +2,7 @@
 
 use super::entries::feedback::Event;
 use super::entry::Entry;
-use super::expression::Expression;
+use super::expression::{Expression, TabulatedFunction};
 use super::ids::{InputId, SignalId};
 use super::written::{Fields, NameOf, Written};
 
@@ -32,19 +32,36 @@ impl Entry for Input {
 #[must_use]
 pub struct Signal {
     value: Expression,
-    sampling: Option<(f64, f64)>,
+    /// Keys of a sampled signal or a table.
+    fields: Fields,
 }
 
 impl Signal {
     /// A signal that follows `value` continuously.
     pub fn new(value: impl Into<Expression>) -> Self {
-        Self { value: value.into(), sampling: None }
+        Self { value: value.into(), fields: Fields::default() }
     }
 
     /// A signal that is set to the value of `value` every `period` [s] and constant in between; `start` before the first
     /// sample.
     pub fn sampled(value: impl Into<Expression>, period: f64, start: f64) -> Self {
-        Self { value: value.into(), sampling: Some((period, start)) }
+        let mut fields = Fields::default();
+        fields.set("sample", period);
+        fields.set("start", start);
+        Self { value: value.into(), fields }
+    }
+
+    /// The signal as the input of a discrete filter: `numerator` are the coefficients of its present and past samples, `denominator`
+    /// those of the filter's present and past values. The signal must be sampled.
+    pub fn filtered(mut self, numerator: impl Into<Vec<f64>>, denominator: impl Into<Vec<f64>>) -> Self {
+        self.fields.set("numerator", numerator.into());
+        self.fields.set("denominator", denominator.into());
+        self
+    }
+
+    /// A continuous signal: `table` over the argument `of`.
+    pub fn tabulated(of: impl Into<Expression>, table: TabulatedFunction) -> Self {
+        Self { value: of.into(), fields: table.0 }
     }
 }
 
@@ -53,11 +70,11 @@ impl Entry for Signal {
     const WORD: &'static str = "signal";
 
     fn written(self) -> Written {
-        let Some((period, start)) = self.sampling else { return self.value.into() };
-        let mut fields = Fields::default();
-        fields.set("value", self.value);
-        fields.set("sample", period);
-        fields.set("start", start);
+        if self.fields == Fields::default() {
+            return self.value.into();
+        }
+        let mut fields = self.fields;
+        fields.set(if fields.has("table") { "of" } else { "value" }, self.value);
         fields.into()
     }
 }

@@ -48,6 +48,11 @@ impl Fields {
         }
     }
 
+    /// Whether `key` has a value.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.0.iter().any(|(known, _)| *known == key)
+    }
+
     /// Sets the value of the entry called `name` in the table under `key`, replacing an earlier one.
     pub(crate) fn set_under(&mut self, key: &'static str, name: NameOf, value: Written) {
         if let Some((_, Written::Named(named))) = self.0.iter_mut().find(|(known, _)| *known == key) {

@@ -1,0 +1,77 @@
+//! A table over an argument as a function of signals and of local loads.
+
+use lissom_core::law::{Enclosure, Interval};
+use lissom_core::registry::{ForceFunction, TimeFunction};
+use lissom_core::signals::SignalFunction;
+
+use crate::expression::Line;
+use crate::table::Table;
+
+/// A table over its only argument.
+#[derive(Debug)]
+pub(super) struct OverArgument {
+    table: Table,
+    breakpoints: Vec<f64>,
+}
+
+impl OverArgument {
+    /// A table whose argument is this straight line of time, none if it depends on more than time.
+    pub(super) fn new(table: Table, argument: Line) -> Self {
+        let mut breakpoints = match argument {
+            Some((start, rate)) if rate != 0.0 => {
+                let rows = TimeFunction::breakpoints(&table).into_iter();
+                rows.map(|row| (row - start) / rate).filter(|time| time.is_finite()).collect()
+            }
+            _ => Vec::new(),
+        };
+        breakpoints.sort_by(f64::total_cmp);
+        Self { table, breakpoints }
+    }
+}
+
+impl SignalFunction for OverArgument {
+    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
+        ForceFunction::evaluate(&self.table, arguments[0], 0.0)[0]
+    }
+
+    fn gradient(&self, _: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
+        out[0] = ForceFunction::evaluate(&self.table, arguments[0], 0.0)[1];
+    }
+
+    fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
+        ForceFunction::bounds(&self.table, arguments[0], [0.0; 2])
+    }
+
+    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        ForceFunction::enclosure(&self.table, &arguments[0], &Enclosure::of_constant([0.0; 2]))
+    }
+
+    fn breakpoints(&self) -> &[f64] {
+        &self.breakpoints
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::table::{Extrapolation, Interpolation};
+
+    #[test]
+    fn rows_are_breakpoints_where_the_argument_is_a_line_of_time() {
+        let rows = [(0.0, 0.0), (1.0, 2.0), (2.0, 1.0), (3.0, 1.0)];
+        let over = |interpolation, line| {
+            OverArgument::new(Table::new(&rows, interpolation, Extrapolation::Constant).unwrap(), line)
+        };
+        assert_eq!(over(Interpolation::Linear, Some((3.0, -0.5))).breakpoints(), [2.0, 4.0]);
+        for (interpolation, line) in [
+            (Interpolation::Linear, None),
+            (Interpolation::Linear, Some((1.0, 0.0))),
+            (Interpolation::Spline, Some((0.0, 1.0))),
+        ] {
+            assert!(over(interpolation, line).breakpoints().is_empty(), "{interpolation:?}");
+        }
+        let mut slope = [0.0];
+        over(Interpolation::Linear, None).gradient(0.0, &[1.5], &[], &mut slope);
+        assert_eq!(slope, [-1.0]);
+    }
+}
