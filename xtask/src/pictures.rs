@@ -47,6 +47,7 @@ const PICTURES: &[(&str, &str, Instants)] = &[
     ("turbine-rotor", "turbine-rotor", At(&[0.0, 0.25, 0.5, 0.75])),
     ("walking-linkage", "walking-linkage", At(&[0.75])),
     ("wheelset", "wheelset", At(&[1.0])),
+    ("wing-flutter", "wing-flutter", At(&[2.9, 2.92])),
 ];
 
 /// Makes the bytes of a file.

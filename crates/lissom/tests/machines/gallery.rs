@@ -2,6 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
+use lissom::Model;
+use lissom::modes::{ModeRequest, OperatingPoint, modes};
+
 use crate::support::runs::{column, last, run};
 
 macro_rules! model {
@@ -304,4 +307,30 @@ fn a_belt_carries_the_fan_along() {
             assert!(*normal >= -1e-9 && *friction <= 0.625 * normal + 1e-9, "{name}");
         }
     }
+}
+
+/// A plate in the wind: stable at 20 m/s, unstable at 21 m/s, and above it a limit cycle, because the lift saturates.
+#[test]
+fn a_wing_flutters_with_a_limited_amplitude() {
+    for (speed, is_stable) in [("20", true), ("21", false)] {
+        let set = vec![("parameters.wind".to_owned(), speed.to_owned())];
+        let request = ModeRequest {
+            count: Some(6),
+            shift: Some(20.0),
+            about: Some(OperatingPoint::Undeformed),
+            ..ModeRequest::default()
+        };
+        let model = Model::from_text("wing-flutter.toml", model!("wing-flutter"));
+        let report = modes(&model, &set, &request).unwrap();
+        let least = report.modes.iter().map(|mode| mode.damping).fold(f64::INFINITY, f64::min);
+        assert_eq!(least > 0.0, is_stable, "{speed}: {least}");
+    }
+    let record = run(model!("wing-flutter"), &[]);
+    let twist = column(&record, "twist", "r3");
+    let largest = |from: f64, to: f64| {
+        let rows = record.times.iter().zip(&twist).filter(|(time, _)| (from..to).contains(*time));
+        rows.fold(0.0_f64, |most, (_, twist)| most.max(twist.abs()))
+    };
+    close(largest(1.0, 2.0), largest(2.0, 3.0), 0.02, "amplitude of the limit cycle");
+    assert!(largest(2.0, 3.0) > 0.2);
 }
