@@ -480,7 +480,12 @@ pub(super) fn mode_of<S: Field>(
     let mut shape: Vec<Complex64> =
         vector[..count].iter().zip(&operator.units).map(|(value, unit)| value / unit).collect();
     normalise(model, &mut shape);
-    let sizes: Vec<f64> = shape.iter().map(|value| value.norm()).collect();
+    // States have no mass, and their rates no round-off from stiffness.
+    let quantities = model.system.layout().quantities();
+    let size_of = |(value, quantity): (&Complex64, &Quantity)| {
+        if *quantity == Quantity::State { 0.0 } else { value.norm() }
+    };
+    let sizes: Vec<f64> = shape.iter().zip(quantities).map(size_of).collect();
     let of_solve = SOLVED.powi(2) * square_of_shift;
     if eigenvalue.norm_sqr() <= DEFECTIVE * round_off(model, &sizes, 1.0) + of_solve {
         eigenvalue = Complex64::default();
