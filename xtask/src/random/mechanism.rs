@@ -547,6 +547,16 @@ impl Maker {
                 triple(axis)
             ));
         }
+        if !is_free && parts.len() > 1 && self.draw.chance(0.1) {
+            self.is_conservative = false;
+            let [base, tip] = [0, 1].map(|_| self.draw.of(&parts));
+            if base != tip {
+                self.tables.push(format!(
+                    "[loads.l{}]\nkind = \"force_between\"\nbase = \"{base}\"\ntip = \"{tip}\"\nforce = \"4*sin(5*t)\"\n",
+                    self.tables.len()
+                ));
+            }
+        }
     }
 }
 

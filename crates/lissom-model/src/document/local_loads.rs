@@ -8,6 +8,7 @@ use lissom_motion::{Motion, Vector3};
 
 use super::NodeReference;
 use super::entries::each;
+use super::part_tables::placed_in;
 use crate::context::Context;
 use crate::expression::{self, Formula};
 use crate::keys::{Key, Shape, choice, optional, required};
@@ -124,6 +125,7 @@ pub struct LocalLoadEntry {
 /// Keys of a load.
 pub(super) fn keys() -> Vec<Key> {
     vec![
+        placed_in(),
         required("on", Shape::Node, "", "a beam, along which it is distributed, or a node"),
         optional("at", Shape::Place, "m", "where it acts on a node, at the start; default the node"),
         optional(

@@ -5,7 +5,7 @@ use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::system::System;
 use lissom_motion::Motion;
 
-use super::Names;
+use super::names::Names;
 use crate::document::{AssemblyRequest, Document};
 use crate::report::Problem;
 

@@ -17,8 +17,8 @@ use lissom_core::number::written;
 use lissom_core::system::Builder;
 use lissom_motion::Vector3;
 
-use super::Names;
 use super::contacts::{solids, surface, words};
+use super::names::Names;
 use crate::contact_point::ContactPoint;
 use crate::document::{BeamSides, ContactEntry, Document, Restitution, Touching};
 use crate::report::Problem;

@@ -10,8 +10,9 @@ use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Valu
 use lissom_core::signals::Argument;
 use lissom_core::system::{Builder, JointAttachment, PlaceOnTip};
 
+use super::names::{Names, parameter_problem};
 use super::order::by_name;
-use super::{Names, parameter_problem, ports};
+use super::ports;
 use crate::document::{Component, Document, NodeLocation, OnTip};
 use crate::functions::Ramp;
 use crate::report::Problem;

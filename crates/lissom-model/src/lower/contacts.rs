@@ -18,8 +18,9 @@ use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation, Vector3};
 use nalgebra::Vector2;
 
+use super::Lowered;
+use super::names::Names;
 use super::straight_line::Line;
-use super::{Lowered, Names};
 use crate::contact_point::ContactPoint;
 use crate::document::{ContactEntry, Document, NodeLocation, NodeReference, Restitution};
 use crate::report::Problem;

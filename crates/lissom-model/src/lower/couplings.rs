@@ -11,7 +11,7 @@ use lissom_core::signals::SignalFunction as _;
 use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{Builder, State, System};
 
-use super::Names;
+use super::names::Names;
 use super::signals::relative_components;
 use crate::document::{Component, Document};
 use crate::expression::{Formula, Kink, Name};

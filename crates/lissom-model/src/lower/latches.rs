@@ -10,7 +10,7 @@ use lissom_core::signals::event::{Direction, Event};
 use lissom_core::signals::{Argument, Signal, SignalFunction};
 use lissom_core::system::Builder;
 
-use super::Names;
+use super::names::Names;
 use super::straight_line::Line;
 use crate::document::{Component, Document};
 use crate::report::Problem;

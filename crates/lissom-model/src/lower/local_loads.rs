@@ -10,8 +10,9 @@ use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::Builder;
 use lissom_motion::Motion;
 
+use super::distributed;
+use super::names::Names;
 use super::over_argument::OverArgument;
-use super::{Names, distributed};
 use crate::document::{Document, LocalExpression, LocalLaw, LocalLoadEntry, LocalName, NodeReference};
 use crate::expression::OverTime;
 use crate::functions::Ramp;
@@ -25,7 +26,7 @@ pub(super) fn add(
     builder: &mut Builder,
 ) -> Result<Vec<LocalLoad>, Problem> {
     let laws: Vec<Arc<dyn SignalFunction>> = entry.functions.iter().map(law).collect();
-    let held = outside(document, entry, (names, builder))?;
+    let held = outside(document, entry, names)?;
     let scale = |weight: f64| {
         let ramp = document.analysis.ramp.then_some((document.analysis.start, document.analysis.end));
         let scale: Function = match ramp {
@@ -104,10 +105,10 @@ fn argument(name: &LocalName, held: Option<DiscreteValueId>, station: f64) -> Lo
 fn outside(
     document: &Document,
     entry: &LocalLoadEntry,
-    known: (&Names, &Builder),
+    names: &Names,
 ) -> Result<Vec<Vec<Option<DiscreteValueId>>>, Problem> {
     let of = |name: &LocalName| match name {
-        LocalName::Outside(name) => held(entry, known, name).map(Some),
+        LocalName::Outside(name) => held(entry, names, name).map(Some),
         LocalName::Displacement(_) if document.assembly.is_some() => {
             let message = format!(
                 "local load `{}` names a displacement, which has no reference where [assembly] moves the parts",
@@ -120,17 +121,11 @@ fn outside(
     entry.functions.iter().map(|own| own.arguments.iter().map(of).collect()).collect()
 }
 
-fn held(
-    entry: &LocalLoadEntry,
-    (names, builder): (&Names, &Builder),
-    name: &Located<String>,
-) -> Result<DiscreteValueId, Problem> {
-    let found = match names.signals.get(&name.value) {
-        Some(Argument::Held(held)) => Some(*held),
-        Some(Argument::Signal(signal)) => builder.sample_of(*signal),
-        _ => None,
-    };
-    found.ok_or_else(|| {
+fn held(entry: &LocalLoadEntry, names: &Names, name: &Located<String>) -> Result<DiscreteValueId, Problem> {
+    if let Some(Argument::Held(held)) = names.signals.get(&name.value) {
+        return Ok(*held);
+    }
+    names.samples.get(&name.value).copied().ok_or_else(|| {
         let message = format!(
             "local load `{}` names the signal `{}`, which is not sampled",
             entry.name.value, name.value

@@ -6,13 +6,13 @@ use lissom_core::signals::coordinate::Coordinate;
 use lissom_core::system::Builder;
 use lissom_core::system::element_quantity::Of;
 
-use super::Names;
+use super::names::{LaterMeasurement, Names};
 use super::signals::relative_components;
 use crate::channel_components::{component_position, components};
 use crate::document::{Component, Document, Feeds, Output, OutputKind, OutputSource};
 use crate::outputs::spring::components_of;
 use crate::outputs::{Build, Subjects, all_components};
-use crate::report::{Problem, Span};
+use crate::report::Problem;
 use crate::suggest;
 
 /// Why a name cannot be measured.
@@ -146,17 +146,6 @@ fn is_unscaled(document: &Document, output: &Output) -> bool {
     let elements = document.springs.iter().chain(&document.loads);
     let with_friction = document.joints.iter().filter(|joint| joint.friction.is_some());
     elements.chain(with_friction).find(is_element).is_some()
-}
-
-/// A measurement of an element that a signal names before the element is added.
-#[derive(Clone)]
-pub(super) struct LaterMeasurement {
-    pub(super) measurement: MeasurementId,
-    pub(super) output: String,
-    pub(super) component: String,
-    /// Where it is named, and by what.
-    pub(super) place: Span,
-    pub(super) reader: String,
 }
 
 /// Finds the elements of measurements that signals have named before.

@@ -12,6 +12,7 @@ mod initial_state;
 mod latches;
 mod local_loads;
 mod measurements;
+mod names;
 mod order;
 mod over_argument;
 mod parts;
@@ -25,40 +26,33 @@ mod signals;
 mod straight_line;
 mod superelements;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::assembly::{AssemblyError, assemble};
-use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::beam::section_error::{ExaminedBeams, SectionError};
-use lissom_core::elements::local_load::LocalLoad;
 use lissom_core::errors::Warning;
-use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
-use lissom_core::registry::ParameterError;
+use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId};
 use lissom_core::settings::Settings;
-use lissom_core::signals::{Argument, DiscreteValueId, SignalId};
 use lissom_core::simulation::accumulated::Accumulated;
-use lissom_core::system::{Builder, ElementId, State, System};
+use lissom_core::system::{Builder, State, System};
 use lissom_motion::Motion;
 
 pub use contacts::FrictionPoints;
 
 use crate::channels::Channel;
-use crate::contact_point::{ContactPoint, RigidPoint};
 use crate::document::{
-    Component, DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output,
-    OutputSource, Subject, interface_name,
+    DEFAULT_ASSEMBLY_TOLERANCE as ASSEMBLY_TOLERANCE, Document, NodeReference, Output, OutputSource, Subject,
 };
 use crate::functions::Ramp;
 use crate::output_channels;
 use crate::outputs::reaction::REACTION;
 use crate::outputs::section::SECTION_MOMENT;
-use crate::outputs::{Deformed, Resolver};
 use crate::report::{Located, Problem, Report};
 use crate::sweep::TimeWindow;
 
 pub use analysis::{Plan, Records};
 pub use assembly::{Assembly, Brought, MovedPart};
+pub use names::Names;
 pub use resource_limits::check_run;
 
 /// A model ready to run. Copies share the system.
@@ -110,92 +104,6 @@ impl Lowered {
         let at_start = || self.state.kinematics.nodes[node].frame;
         self.assembly.as_ref().map_or_else(at_start, |assembly| assembly.drawn[node])
     }
-}
-
-/// Nodes, coordinates and signals by the names of the model.
-#[derive(Clone, Default)]
-pub struct Names {
-    /// Node of each body and point mass.
-    pub nodes: BTreeMap<String, NodeId>,
-    /// Nodes of each superelement, in the order of its interfaces; they are also among `nodes`, as `superelement.interface`.
-    pub superelements: BTreeMap<String, Vec<NodeId>>,
-    /// Deformation of each superelement.
-    pub deformations: BTreeMap<String, Deformed>,
-    /// Nodes and elements of each beam.
-    pub lines: BTreeMap<String, BeamLine>,
-    /// Coordinates of each joint; a drive has those of the joint it drives.
-    pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
-    /// Springs that have an elongation, and whether it is a length or an angle.
-    pub springs: BTreeMap<String, (ElementId, Quantity)>,
-    /// Index of each latch among the springs.
-    pub latches: BTreeMap<String, usize>,
-    /// Springs, loads and joints' friction, whose power can be determined.
-    pub powers: BTreeMap<String, ElementId>,
-    /// Points of each contact.
-    pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
-    /// Points of each rigid contact.
-    pub(crate) rigid_contacts: BTreeMap<String, Vec<RigidPoint>>,
-    /// Points of each local load.
-    pub(crate) local_loads: BTreeMap<String, Vec<LocalLoad>>,
-    /// Loads on coordinates of joints; those of size zero have no element.
-    pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
-    /// Signals, inputs and states.
-    pub signals: BTreeMap<String, Argument>,
-    /// Values of sampled signals between samples.
-    samples: BTreeMap<String, DiscreteValueId>,
-    /// Those of the signals that are straight lines of time, a + b t.
-    lines_of_time: BTreeMap<SignalId, (f64, f64)>,
-    /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the
-    /// signals are sampled.
-    measured: BTreeMap<(String, bool), Argument>,
-    /// Those of them that are of elements, which are added after signals.
-    later_measurements: Vec<measurements::LaterMeasurement>,
-    /// Those of them that are read at samples.
-    readings: Vec<readings::NamedReading>,
-    /// Outputs that are expressions and are being resolved, each named by the one before.
-    open_expressions: Vec<String>,
-}
-
-impl Names {
-    /// The node a reference means.
-    fn node(&self, reference: &Located<NodeReference>) -> Result<NodeId, Problem> {
-        let unknown = |name: &str| {
-            Problem::error(reference.span, format!("there is no part called `{name}`"))
-                .help("name a body, a point mass, a beam's end or `ground`")
-        };
-        match &reference.value {
-            NodeReference::Ground => Ok(lissom_core::kinematics::GROUND),
-            NodeReference::Body(name) | NodeReference::PointMass(name) => {
-                self.nodes.get(name).copied().ok_or_else(|| unknown(name))
-            }
-            NodeReference::Interface { superelement, interface } => {
-                let name = interface_name(superelement, interface);
-                self.nodes.get(&name).copied().ok_or_else(|| unknown(&name))
-            }
-            NodeReference::Beam { beam, fraction } => {
-                let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
-                line.node_at(*fraction).ok_or_else(|| no_node(reference, beam, line, *fraction))
-            }
-        }
-    }
-}
-
-/// A position on a beam where something is attached has no node.
-fn no_node(reference: &Located<NodeReference>, beam: &str, line: &BeamLine, fraction: f64) -> Problem {
-    let nearest = line
-        .places
-        .iter()
-        .copied()
-        .min_by(|a, b| (a - fraction).abs().total_cmp(&(b - fraction).abs()))
-        .unwrap_or(0.0);
-    Problem::error(reference.span, format!("beam `{beam}` has no node at {fraction}"))
-        .label("nothing can be attached here")
-        .help(format!("the nearest node is at {nearest:.6}; or choose the number of elements to suit"))
-}
-
-/// A core complaint about a component's parameter, underlined.
-fn parameter_problem(component: &Component, error: &ParameterError) -> Problem {
-    Problem::error(component.span_of(&error.parameter), format!("`{}`: {error}", component.name.value))
 }
 
 /// Makes the system a document describes.
@@ -332,24 +240,6 @@ fn sections_at_joints(document: &Document, names: &Names, system: &System) -> Ve
         }
     }
     sections
-}
-
-impl Names {
-    fn resolver(&self) -> Resolver<'_> {
-        Resolver {
-            nodes: &self.nodes,
-            lines: &self.lines,
-            deformations: &self.deformations,
-            coordinates: &self.coordinates,
-            springs: &self.springs,
-            latches: &self.latches,
-            powers: &self.powers,
-            contacts: &self.contacts,
-            local_loads: &self.local_loads,
-            rigid_contacts: &self.rigid_contacts,
-            signals: &self.signals,
-        }
-    }
 }
 
 fn stop_at(document: &Document, problems: &mut Vec<Problem>) -> Result<(), Report> {

@@ -7,7 +7,7 @@ use lissom_core::kinematics::{Freedoms, Kinematics, LOCKED, NodeId};
 use lissom_core::system::{Builder, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw};
 
-use super::Names;
+use super::names::Names;
 use super::order::by_name;
 use crate::document::{Beam, Document, InitialMotion, NodeReference, Plane};
 use crate::report::{Located, Problem};

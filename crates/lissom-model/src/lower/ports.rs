@@ -8,7 +8,7 @@ use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{BeamChain, Builder};
 use lissom_motion::Vector3;
 
-use super::{Names, parameter_problem};
+use super::names::{Names, parameter_problem};
 use crate::document::{Beam, Component, CoordinateName, Document};
 use crate::report::{Located, Problem};
 

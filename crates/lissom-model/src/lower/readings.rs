@@ -2,24 +2,13 @@
 
 use std::sync::Arc;
 
-use lissom_core::kinematics::DiscreteValueId;
 use lissom_core::system::{Quantity, Reading, State, System};
 
+use super::names::NamedReading;
 use crate::channel_components::component_position;
 use crate::channels::Channel;
-use crate::report::{Problem, Span};
+use crate::report::Problem;
 use crate::suggest;
-
-/// A reading that a signal names, before the channels exist.
-#[derive(Clone)]
-pub(super) struct NamedReading {
-    pub(super) held: DiscreteValueId,
-    pub(super) output: String,
-    pub(super) component: String,
-    /// Position and subject of the reference.
-    pub(super) place: Span,
-    pub(super) reader: String,
-}
 
 /// A component of a channel.
 struct ChannelQuantity {

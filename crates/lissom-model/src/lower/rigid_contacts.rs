@@ -10,8 +10,8 @@ use lissom_core::signals::event::{Direction, Event};
 use lissom_core::signals::{Argument, Signal};
 use lissom_core::system::Builder;
 
-use super::Names;
 use super::contacts::{SolidPair, solid_pairs};
+use super::names::Names;
 use super::straight_line::Line;
 use crate::contact_point::RigidPoint;
 use crate::document::{ContactEntry, Document, RigidEntry};

@@ -10,11 +10,11 @@ use lissom_core::signals::event::Event;
 use lissom_core::signals::{Argument, Sampling, Signal, SignalId};
 use lissom_core::system::Builder;
 
-use super::measurements::{Fault, LaterMeasurement, Measured, measure};
+use super::discrete_filter;
+use super::measurements::{Fault, Measured, measure};
+use super::names::{LaterMeasurement, NamedReading, Names};
 use super::order::by_name;
 use super::over_argument::OverArgument;
-use super::readings::NamedReading;
-use super::{Names, discrete_filter};
 use crate::channel_components::coordinate_components;
 use crate::document::{Document, EventEntry, Output, OutputSource, SignalEntry};
 use crate::expression::{Formula, Line, Name, OverTime};

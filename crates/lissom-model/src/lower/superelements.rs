@@ -7,7 +7,7 @@ use lissom_core::kinematics::NodeId;
 use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation};
 
-use super::Names;
+use super::names::Names;
 use super::order::by_name;
 use crate::document::{Document, interface_name};
 use crate::outputs::Deformed;

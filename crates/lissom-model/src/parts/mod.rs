@@ -28,8 +28,17 @@ pub(crate) const ROOT: ScopeId = 0;
 const MAX_PARTS: usize = 20_000;
 
 /// Tables whose entries may be placed relative to another part by `in`.
-const PLACED_TABLES: [&str; 8] =
-    ["points", "bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads"];
+const PLACED_TABLES: [&str; 9] = [
+    "points",
+    "bodies",
+    "point_masses",
+    "beams",
+    "superelements",
+    "joints",
+    "springs",
+    "loads",
+    "local_loads",
+];
 
 /// Scope of a text, which determines the meaning of its names, parameters and positions.
 #[derive(Clone, Debug)]

@@ -29,7 +29,8 @@ const STIFFNESS: &str = "%%MatrixMarket matrix coordinate real symmetric\n7 7 1\
 const RECOVERY: &str = "%%MatrixMarket matrix coordinate real general\n1 7 1\n1 7 3\n";
 
 /// Tables whose entries have the key `in`.
-const PLACED: [&str; 7] = ["bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads"];
+const PLACED: [&str; 8] =
+    ["bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads", "local_loads"];
 
 const GRAVITY: [f64; 3] = [0.03, -0.04, -9.7];
 const POSITION: [f64; 3] = [0.7, -1.1, 0.4];

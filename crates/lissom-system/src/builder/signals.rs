@@ -24,11 +24,6 @@ impl Builder {
         DiscreteValueId::new(self.graph.held.len() - 1)
     }
 
-    /// The held value of a sampled signal; none if it is continuous.
-    pub fn sample_of(&self, signal: SignalId) -> Option<DiscreteValueId> {
-        self.graph.signals[signal].sampling.map(|sampling| sampling.held)
-    }
-
     /// Adds a held value that has a quantity of the state at samples, see [`assign_readings`](crate::System::assign_readings).
     pub fn add_reading(&mut self, name: &str) -> DiscreteValueId {
         let held = self.add_held(name, 0.0);

@@ -152,6 +152,7 @@ class LocalLoad(Entry):
     """Forces and moments that depend on the motion of their own points, along beams and on nodes.
 
     Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         on: a beam, along which it is distributed, or a node; a node.
         at: where it acts on a node, at the start; default the node [m]; a position, or nothing.
         axes: axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones, in a part those of the part; `"section"`, `"global"`, or nothing.
@@ -164,6 +165,7 @@ class LocalLoad(Entry):
 
     _table: ClassVar[str] = "local_loads"
 
+    in_: str | None = None
     on: str
     at: Place | None = None
     axes: Literal["section", "global"] | None = None

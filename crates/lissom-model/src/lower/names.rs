@@ -1,0 +1,142 @@
+//! Nodes, coordinates and signals of the system by the names of the model.
+
+use std::collections::BTreeMap;
+
+use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::elements::local_load::LocalLoad;
+use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
+use lissom_core::registry::ParameterError;
+use lissom_core::signals::{Argument, DiscreteValueId, MeasurementId, SignalId};
+use lissom_core::system::ElementId;
+
+use crate::contact_point::{ContactPoint, RigidPoint};
+use crate::document::{Component, NodeReference, interface_name};
+use crate::outputs::{Deformed, Resolver};
+use crate::report::{Located, Problem, Span};
+
+/// A measurement of an element that a signal names before the element is added.
+#[derive(Clone)]
+pub(super) struct LaterMeasurement {
+    pub(super) measurement: MeasurementId,
+    pub(super) output: String,
+    pub(super) component: String,
+    /// Where it is named, and by what.
+    pub(super) place: Span,
+    pub(super) reader: String,
+}
+
+/// A reading that a signal names, before the channels exist.
+#[derive(Clone)]
+pub(super) struct NamedReading {
+    pub(super) held: DiscreteValueId,
+    pub(super) output: String,
+    pub(super) component: String,
+    /// Position and subject of the reference.
+    pub(super) place: Span,
+    pub(super) reader: String,
+}
+
+/// Nodes, coordinates and signals by the names of the model.
+#[derive(Clone, Default)]
+pub struct Names {
+    /// Node of each body and point mass.
+    pub nodes: BTreeMap<String, NodeId>,
+    /// Nodes of each superelement, in the order of its interfaces; they are also among `nodes`, as `superelement.interface`.
+    pub superelements: BTreeMap<String, Vec<NodeId>>,
+    /// Deformation of each superelement.
+    pub deformations: BTreeMap<String, Deformed>,
+    /// Nodes and elements of each beam.
+    pub lines: BTreeMap<String, BeamLine>,
+    /// Coordinates of each joint; a drive has those of the joint it drives.
+    pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
+    /// Springs that have an elongation, and whether it is a length or an angle.
+    pub springs: BTreeMap<String, (ElementId, Quantity)>,
+    /// Index of each latch among the springs.
+    pub latches: BTreeMap<String, usize>,
+    /// Springs, loads and joints' friction, whose power can be determined.
+    pub powers: BTreeMap<String, ElementId>,
+    /// Points of each contact.
+    pub(crate) contacts: BTreeMap<String, Vec<ContactPoint>>,
+    /// Points of each rigid contact.
+    pub(crate) rigid_contacts: BTreeMap<String, Vec<RigidPoint>>,
+    /// Points of each local load.
+    pub(crate) local_loads: BTreeMap<String, Vec<LocalLoad>>,
+    /// Loads on coordinates of joints; those of size zero have no element.
+    pub actuators: Vec<(CoordinateId, Option<ElementId>)>,
+    /// Signals, inputs and states.
+    pub signals: BTreeMap<String, Argument>,
+    /// Values of sampled signals between samples.
+    pub(super) samples: BTreeMap<String, DiscreteValueId>,
+    /// Those of the signals that are straight lines of time, a + b t.
+    pub(super) lines_of_time: BTreeMap<SignalId, (f64, f64)>,
+    /// Components of outputs and of joints' coordinates that signals use, by the names they are written with and whether the
+    /// signals are sampled.
+    pub(super) measured: BTreeMap<(String, bool), Argument>,
+    /// Those of them that are of elements, which are added after signals.
+    pub(super) later_measurements: Vec<LaterMeasurement>,
+    /// Those of them that are read at samples.
+    pub(super) readings: Vec<NamedReading>,
+    /// Outputs that are expressions and are being resolved, each named by the one before.
+    pub(super) open_expressions: Vec<String>,
+}
+
+impl Names {
+    /// The node a reference means.
+    pub(super) fn node(&self, reference: &Located<NodeReference>) -> Result<NodeId, Problem> {
+        let unknown = |name: &str| {
+            Problem::error(reference.span, format!("there is no part called `{name}`"))
+                .help("name a body, a point mass, a beam's end or `ground`")
+        };
+        match &reference.value {
+            NodeReference::Ground => Ok(lissom_core::kinematics::GROUND),
+            NodeReference::Body(name) | NodeReference::PointMass(name) => {
+                self.nodes.get(name).copied().ok_or_else(|| unknown(name))
+            }
+            NodeReference::Interface { superelement, interface } => {
+                let name = interface_name(superelement, interface);
+                self.nodes.get(&name).copied().ok_or_else(|| unknown(&name))
+            }
+            NodeReference::Beam { beam, fraction } => {
+                let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
+                line.node_at(*fraction).ok_or_else(|| no_node(reference, beam, line, *fraction))
+            }
+        }
+    }
+}
+
+/// A position on a beam where something is attached has no node.
+fn no_node(reference: &Located<NodeReference>, beam: &str, line: &BeamLine, fraction: f64) -> Problem {
+    let nearest = line
+        .places
+        .iter()
+        .copied()
+        .min_by(|a, b| (a - fraction).abs().total_cmp(&(b - fraction).abs()))
+        .unwrap_or(0.0);
+    Problem::error(reference.span, format!("beam `{beam}` has no node at {fraction}"))
+        .label("nothing can be attached here")
+        .help(format!("the nearest node is at {nearest:.6}; or choose the number of elements to suit"))
+}
+
+/// A core complaint about a component's parameter, underlined.
+pub(super) fn parameter_problem(component: &Component, error: &ParameterError) -> Problem {
+    Problem::error(component.span_of(&error.parameter), format!("`{}`: {error}", component.name.value))
+}
+
+impl Names {
+    /// What outputs refer to.
+    pub(super) fn resolver(&self) -> Resolver<'_> {
+        Resolver {
+            nodes: &self.nodes,
+            lines: &self.lines,
+            deformations: &self.deformations,
+            coordinates: &self.coordinates,
+            springs: &self.springs,
+            latches: &self.latches,
+            powers: &self.powers,
+            contacts: &self.contacts,
+            local_loads: &self.local_loads,
+            rigid_contacts: &self.rigid_contacts,
+            signals: &self.signals,
+        }
+    }
+}
