@@ -38,6 +38,7 @@ mod modes;
 mod multiblade;
 mod path;
 mod path_number;
+mod peer_models;
 mod published;
 mod redundant;
 mod response;
