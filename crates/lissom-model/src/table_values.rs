@@ -1,9 +1,11 @@
 //! Tables as they are written in a model file: rows of numbers, or columns of a data file.
 
+use std::sync::Arc;
+
 use crate::context::Context;
 use crate::data_file::{DataError, two_columns};
 use crate::keys::{Key, Shape, choice, optional};
-use crate::library::joined;
+use crate::library::{Missing, joined};
 use crate::reader::Reader;
 use crate::report::Problem;
 use crate::suggest;
@@ -42,6 +44,15 @@ pub(crate) fn table_key_in(reader: &Reader<'_, '_>) -> Option<&'static str> {
     table_keys().iter().map(|key| key.name).find(|word| reader.has(word))
 }
 
+/// How the table is read between its rows.
+pub(crate) fn interpolation_of(reader: &Reader<'_, '_>) -> Interpolation {
+    match reader.choice("interpolation").map(|word| word.value) {
+        Some("spline") => Interpolation::Spline,
+        Some("monotone") => Interpolation::Monotone,
+        _ => Interpolation::Linear,
+    }
+}
+
 impl Context<'_> {
     /// A table of rows, or of columns of a file.
     pub(crate) fn read_table(&self, node: &Node, what: &str, beyond: Extrapolation) -> Option<Table> {
@@ -57,11 +68,7 @@ impl Context<'_> {
         beyond: Extrapolation,
     ) -> Option<Table> {
         let what = reader.what.as_str();
-        let interpolation = match reader.choice("interpolation").map(|word| word.value) {
-            Some("spline") => Interpolation::Spline,
-            Some("monotone") => Interpolation::Monotone,
-            _ => Interpolation::Linear,
-        };
+        let interpolation = interpolation_of(reader);
         let extrapolation = match reader.choice("extrapolation").map(|word| word.value) {
             Some("constant") => Extrapolation::Constant,
             Some("linear") => Extrapolation::Linear,
@@ -113,16 +120,8 @@ impl Context<'_> {
             None => None,
             Some(node) => Some(self.two_words(node, &reader.words("columns"))?),
         };
-        let path = joined(self.sources.file(file.span), name);
         let what = &reader.what;
-        let text = match self.library.text(&path) {
-            Ok(text) => text,
-            Err(error) => {
-                let problem = Problem::error(file.span, format!("{what} {error}"));
-                self.report(problem.label("named here").maybe_help(error.help));
-                return None;
-            }
-        };
+        let text = self.file_text(file, name, what)?;
         let rows = match two_columns(&text, columns) {
             Ok(read) => read,
             Err(error) => {
@@ -153,6 +152,16 @@ impl Context<'_> {
             },
             Some,
         )
+    }
+
+    /// The text of a file.
+    pub(crate) fn file_text(&self, file: &Node, name: &str, what: &str) -> Option<Arc<str>> {
+        let found = self.library.text(&joined(self.sources.file(file.span), name));
+        let missing = |error: Missing| {
+            let problem = Problem::error(file.span, format!("{what} {error}"));
+            self.report(problem.label("named here").maybe_help(error.help));
+        };
+        found.map_err(missing).ok()
     }
 
     fn two_words<'n>(&self, node: &'n Node, what: &str) -> Option<[&'n str; 2]> {

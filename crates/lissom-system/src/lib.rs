@@ -51,7 +51,7 @@ use lissom_mechanics::joints::starts::JointStarts;
 use lissom_mechanics::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, Subject, Switch};
 use lissom_mechanics::law::VisitLaw;
 use lissom_mechanics::registry::Function;
-use lissom_mechanics::signals::Graph;
+use lissom_mechanics::signals::{Graph, SignalError};
 
 /// Nodes, elements and joints with their numbering. Constant during a simulation, and independent of time and state.
 pub struct System {
@@ -305,6 +305,15 @@ impl System {
             return 0.0;
         }
         self.constraints.others().map(|constraint| constraint.work(from, to)).sum()
+    }
+
+    /// Checks that all signals, and all functions of loads, have values.
+    ///
+    /// # Errors
+    /// If one is not finite.
+    pub fn check_functions(&self, at: &Kinematics) -> Result<(), SignalError> {
+        self.signals().check(at)?;
+        self.elements_with(|own| own.load).try_for_each(|load| load.check(at))
     }
 
     /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its description

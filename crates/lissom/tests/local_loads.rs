@@ -138,6 +138,38 @@ fn a_cable_across_the_wind_is_a_catenary() {
     assert!((found - sag).abs() < 3e-3 * sag, "{found} {sag}");
 }
 
+/// A chain that hangs in a uniform current is straight, at the angle of drag and weight per length, if its drag does not depend on the angle;
+/// the tension grows from the free end on. The added mass of the water has no weight.
+#[test]
+fn a_chain_in_a_current_hangs_at_the_angle_of_drag_and_weight() {
+    let text = CABLE
+        .replace("lissom = 1", "lissom = 1\ngravity = [0, -9.81, 0]")
+        .replace("curve = [\"10*s\", \"2.32*s*(1 - s)\", 0]", "curve = [\"2.2*s\", \"-5.6*s\", 0]")
+        .replace("per_length = 0.3", "per_length = 0.5");
+    let right = text.find("[joints.right]").unwrap()..text.find("[local_loads.wind]").unwrap();
+    let mut text = text.replace("flow = [0, 20, 0]", "flow = [2, 0, 0]\naxes = \"global\"").replace(
+        "variables = { across = \"sqrt(u2^2 + u3^2)\" }\nforce = [0, \"0.01*across*u2\", \"0.01*across*u3\"]",
+        // 0.2 kg/m of the mass are those of the water.
+        "force = [\"0.3*abs(u1)*u1\", \"0.2*9.81\", 0]",
+    );
+    text.replace_range(right, "");
+    // Nothing but the support holds the chain against a rotation about itself.
+    let text = text.replace(
+        "kind = \"spherical\"\nbase = \"ground\"\ntip = \"cable.start\"",
+        "kind = \"revolute\"\nbase = \"ground\"\ntip = \"cable.start\"\naxis = [0, 0, 1]",
+    );
+    // From the first load on, however small, the chain turns from its given line to that of equilibrium: a jump, which is reported.
+    let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    let (drag, weight) = (0.3 * 4.0, 0.3 * 9.81);
+    let [x, y] = ["x", "y"].map(|component| last(&record, "middle", component));
+    assert!((x / -y - drag / weight).abs() < 1e-3, "{x} {y}");
+    let tension = last(&record, "pull", "f1");
+    let length = 0.5 * f64::hypot(2.2, 5.6);
+    assert!((tension - length * f64::hypot(drag, weight)).abs() < 2e-3 * tension, "{tension}");
+}
+
 const BLADE: &str = r#"
 lissom = 1
 
@@ -305,6 +337,77 @@ fn wrong_loads_are_rejected_with_a_remedy() {
         let problem = problems(&FALL.replace(change, with));
         let words = problem.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains(cause) && words.contains(remedy), "{cause}: {problem}");
+    }
+}
+
+/// A coefficient that grows in proportion to the speed: the quadratic drag of the first test.
+#[test]
+fn tables_over_two_expressions_are_interpolated() {
+    let aerodyn = "! polars\n2 NumTabs\n0 Re\n2 NumAlf\n-180 0 0 0\n180 0 0 0\n0.0001 Re\n2 NumAlf\n-180 0 10 0\n180 0 10 0\n";
+    let hawc2 =
+        "1 set\n2 profiles\n1 2 0 thin\n-180 0 0 0\n180 0 0 0\n2 2 100 thick\n-180 0 10 0\n180 0 10 0\n";
+    let limit = (2.0 * 9.81 / 0.1_f64).sqrt();
+    for table in [
+        "tables = [{ at = 0, table = [[-4, 0], [4, 0]] }, { at = 100, table = [[-4, 10], [4, 10]] }]",
+        "polar = \"aerodyn.dat\", coefficient = \"cd\"",
+        "polar = \"hawc2.dat\", coefficient = \"cd\"",
+    ] {
+        let text = FALL
+            .replace("c*speed*u", "cd*u")
+            .replace("[local_loads.drag]", "[local_loads.drag]\nvariables.angle = \"atan2(u3, 1 + u1^2)\"")
+            .replace(
+                "variables = { speed = \"sqrt(u1^2 + u2^2 + u3^2)\" }",
+                "variables.speed = \"sqrt(u1^2 + u2^2 + u3^2)\"",
+            )
+            .replace(
+                "force =",
+                &format!("variables.cd = {{ of = [\"angle\", \"speed\"], {table} }}\nforce ="),
+            );
+        let files = [("aerodyn.dat", aerodyn), ("hawc2.dat", hawc2)];
+        let files = files.map(|(name, text)| (name.to_owned(), text.to_owned())).into();
+        let mut session = Model::from_text("model.toml", &text).with_included(files).session(&[]).unwrap();
+        let (record, report) = session.record();
+        assert!(report.error().is_none(), "{}", report.error().unwrap());
+        let (found, expected) = (last(&record, "ball", "v3"), -limit * (9.81 * 3.0 / limit).tanh());
+        assert!((found - expected).abs() < 1e-6, "{table}: {found} {expected}");
+        for (change, with, cause, remedy) in [
+            ("[\"angle\", \"speed\"]", "\"angle\"", "", "write two expressions"),
+            ("at = 100", "at = 0", "do not ascend strictly", "ascending order"),
+            (", coefficient = \"cd\"", "", "lacks `coefficient`", "\"cm\""),
+            ("hawc2.dat\"", "hawc2.dat\", set = 2", "there is no set 2, but 1", "HAWC2"),
+            (
+                "coefficient",
+                "columns = [\"a\", \"b\"], coefficient",
+                "both `polar` and `columns`",
+                "remove one",
+            ),
+        ] {
+            let changed = text.replace(change, with);
+            if changed != text {
+                let model = Model::from_text("model.toml", &changed);
+                let files = [("aerodyn.dat", aerodyn), ("hawc2.dat", hawc2)];
+                let files = files.map(|(name, text)| (name.to_owned(), text.to_owned())).into();
+                let Err(SessionError::Model(report)) = model.with_included(files).session(&[]) else {
+                    panic!("{changed} is accepted")
+                };
+                let problem = report.render(false);
+                let words = problem.split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(words.contains(cause) && words.contains(remedy), "{cause}: {problem}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_expression_without_a_value_ends_the_run_with_its_name() {
+    for (expression, when) in [("sqrt(10 + v3)", "t = "), ("sqrt(-1 + 0*v3)", "t = 0")] {
+        let text = FALL.replace("\"c*speed*u2\"", &format!("\"0*{expression}\""));
+        let problem = match Model::from_text("model.toml", &text).session(&[]) {
+            Ok(mut session) => session.record().1.error().expect("a failure").to_string(),
+            Err(error) => error.to_string(),
+        };
+        let name = format!("`force` of local load `drag` = 0*{expression}");
+        assert!(problem.contains(&name) && problem.contains(when), "{problem}");
     }
 }
 

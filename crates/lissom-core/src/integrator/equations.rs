@@ -359,9 +359,9 @@ impl StepEquations<'_> {
         }
     }
 
-    /// First signal that is not finite at the last iterate, if any.
+    /// First signal or function of a load that is not finite at the last iterate, if any.
     pub(crate) fn signal_error(&self) -> Option<crate::signals::SignalError> {
-        self.work.motions.iter().find_map(|motion| self.system.signals().check(&motion.at).err())
+        self.work.motions.iter().find_map(|motion| self.system.check_functions(&motion.at).err())
     }
 
     /// Name of the unknown with the largest entry in the last corrections, or the first that is not finite.

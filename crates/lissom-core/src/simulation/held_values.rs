@@ -77,6 +77,7 @@ pub(crate) fn settle(
         }
     }
     system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
+    system.check_functions(&state.kinematics).map_err(InitialError::Signal)?;
     initial.set_state_rates(system, &mut state.kinematics);
     initial.accelerations(system, state)?;
     initial.accelerate_states(system, state, settings.step_size);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lissom_core::elements::Contribution;
 use lissom_core::elements::local_load::{LocalArgument, LocalFunction, LocalFunctions, LocalLoad};
-use lissom_core::kinematics::{CarriedFrame, Freedoms};
+use lissom_core::kinematics::{CarriedFrame, Freedoms, Subject};
 use lissom_core::registry::Constant;
 use lissom_core::signals::SignalFunction;
 use lissom_core::system::Builder;
@@ -41,7 +41,8 @@ impl SignalFunction for Wave {
 }
 
 fn function(seed: f64, arguments: Vec<LocalArgument>) -> LocalFunction {
-    LocalFunction { function: Arc::new(Wave(seed)), arguments }
+    let subject = Arc::new(Subject::nameless("wave"));
+    LocalFunction { subject, function: Arc::new(Wave(seed)), arguments }
 }
 
 #[test]

@@ -22,10 +22,10 @@ use nalgebra::SVector;
 
 use super::{Capabilities, Element, ForceLaws, Load, Tangents, Unknowns};
 use crate::evaluation::switch_states::SwitchStates;
-use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
+use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Subject, Switch};
 use crate::law::VisitLaw;
 use crate::registry::Function;
-use crate::signals::{MAX_ARGUMENTS, SignalFunction};
+use crate::signals::{MAX_ARGUMENTS, SignalError, SignalFunction};
 
 /// Most states of a load.
 pub const MAX_STATES: usize = 6;
@@ -61,6 +61,8 @@ pub enum LocalArgument {
 /// A function with its arguments.
 #[derive(Clone, Debug)]
 pub struct LocalFunction {
+    /// Subject of messages.
+    pub subject: Arc<Subject>,
     /// The function.
     pub function: Arc<dyn SignalFunction>,
     /// Its arguments.
@@ -220,7 +222,7 @@ impl LocalLoad {
     fn evaluate(&self, at: &Kinematics, mut visit: impl FnMut(usize, &[f64], &[f64]) -> f64) -> Values {
         let mut values = Values { local: self.local(at), functions: [0.0; MAX_FUNCTIONS] };
         let mut sides = self.switch_states.of(at);
-        for (index, LocalFunction { function, arguments }) in self.functions.all.iter().enumerate() {
+        for (index, LocalFunction { function, arguments, .. }) in self.functions.all.iter().enumerate() {
             let mut numbers = [0.0; MAX_ARGUMENTS];
             for (number, &argument) in numbers.iter_mut().zip(arguments) {
                 *number = self.argument(argument, &values, at);
@@ -287,7 +289,7 @@ impl LocalLoad {
         let mut rows = [Row::zeros(); MAX_FUNCTIONS];
         let mut known = [0.0; MAX_FUNCTIONS];
         let values = self.evaluate(at, |index, arguments, sides| {
-            let LocalFunction { function, arguments: sources } = &self.functions.all[index];
+            let LocalFunction { function, arguments: sources, .. } = &self.functions.all[index];
             let mut gradient = [0.0; MAX_ARGUMENTS];
             let gradient = &mut gradient[..arguments.len()];
             function.gradient(at.time, arguments, sides, gradient);
@@ -413,11 +415,21 @@ impl Load for LocalLoad {
         self.functions.all.iter().flat_map(|own| &own.arguments).any(is_motion)
     }
 
+    fn check(&self, at: &Kinematics) -> Result<(), SignalError> {
+        let values = self.values(at);
+        for (own, value) in self.functions.all.iter().zip(values.functions) {
+            if !value.is_finite() {
+                return Err(SignalError { signal: (*own.subject).clone(), value, time: at.time });
+            }
+        }
+        Ok(())
+    }
+
     fn add_by_held(&self, held: DiscreteValueId, at: &Kinematics, out: &mut [f64]) {
         let mut by = [0.0; MAX_FUNCTIONS];
         let local = self.local(at);
         let values = self.evaluate(at, |index, arguments, sides| {
-            let LocalFunction { function, arguments: sources } = &self.functions.all[index];
+            let LocalFunction { function, arguments: sources, .. } = &self.functions.all[index];
             let mut gradient = [0.0; MAX_ARGUMENTS];
             function.gradient(at.time, arguments, sides, &mut gradient[..arguments.len()]);
             by[index] = gradient

@@ -6,6 +6,7 @@ use lissom_motion::Vector3;
 use super::element::{Element, Tangents};
 use crate::kinematics::{DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
+use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
 
 /// Capabilities of an element, the same for all elements of a kind: a loop over a batch ends at the first element
@@ -46,6 +47,14 @@ pub trait Load: Element {
     /// not.
     fn depends_on_motion(&self) -> bool {
         false
+    }
+
+    /// Checks that the functions from which its forces follow have values. Default: they have.
+    ///
+    /// # Errors
+    /// If one is not finite.
+    fn check(&self, _at: &Kinematics) -> Result<(), SignalError> {
+        Ok(())
     }
 
     /// Adds the derivatives of its forces with respect to a held value. Default: they do not depend on any.

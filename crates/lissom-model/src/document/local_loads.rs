@@ -1,8 +1,11 @@
 //! Loads that depend on the motion of their own point: expressions of its position, velocity and states.
 
 use std::collections::BTreeMap;
+use std::slice;
+use std::sync::Arc;
 
 use lissom_core::elements::local_load::{MAX_FUNCTIONS, MAX_STATES};
+use lissom_core::kinematics::Subject;
 use lissom_core::signals::MAX_ARGUMENTS;
 use lissom_motion::{Motion, Vector3};
 
@@ -12,12 +15,12 @@ use super::part_tables::placed_in;
 use crate::context::Context;
 use crate::expression::{self, Formula};
 use crate::keys::{Key, Shape, choice, optional, required};
+use crate::local_tables::local_table_keys;
 use crate::parts::ScopeId;
 use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
 use crate::suggest;
-use crate::table::{Extrapolation, Table};
-use crate::table_values::table_keys;
+use crate::table_family::TableFamily;
 use crate::text::{Node, Value};
 
 /// Axes of a load.
@@ -66,13 +69,13 @@ pub enum LocalName {
     Outside(Located<String>),
 }
 
-/// An expression, or a table over its only argument.
+/// An expression, or tables over its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LocalLaw {
     /// An expression.
     Formula(Formula),
-    /// A table.
-    Table(Table),
+    /// A table over one argument, or several of them over two.
+    Table(TableFamily),
 }
 
 /// A law and the meaning of its arguments.
@@ -82,8 +85,8 @@ pub struct LocalExpression {
     pub law: LocalLaw,
     /// Its arguments, in their order.
     pub arguments: Vec<LocalName>,
-    /// Where it is written.
-    pub span: Span,
+    /// Subject of messages.
+    pub subject: Arc<Subject>,
 }
 
 /// A state at each point of a load.
@@ -190,7 +193,7 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             let message = format!("{} has neither `force` nor `moment`", reader.what);
             return context.fail(reader.name, message, "add `force = [\"…\", \"…\", \"…\"]`");
         }
-        let mut laws = Laws::open(reader, beam.is_some())?;
+        let mut laws = Laws::open(reader, name, beam.is_some())?;
         let flow = laws.vector("flow")?;
         let force = laws.vector("force")?;
         let moment = laws.vector("moment")?;
@@ -236,6 +239,7 @@ fn on(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Option<String>
 /// The expressions of a load while they are read.
 struct Laws<'r, 'c, 'a> {
     reader: &'r Reader<'c, 'a>,
+    name: &'r str,
     is_along_beam: bool,
     variables: BTreeMap<&'r str, &'r Node>,
     /// Those that are read, and those that are being read.
@@ -247,9 +251,10 @@ struct Laws<'r, 'c, 'a> {
 }
 
 impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
-    fn open(reader: &'r Reader<'c, 'a>, is_along_beam: bool) -> Option<Self> {
+    fn open(reader: &'r Reader<'c, 'a>, name: &'r str, is_along_beam: bool) -> Option<Self> {
         let mut laws = Self {
             reader,
+            name,
             is_along_beam,
             variables: BTreeMap::new(),
             known: BTreeMap::new(),
@@ -370,19 +375,34 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         Some(index)
     }
 
-    /// A table over an expression.
+    /// A table over an expression, or several over two.
     fn table(&mut self, node: &'r Node, what: &str) -> Option<usize> {
         let context = self.reader.context;
-        let mut keys = table_keys();
-        keys.push(required("of", Shape::Formula, "", "the expression over which the table is"));
-        let reader = Reader::open(context, node, (what.to_owned(), node.span), keys)?;
-        let of = self.formula(reader.node("of")?, &format!("`of` of {what}"))?;
-        let table = context.table_of(&reader, node, Extrapolation::Constant)?;
-        Some(self.push(LocalLaw::Table(table), vec![LocalName::Function(of)], node.span))
+        let reader = Reader::open(context, node, (what.to_owned(), node.span), local_table_keys())?;
+        let of = reader.node("of")?;
+        let expressions = match &of.value {
+            Value::List(list) if list.len() == 2 => list.as_slice(),
+            Value::List(_) => {
+                let message = format!("{} must be one or two expressions", reader.words("of"));
+                return context.fail(
+                    of.span,
+                    message,
+                    "write `of = \"alpha\"` or `of = [\"alpha\", \"re\"]`",
+                );
+            }
+            _ => slice::from_ref(of),
+        };
+        let table = context.local_table(&reader, node, expressions.len())?;
+        let mut arguments = Vec::new();
+        for own in expressions {
+            arguments.push(LocalName::Function(self.formula(own, &format!("`of` of {what}"))?));
+        }
+        Some(self.push(LocalLaw::Table(table), arguments, what))
     }
 
-    fn push(&mut self, law: LocalLaw, arguments: Vec<LocalName>, span: Span) -> usize {
-        self.functions.push(LocalExpression { law, arguments, span });
+    fn push(&mut self, law: LocalLaw, arguments: Vec<LocalName>, what: &str) -> usize {
+        let subject = Subject::new("local load", self.name).called(what);
+        self.functions.push(LocalExpression { law, arguments, subject: Arc::new(subject) });
         self.functions.len() - 1
     }
 
@@ -401,7 +421,8 @@ impl<'r, 'c: 'r, 'a> Laws<'r, 'c, 'a> {
         if arguments.len() > MAX_ARGUMENTS {
             return context.fail(node.span, format!("{what} names too much"), "divide it into `variables`");
         }
-        Some(self.push(LocalLaw::Formula(formula), arguments, node.span))
+        let words = format!("{what} = {}", formula.text());
+        Some(self.push(LocalLaw::Formula(formula), arguments, &words))
     }
 
     fn meaning(&mut self, name: &str, (place, node): (Span, &Node), what: &str) -> Option<LocalName> {

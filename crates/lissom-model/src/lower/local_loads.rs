@@ -48,6 +48,7 @@ pub(super) fn add(
         });
         let states = states.collect();
         let all = entry.functions.iter().zip(&laws).zip(&held).map(|((own, law), held)| LocalFunction {
+            subject: Arc::clone(&own.subject),
             function: Arc::clone(law),
             arguments: own
                 .arguments

@@ -1,25 +1,25 @@
 //! A table over an argument as a function of signals and of local loads.
 
 use lissom_core::law::{Enclosure, Interval};
-use lissom_core::registry::{ForceFunction, TimeFunction};
+use lissom_core::registry::ForceFunction;
 use lissom_core::signals::SignalFunction;
 
 use crate::expression::Line;
-use crate::table::Table;
+use crate::table_family::TableFamily;
 
-/// A table over its only argument.
+/// A table over its argument, or tables over its first for values of its second.
 #[derive(Debug)]
 pub(super) struct OverArgument {
-    table: Table,
+    table: TableFamily,
     breakpoints: Vec<f64>,
 }
 
 impl OverArgument {
-    /// A table whose argument is this straight line of time, none if it depends on more than time.
-    pub(super) fn new(table: Table, argument: Line) -> Self {
+    /// A table whose first argument is this straight line of time, none if it depends on more than time.
+    pub(super) fn new(table: TableFamily, argument: Line) -> Self {
         let mut breakpoints = match argument {
             Some((start, rate)) if rate != 0.0 => {
-                let rows = TimeFunction::breakpoints(&table).into_iter();
+                let rows = table.kinks().into_iter();
                 rows.map(|row| (row - start) / rate).filter(|time| time.is_finite()).collect()
             }
             _ => Vec::new(),
@@ -31,19 +31,21 @@ impl OverArgument {
 
 impl SignalFunction for OverArgument {
     fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
-        ForceFunction::evaluate(&self.table, arguments[0], 0.0)[0]
+        self.table.evaluate(arguments[0], second(arguments))[0]
     }
 
     fn gradient(&self, _: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
-        out[0] = ForceFunction::evaluate(&self.table, arguments[0], 0.0)[1];
+        let [_, slopes @ ..] = self.table.evaluate(arguments[0], second(arguments));
+        out.iter_mut().zip(slopes).for_each(|(own, slope)| *own = slope);
     }
 
     fn bounds(&self, _: Interval, arguments: &[Interval]) -> Option<Interval> {
-        ForceFunction::bounds(&self.table, arguments[0], [0.0; 2])
+        self.table.bounds(arguments[0], arguments.get(1).copied().unwrap_or_default())
     }
 
     fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        ForceFunction::enclosure(&self.table, &arguments[0], &Enclosure::of_constant([0.0; 2]))
+        let none = Enclosure::of_constant([0.0; 2]);
+        self.table.enclosure(&arguments[0], arguments.get(1).unwrap_or(&none))
     }
 
     fn breakpoints(&self) -> &[f64] {
@@ -51,16 +53,20 @@ impl SignalFunction for OverArgument {
     }
 }
 
+fn second(arguments: &[f64]) -> f64 {
+    arguments.get(1).copied().unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::table::{Extrapolation, Interpolation};
+    use crate::table::{Extrapolation, Interpolation, Table};
 
     #[test]
     fn rows_are_breakpoints_where_the_argument_is_a_line_of_time() {
         let rows = [(0.0, 0.0), (1.0, 2.0), (2.0, 1.0), (3.0, 1.0)];
         let over = |interpolation, line| {
-            OverArgument::new(Table::new(&rows, interpolation, Extrapolation::Constant).unwrap(), line)
+            OverArgument::new(Table::new(&rows, interpolation, Extrapolation::Constant).unwrap().into(), line)
         };
         assert_eq!(over(Interpolation::Linear, Some((3.0, -0.5))).breakpoints(), [2.0, 4.0]);
         for (interpolation, line) in [

@@ -186,7 +186,7 @@ fn add_signal(
             let sampling =
                 own.map(|(own, _)| Sampling { held: builder.add_held(&subject.to_string(), 0.0), ..own });
             let argument = builder.add_signal(Signal { sampling, ..argument }).map_err(invalid)?;
-            let function = Arc::new(OverArgument::new(table.clone(), line));
+            let function = Arc::new(OverArgument::new(table.clone().into(), line));
             let arguments = vec![Argument::Signal(argument)];
             (Signal { subject: reader.subject.clone(), text, function, arguments, sampling: None }, None)
         }

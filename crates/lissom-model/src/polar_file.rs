@@ -1,0 +1,163 @@
+//! Polars of aerofoils in the files of AeroDyn (airfoil information, several tables over the Reynolds number) and of HAWC2 (profile
+//! coefficients, sets of several tables over the relative thickness).
+
+use std::str::FromStr;
+
+/// Coefficients of an aerofoil over the angle of attack.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Polar {
+    /// Reynolds number, or relative thickness in the unit of the file, usually percent.
+    pub(crate) at: f64,
+    /// Rows of the angle of attack [rad], and coefficients of lift, drag and moment.
+    pub(crate) rows: Vec<[f64; 4]>,
+}
+
+/// A file that contains no polars.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum PolarError {
+    /// It ends too early.
+    #[error("the file ends before {0}")]
+    Ends(&'static str),
+    /// A line does not begin with the numbers that the format requires.
+    #[error("line {line}: expected {expected}")]
+    Unexpected {
+        /// Line of the file, from 1.
+        line: usize,
+        /// The expected numbers.
+        expected: &'static str,
+    },
+    /// There is no such set.
+    #[error("there is no set {wanted}, but {count}")]
+    NoSet {
+        /// The request.
+        wanted: usize,
+        /// Number of sets.
+        count: usize,
+    },
+}
+
+/// The polars of a file; of one with several sets those of `set`, from 1.
+pub(crate) fn polars(text: &str, set: usize) -> Result<Vec<Polar>, PolarError> {
+    let lines = Lines { text: text.lines().enumerate().collect(), next: 0 };
+    let is_aerodyn = text.lines().any(|line| word::<String>(line, 1).is_some_and(|own| own == "NumAlf"));
+    if is_aerodyn { aerodyn(lines) } else { hawc2(lines, set) }
+}
+
+/// The lines of a file that have not been read.
+struct Lines<'t> {
+    text: Vec<(usize, &'t str)>,
+    next: usize,
+}
+
+impl<'t> Lines<'t> {
+    /// The next line that is neither empty nor a comment.
+    fn next(&mut self, before: &'static str) -> Result<(usize, &'t str), PolarError> {
+        loop {
+            let &(index, line) = self.text.get(self.next).ok_or(PolarError::Ends(before))?;
+            self.next += 1;
+            let start = line.trim_start();
+            if !start.is_empty() && !start.starts_with(['!', '#']) {
+                return Ok((index + 1, line));
+            }
+        }
+    }
+
+    fn rows(&mut self, count: usize) -> Result<Vec<[f64; 4]>, PolarError> {
+        let row = |lines: &mut Self| {
+            let (line, text) = lines.next("its last row")?;
+            let expected = "an angle of attack in degrees and the coefficients of lift and drag";
+            let number = |k| word::<f64>(text, k).filter(|number| number.is_finite());
+            let read = || Some([number(0)?.to_radians(), number(1)?, number(2)?, number(3).unwrap_or(0.0)]);
+            read().ok_or(PolarError::Unexpected { line, expected })
+        };
+        (0..count).map(|_| row(self)).collect()
+    }
+}
+
+/// The word with this index, if it can be read.
+fn word<T: FromStr>(line: &str, index: usize) -> Option<T> {
+    line.split_whitespace().nth(index)?.parse().ok()
+}
+
+/// Lines `value  name  description`; the Reynolds number is in millions.
+fn aerodyn(mut lines: Lines<'_>) -> Result<Vec<Polar>, PolarError> {
+    let mut polars = Vec::new();
+    let mut at = 0.0;
+    while let Ok((line, text)) = lines.next("") {
+        match word::<String>(text, 1).as_deref() {
+            Some("Re") => {
+                let expected = "the Reynolds number in millions";
+                let read = word::<f64>(text, 0).ok_or(PolarError::Unexpected { line, expected })?;
+                at = 1e6 * read;
+            }
+            Some("NumAlf") => {
+                let expected = "the number of rows";
+                let count = word(text, 0).ok_or(PolarError::Unexpected { line, expected })?;
+                polars.push(Polar { at, rows: lines.rows(count)? });
+            }
+            _ => {}
+        }
+    }
+    Ok(polars)
+}
+
+/// The number of sets; for each set the number of its profiles; for each profile its number, the number of its rows and the thickness.
+fn hawc2(mut lines: Lines<'_>, set: usize) -> Result<Vec<Polar>, PolarError> {
+    let counted = |lines: &mut Lines<'_>, expected: &'static str| {
+        let (line, text) = lines.next(expected)?;
+        word::<usize>(text, 0).ok_or(PolarError::Unexpected { line, expected })
+    };
+    let sets = counted(&mut lines, "the number of sets")?;
+    for own in 1..=sets {
+        let profiles = counted(&mut lines, "the number of profiles of a set")?;
+        let mut polars = Vec::new();
+        for _ in 0..profiles {
+            let expected = "the number of a profile, the number of its rows and its relative thickness";
+            let (line, text) = lines.next(expected)?;
+            let read = || Some((word::<usize>(text, 1)?, word::<f64>(text, 2)?));
+            let (count, at) = read().ok_or(PolarError::Unexpected { line, expected })?;
+            polars.push(Polar { at, rows: lines.rows(count)? });
+        }
+        if own == set {
+            return Ok(polars);
+        }
+    }
+    Err(PolarError::NoSet { wanted: set, count: sets })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AERODYN: &str = "! AirfoilInfo\n\"DEFAULT\"  InterpOrd ! order\n  2  NumTabs\n! table 1\n 0.75  Re ! millions\n 0 Ctrl\n\
+        ! coefficients\n 2 NumAlf\n! Alpha Cl Cd Cm\n -180 0 0.02 0.1\n 180.0 1e-1 0.02 0.2\n 3 Re\n 1 NumAlf\n 0.0 0.5 0.01\n";
+    const HAWC2: &str = "2 two sets\n1 of the first\n1 1 24.1 first\n0 0.1 0.2 0.3\n2 of the second\n1 2 18 thin\n-90 1 2 3\n\
+        90 4 5 6\n2 1 100 cylinder\n0 0 1.2 0 comment\n";
+
+    #[test]
+    fn both_formats_are_read() {
+        let read = polars(AERODYN, 1).unwrap();
+        assert_eq!(read.iter().map(|own| own.at).collect::<Vec<_>>(), [0.75e6, 3e6]);
+        assert_eq!(read[0].rows[1], [std::f64::consts::PI, 0.1, 0.02, 0.2]);
+        assert_eq!(read[1].rows, [[0.0, 0.5, 0.01, 0.0]]);
+        let read = polars(HAWC2, 2).unwrap();
+        assert_eq!(read.iter().map(|own| own.at).collect::<Vec<_>>(), [18.0, 100.0]);
+        assert_eq!(read[0].rows[1], [std::f64::consts::FRAC_PI_2, 4.0, 5.0, 6.0]);
+        assert_eq!(polars(HAWC2, 1).unwrap()[0].rows, [[0.0, 0.1, 0.2, 0.3]]);
+    }
+
+    #[test]
+    fn mistakes_are_reported_with_their_line() {
+        for (text, set, words) in [
+            (HAWC2, 3, "there is no set 3, but 2"),
+            ("x\n", 1, "line 1: expected the number of sets"),
+            ("1\n1\n1 2 18\n0 0 1 0\n", 1, "ends before its last row"),
+            ("1\n1\n1 1 18\n0 zero 1 0\n", 1, "line 4: expected an angle"),
+            ("many NumAlf\n", 1, "line 1: expected the number of rows"),
+            ("", 1, "ends before the number of sets"),
+        ] {
+            let problem = polars(text, set).unwrap_err().to_string();
+            assert!(problem.contains(words), "{text}: {problem}");
+        }
+    }
+}
