@@ -288,6 +288,79 @@ fn a_ball_lifts_and_falls_again() {
     assert!(force.iter().any(|force| *force > 100.0));
 }
 
+const MECANUM: &str = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.carrier]
+mass = 3
+inertia = [0.1, 0.1, 0.1]
+position = [0, 0, 0.2999]
+[joints.guide]
+kind = "generic"
+base = "ground"
+tip = "carrier"
+locked = ["rx", "ry", "rz"]
+[bodies.wheel]
+mass = 1
+inertia = [0.02, 0.04, 0.02]
+position = [0, 0, 0.2999]
+angular_velocity = [0, 4, 0]
+[joints.hub]
+kind = "revolute"
+base = "carrier"
+tip = "wheel"
+axis = [0, 1, 0]
+[joints.motor]
+kind = "prescribed_rotation"
+joint = "hub"
+rotation = "4*t"
+[springs.road]
+kind = "rolling_contact"
+base = "ground"
+tip = "wheel"
+at_base = [0, 0, 0]
+normal = [0, 0, 1]
+wheel_axis = [0, 1, 0]
+radius = 0.3
+stiffness = 4e5
+damping = 2000
+friction_coefficient = 0.5
+slip_velocity = 1e-3
+roller_angle = 0
+[outputs.velocity]
+kind = "velocity"
+of = "carrier"
+[outputs.place]
+kind = "position"
+of = "carrier"
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"#;
+
+/// Rollers at an angle γ drive a wheel along their axis d at r ω (t·d), with t the direction in which it would roll, and leave it free
+/// across. For a wheel with rolled compression r is smaller by it.
+#[test]
+fn a_wheel_with_rollers_moves_along_their_axis() {
+    for angle in [0.5_f64, std::f64::consts::FRAC_PI_4, -1.0, std::f64::consts::FRAC_PI_2] {
+        let record = run(MECANUM, &[("springs.road.roller_angle", &format!("{angle:?}"))]);
+        let last = |component: &str| *column(&record, "velocity", component).last().unwrap();
+        // The axis of the wheel, y, turned by the angle about z.
+        let along = [-angle.sin(), angle.cos()];
+        let radius = *column(&record, "place", "z").last().unwrap();
+        let speed = 4.0 * radius * along[0];
+        for (component, along) in ["v1", "v2"].into_iter().zip(along) {
+            let (found, wanted) = (last(component), speed * along);
+            assert!((found - wanted).abs() < 1e-4, "{angle} {component}: {found} {wanted}");
+        }
+    }
+    let ball = MECANUM
+        .replace("radius = 0.3", "radius = 0\nrim = 0.3")
+        .replace("wheel_axis = [0, 1, 0]", "wheel_axis = [0, 1, 0.1]");
+    assert!(refused(&ball).contains("has no meaning for a ball"));
+}
+
 #[test]
 fn laws_that_make_no_sense_are_refused() {
     for (law, wanted) in [

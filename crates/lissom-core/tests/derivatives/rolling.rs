@@ -38,6 +38,9 @@ fn wheels_that_yield_and_slip() {
             .with("rolling_damping", Value::Number(0.3));
         if given {
             parameters.insert("traction", Value::Function(Arc::new(Grip)));
+            if radius > 0.0 {
+                parameters.insert("roller_angle", Value::Number(0.7));
+            }
         } else {
             parameters.insert("friction_coefficient", Value::Number(0.7));
             parameters.insert("slip_velocity", Value::Number(3.0));

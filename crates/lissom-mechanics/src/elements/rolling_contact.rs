@@ -4,11 +4,13 @@
 //! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative
 //! twist, η its variation of position, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction, r_k rows of
 //! the rolling rates ω_k = r_k·V: (0, a) of a wheel with the axis a, (0, T_k) of a ball; ω = |(ω_k)|, ρ lever arm and c damping per
-//! normal force of rolling friction.
+//! normal force of rolling friction. With rollers on its rim, whose axis at the contact is inclined by γ to that of the wheel, a wheel has
+//! friction along the axis of the roller alone: p = (T_k·a), β = atan2(p₁, p₀) + γ.
 //!
 //! ```text
 //! N = max(0, k δ max(0, 1 + a δ̇) + d δ̇) for δ > 0,      ν(ω) = ρ tanh(ω/ω_s) + c ω
 //! wrench on the tip  N b_n - N μ(σ) Σ s_k/σ b_k - N ν(ω) Σ ω_k/ω r_k
+//! with rollers       b = cos β b₀ + sin β b₁,      s = b·V,      - N μ(|s|) s/|s| b instead
 //! ```
 //!
 //! Friction acts in the plane, not at the lowest point of the undeformed rim below it. The normal force is that of Hunt and Crossley 1975. Without `traction` the law is μ(σ) = μ₀ tanh(σ/v_s).
@@ -94,6 +96,13 @@ pub const KIND: ElementKind = ElementKind {
             "Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`.",
         ),
         Parameter::optional(
+            "roller_angle",
+            ParameterType::Number,
+            "rad",
+            "Angle about the normal from the axis of the wheel to that of the roller in contact, for a wheel with free rollers on its rim: \
+            friction acts along the axis of the roller.",
+        ),
+        Parameter::optional(
             "rolling_friction",
             ParameterType::NotNegative,
             "m",
@@ -125,6 +134,8 @@ pub struct RollingContact {
     /// Factor a and damping d.
     dissipation: [f64; 2],
     traction: Traction,
+    /// γ, for a wheel with rollers [rad].
+    roller_angle: Option<f64>,
     resistance: Option<RollingResistance>,
     switch_states: SwitchStates,
 }
@@ -206,6 +217,11 @@ fn build(
         let problem = format!("is {radius} m with a rim of {rim} m: there is no wheel to roll");
         return Err(ParameterError::new("radius", problem));
     }
+    let roller_angle =
+        if parameters.has("roller_angle") { Some(parameters.number("roller_angle")?) } else { None };
+    if roller_angle.is_some() && radius == 0.0 {
+        return Err(ParameterError::new("roller_angle", "has no meaning for a ball, which has no axis"));
+    }
     let contact = Contact { axis, side: height.signum(), radius, rim, friction: f64::INFINITY, creep: 0.0 };
     Ok(Contribution::of(
         model,
@@ -215,6 +231,7 @@ fn build(
             compliance: Compliance { stiffness: parameters.number("stiffness")?, exponent: 1.0 },
             dissipation: [parameters.number_or("dissipation", 0.0)?, parameters.number_or("damping", 0.0)?],
             traction: traction(parameters)?,
+            roller_angle,
             resistance: resistance(parameters)?,
             switch_states: SwitchStates::default(),
         },
@@ -276,7 +293,9 @@ struct Touch {
     rows: [Vector6; DIRECTIONS],
     gap: f64,
     gap_rate: f64,
+    /// Components along both directions, with rollers along their axis.
     sliding: [f64; DIRECTIONS],
+    rollers: Option<Rollers>,
     /// N with its derivatives by gap and rate.
     normal: [f64; 3],
     /// μ/σ, and its derivative with respect to σ, over σ.
@@ -285,6 +304,16 @@ struct Touch {
     rolling: Option<Rolling>,
     /// On the left-hand side, on the tip's frame.
     wrench: Vector6,
+}
+
+/// Rollers in contact.
+struct Rollers {
+    /// cos β, sin β.
+    along: [f64; DIRECTIONS],
+    /// Sliding velocity across their axis.
+    across: f64,
+    /// ∂β/∂η.
+    turning: Vector6,
 }
 
 /// Rolling friction.
@@ -310,7 +339,12 @@ impl RollingContact {
         let (gap, normal_row) = self.contact.gap(&motion.rotation, &motion.position);
         let rows = self.contact.rows(&motion.rotation, gap);
         let gap_rate = normal_row.dot(&motion.twist);
-        let sliding = rows.map(|row| row.dot(&motion.twist));
+        let mut sliding = rows.map(|row| row.dot(&motion.twist));
+        let rollers = self.roller_angle.map(|angle| self.rollers(angle, &motion, sliding));
+        if let Some(Rollers { along, .. }) = &rollers {
+            let speed = sliding[0] * along[0] + sliding[1] * along[1];
+            sliding = along.map(|own| speed * own);
+        }
         let normal = if is_on_upper_branch(self.switch_states.of(at).first(), -gap) {
             let [force, by_depth, by_closing] =
                 self.compliance.damped_force(-gap, -gap_rate, self.dissipation);
@@ -326,7 +360,20 @@ impl RollingContact {
         if let Some(rolling) = &rolling {
             wrench += normal[0] * rolling.direction();
         }
-        Touch { motion, normal_row, rows, gap, gap_rate, sliding, normal, traction, rolling, wrench }
+        Touch { motion, normal_row, rows, gap, gap_rate, sliding, rollers, normal, traction, rolling, wrench }
+    }
+
+    fn rollers(&self, angle: f64, motion: &RelativeMotion, sliding: [f64; DIRECTIONS]) -> Rollers {
+        let axis = motion.rotation * self.contact.axis;
+        let (sine, cosine) = (axis.y.atan2(axis.x) + angle).sin_cos();
+        // δ(R a) = -R a~ η_θ
+        let turned = -motion.rotation * skew(&self.contact.axis);
+        let row = (axis.x * turned.row(1) - axis.y * turned.row(0)) / (axis.x * axis.x + axis.y * axis.y);
+        Rollers {
+            along: [cosine, sine],
+            across: cosine * sliding[1] - sine * sliding[0],
+            turning: screw(&Vector3::zeros(), &row.transpose()),
+        }
     }
 
     fn is_ball(&self) -> bool {
@@ -399,7 +446,19 @@ impl Element for RollingContact {
         by_place -= force * hessian;
         // Changes of rates at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
         let bracket = lie_bracket_matrix(&motion.carried);
-        let slides = [0, 1].map(|k| turns[k] - bracket.tr_mul(&rows[k]));
+        let mut slides = [0, 1].map(|k| turns[k] - bracket.tr_mul(&rows[k]));
+        let mut rows = *rows;
+        let mut sliding = *sliding;
+        if let Some(Rollers { along, across, turning }) = &touch.rollers {
+            // In the axes of the rollers there is one direction.
+            let speed = sliding[0] * along[0] + sliding[1] * along[1];
+            let [first, second] = rows;
+            rows = [along[0] * first + along[1] * second, Vector6::zeros()];
+            let sideways = along[0] * second - along[1] * first;
+            by_place += force * ratio * speed * sideways * turning.transpose();
+            slides = [along[0] * slides[0] + along[1] * slides[1] + *across * turning, Vector6::zeros()];
+            sliding = [speed, 0.0];
+        }
         let closing = self.closing(&touch);
         let force_by_place = by_gap * normal_row + by_gap_rate * closing;
         let force_by_rate = by_gap_rate * normal_row;
