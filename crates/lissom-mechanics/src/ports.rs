@@ -260,12 +260,6 @@ impl Ports {
         })
     }
 
-    /// Whether a joint with these ports may have coordinates of its own: along a direction that it requires, along beams,
-    /// or without parts.
-    pub fn may_have_coordinates(self) -> bool {
-        self.0.is_empty() || self.require_directions() || self.count(|holds| holds == PortType::Beams) > 0
-    }
-
     /// Whether a joint with these ports may have friction or a latch: if it joins parts or coordinates and prescribes none.
     pub fn may_have_friction(self) -> bool {
         !self.0.is_empty() && self.quantity().is_none()

@@ -473,3 +473,143 @@ fn chosen_steps_are_never_round_off() {
         before = time;
     }
 }
+
+const TELESCOPE: &str = r#"
+lissom = 1
+[bodies.bob]
+mass = 2
+inertia = [0.1, 0.1, 0.1]
+position = [1.5, 0, 0]
+velocity = [0.3, 2, 0]
+[joints.rod]
+kind = "telescopic_rod"
+base = "ground"
+tip = "bob"
+displacement = 1.5
+ALONG
+[outputs.bob]
+kind = "position"
+of = "bob"
+[outputs.speed]
+kind = "velocity"
+of = "bob"
+[outputs.rod]
+kind = "relative"
+of = "rod"
+[outputs.line]
+kind = "distance"
+of = "bob"
+[outputs.reaction]
+kind = "reaction"
+of = "rod"
+[analysis]
+kind = "dynamics"
+end = 1.2
+relative_tolerance = 1e-9
+"#;
+
+/// A rod of prescribed length ℓ about a fixed point conserves ℓ² ω, and its tension is m (ℓ ω² - ℓ'').
+#[test]
+fn a_rod_of_prescribed_length_conserves_the_angular_momentum() {
+    let drive = "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rod\"\ndisplacement = \"1.5 + 0.3*t - 0.4*t^2\"\n";
+    let record = run(&TELESCOPE.replace("ALONG", drive), &[]);
+    let end = 1.2_f64;
+    let length = 1.5 + 0.3 * end - 0.4 * end * end;
+    let rate = 1.5 * 2.0 / (length * length);
+    let [vx, vy] = ["v1", "v2"].map(|component| last(&record, "speed", component));
+    let [x, y] = ["x", "y"].map(|component| last(&record, "bob", component));
+    assert!(
+        (x.hypot(y) - length).abs() < 1e-9 && (last(&record, "rod", "displacement") - length).abs() < 1e-9
+    );
+    assert!(((x * vy - y * vx) / (x * x + y * y) - rate).abs() < 1e-6);
+    let force = ["f1", "f2"].map(|component| last(&record, "reaction", component));
+    let tension = -(force[0] * x + force[1] * y) / length;
+    let wanted = 2.0 * (length * rate * rate + 0.8);
+    assert!((tension - wanted).abs() < 1e-5 * wanted, "{tension} {wanted}");
+}
+
+/// A spring on its coordinate is a spring between the points.
+#[test]
+fn a_rod_of_variable_length_with_a_spring_is_a_spring_between_points() {
+    let along =
+        "[springs.own]\nkind = \"axial\"\njoint = \"rod\"\ndisplacement = 1.2\nstiffness = 40\ndamping = 3\n";
+    let point = "[springs.own]\nkind = \"point\"\nbase = \"ground\"\ntip = \"bob\"\nlength = 1.2\nstiffness = 40\ndamping = 3\n";
+    let with_rod = run(&TELESCOPE.replace("ALONG", along), &[]);
+    let rod = TELESCOPE.find("[joints.rod]").unwrap()..TELESCOPE.find("ALONG").unwrap();
+    let mut alone = TELESCOPE.replace("ALONG", point);
+    alone.replace_range(rod, "");
+    for output in ["rod", "reaction"] {
+        let start = alone.find(&format!("[outputs.{output}]")).unwrap();
+        let end = start + alone[start + 1..].find('[').unwrap() + 1;
+        alone.replace_range(start..end, "");
+    }
+    let alone = run(&alone, &[]);
+    for component in ["x", "y"] {
+        let [a, b] = [&with_rod, &alone].map(|record| last(record, "bob", component));
+        assert!((a - b).abs() < 1e-7, "{component}: {a} {b}");
+    }
+}
+
+const CARRIED: &str = r#"
+lissom = 1
+gravity = [0, -9.81, 0]
+[bodies.bob]
+mass = 2
+inertia = [0.02, 0.03, 0.04]
+position = [0.1, -0.6, 0.2]
+[joints.support]
+kind = "prescribed_motion"
+base = "ground"
+tip = "bob"
+at = [0, 0, 0]
+x = "0.2*(1 - cos(3*t))"
+FREE
+[outputs.bob]
+kind = "position"
+of = "bob"
+[analysis]
+kind = "dynamics"
+end = 1
+relative_tolerance = 1e-8
+"#;
+
+/// Free components are those of joints in series with the prescribed ones.
+#[test]
+fn prescribed_motions_leave_free_what_is_free() {
+    let falls = run(&CARRIED.replace("FREE", "free = [\"y\"]"), &[]);
+    assert!((last(&falls, "bob", "y") - (-0.6 - 0.5 * 9.81)).abs() < 1e-6);
+    assert!((last(&falls, "bob", "x") - (0.1 + 0.2 * (1.0 - 3.0_f64.cos()))).abs() < 1e-8);
+    for (free, joint) in [
+        ("[\"rx\", \"ry\", \"rz\"]", "kind = \"spherical\""),
+        ("[\"rz\"]", "kind = \"revolute\"\naxis = [0, 0, 1]"),
+        ("[\"rz\", \"y\"]", "kind = \"generic\"\nlocked = [\"x\", \"z\", \"rx\", \"ry\"]"),
+    ] {
+        let one = run(&CARRIED.replace("FREE", &format!("free = {free}")), &[]);
+        // The same with a carriage, whose mass has no effect.
+        let carriage = format!(
+            "[bodies.carriage]\nmass = 1\ninertia = [1, 1, 1]\n[joints.own]\n{joint}\nbase = \"carriage\"\ntip = \"bob\"\nat = [0, 0, 0]\n"
+        );
+        let text =
+            CARRIED.replace("tip = \"bob\"\nat = [0, 0, 0]", "tip = \"carriage\"").replace("FREE", &carriage);
+        let other = run(&text, &[]);
+        for component in ["x", "y", "z"] {
+            let [a, b] = [&one, &other].map(|record| last(record, "bob", component));
+            assert!((a - b).abs() < 2e-6, "{free} {component}: {a} {b}");
+        }
+    }
+    assert!(reported(&CARRIED.replace("FREE", "free = [\"x\"]")).contains("is prescribed and in `free`"));
+}
+
+#[test]
+fn drives_of_joints_without_a_coordinate_are_refused() {
+    let drive = "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rod\"\ndisplacement = \"t\"\n";
+    let distance = TELESCOPE
+        .replace("ALONG", drive)
+        .replace("telescopic_rod", "distance")
+        .replace("displacement = 1.5\n", "");
+    let words = reported(&distance).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("joint `rod` has no relative displacement") && words.contains("telescopic_rod joint"),
+        "{words}"
+    );
+}

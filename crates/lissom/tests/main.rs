@@ -3,6 +3,7 @@
 mod assembly;
 mod beam_contacts;
 mod beam_outputs;
+mod bearings;
 mod branch;
 mod branches;
 mod breakpoints;

@@ -1,6 +1,7 @@
 //! A random mechanism as the text of a model: bodies and beams in a tree of joints, loops, couplings, drives, springs,
 //! friction, stops and loads. It starts at rest, so that nothing has to agree with the joints but zero.
 
+mod bearings;
 mod oscillators;
 mod runners;
 
@@ -83,11 +84,12 @@ const JOINTS: [&str; 18] = [
 const LOOPS: [&str; 6] =
     ["distance", "distance", "spherical", "point_in_plane", "inline", "perpendicular_axes"];
 
-/// Turn a seed into those of the kinds which came later. The last two leave the cases of seed 7 as they are that the manual lists.
+/// Turn a seed into those of the kinds which came later. The last three leave the cases of seed 7 as they are that the manual lists.
 const LATER: u64 = 0x5bd1_e995;
 const LATEST: u64 = 0x1b87_3593;
 const OF_COORDINATES: u64 = 0xbf58_476d;
 const OF_RUNNERS: u64 = 0xe6d5_c622;
+const OF_BEARINGS: u64 = 0x2545_f491;
 
 /// The mechanism of case `index` of `seed`.
 pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
@@ -126,6 +128,9 @@ pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
         maker.draw = Draw::new(seed ^ OF_RUNNERS, index);
         maker.slipping_wheel();
         maker.bead();
+        maker.draw = Draw::new(seed ^ OF_BEARINGS, index);
+        maker.bearing();
+        maker.strut();
     }
     for part in maker.nodes.iter().filter(|node| node.name != "ground").map(|node| &node.name) {
         let plain = part.replace(['.', '@'], "_");

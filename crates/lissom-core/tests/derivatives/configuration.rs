@@ -88,7 +88,7 @@ impl Relation for Bent {
 /// Free play would leave most configurations without force; the others are another way to give `dissipation`.
 /// Wheels touch the plane whatever their size; those that are round or creep are looked at apart.
 /// A preload is another way to give the rest of a spring.
-const LEFT_OUT: [&str; 23] = [
+const LEFT_OUT: [&str; 24] = [
     "preload",
     "traction",
     "backlash",
@@ -112,14 +112,19 @@ const LEFT_OUT: [&str; 23] = [
     "velocity",
     "wheel_spin",
     "directions",
+    "free",
 ];
 
 /// A value for every parameter of a kind.
 pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
     let mut result = Parameters::new();
-    for parameter in parameters.iter().filter(|parameter| !LEFT_OUT.contains(&parameter.name)) {
+    for parameter in
+        parameters.iter().filter(|own| !LEFT_OUT.contains(&own.name) || own.name == "radius" && own.required)
+    {
         let value = match parameter.holds {
             ParameterType::Positive if parameter.name == "exponent" => Value::Number(1.7),
+            // Wider than the random positions.
+            ParameterType::Positive if parameter.name == "clearance" => Value::Number(20.0),
             ParameterType::Number => Value::Number(random.number()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
             ParameterType::Vector
@@ -143,6 +148,9 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
                 Value::SquareMatrix(if parameter.name == "mass" { &root * root.transpose() } else { root })
             }
             ParameterType::Range => Value::Range([-1e3, 1e3]),
+            ParameterType::Choice(words) if flag && ["form", "film"].contains(&parameter.name) => {
+                Value::Text(words[1].to_owned())
+            }
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
             ParameterType::FunctionOf(_) => Value::Function(Arc::new(Wave)),
             ParameterType::Input => Value::Input(DiscreteValueId::new(0)),
@@ -317,7 +325,7 @@ pub(crate) fn free(layout: &Layout, node: NodeId) -> [bool; 6] {
 
 /// Sixth-order central difference of a vector function of one number, at 0.
 pub(crate) fn difference(function: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    let width = 1e-2;
+    let width = 5e-3;
     let weights = [(1.0, 0.75), (2.0, -0.15), (3.0, 1.0 / 60.0)];
     let mut sum: Vec<f64> = Vec::new();
     for (steps, weight) in weights {

@@ -245,6 +245,16 @@ fn every_kind_that_is_there_twice_repeats_itself() {
         builder.add_joint_of_kind("again", kind, attachment.clone(), parameters).expect("valid");
         let (system, state, _) = scene.build();
         let twice = mobility::mobility(&system, &state);
+        if system.layout().multiplier_count - count == twice.coordinates - alone.coordinates {
+            // A rod of variable length: the coordinate of the copy follows.
+            assert_eq!(
+                (twice.freedoms, twice.redundant),
+                (alone.freedoms, alone.redundant),
+                "{}: twice",
+                kind.name
+            );
+            continue;
+        }
         assert!(mobility::has_loops(&system), "{}: twice", kind.name);
         assert_eq!(twice.freedoms, alone.freedoms, "{}: twice", kind.name);
         let added = system.layout().multiplier_count - count;

@@ -2,8 +2,8 @@
 
 use super::kind::ElementKind;
 use super::{
-    bushing, coordinate_dynamics, coordinate_spring, force, force_between, friction, gyrostat, joint_load,
-    latch, moment, point_spring, rolling_contact, rope, stop,
+    bearing, bushing, coordinate_dynamics, coordinate_spring, force, force_between, friction, gyrostat,
+    joint_load, latch, moment, point_spring, rolling_contact, rope, stop,
 };
 
 /// Springs and dampers, one line each.
@@ -16,6 +16,8 @@ pub static SPRINGS: &[ElementKind] = &[
     friction::AXIAL,
     friction::TORSIONAL,
     bushing::KIND,
+    bearing::matrices::KIND,
+    bearing::film::KIND,
     coordinate_dynamics::KIND,
     stop::AXIAL,
     stop::TORSIONAL,

@@ -5,6 +5,7 @@
 
 pub mod beam;
 pub mod beam_contact;
+mod bearing;
 pub mod bushing;
 pub mod contact;
 pub mod contact_resistance;

@@ -23,6 +23,8 @@ pub(crate) struct FramePair {
 pub(crate) struct RelativeMotion {
     /// A.
     to_tip: Matrix6,
+    /// (R, x).
+    pub(crate) relative: Motion,
     pub(crate) rotation: Matrix3,
     /// x [m].
     pub(crate) position: Vector3,
@@ -45,6 +47,7 @@ impl FramePair {
         let carried = to_tip * twists[0];
         RelativeMotion {
             to_tip,
+            relative,
             rotation: relative.rotation.matrix(),
             position: relative.position,
             twist: twists[1] - carried,

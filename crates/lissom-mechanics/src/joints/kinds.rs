@@ -5,7 +5,7 @@ use super::{
     cam, clamp, constant_velocity, cylindrical, distance, equation, gear, generalized_coordinates, generic,
     inline, parallel_axes, perpendicular_axes, planar, point_in_plane, point_on_line,
     prescribed_displacement, prescribed_motion, prescribed_rotation, prismatic, revolute, rigid_link,
-    rolling, screw, slider, spherical, swing_arm, universal, wheel_on_rail,
+    rolling, screw, slider, spherical, swing_arm, telescopic_rod, universal, wheel_on_rail,
 };
 
 /// All kinds of joints, one line each.
@@ -36,6 +36,7 @@ pub static KINDS: &[JointKind] = &[
     slider::KIND,
     spherical::KIND,
     swing_arm::KIND,
+    telescopic_rod::KIND,
     universal::KIND,
     wheel_on_rail::KIND,
 ];

@@ -55,6 +55,7 @@ pub mod spherical;
 pub mod starts;
 pub mod step_stages;
 pub mod swing_arm;
+pub mod telescopic_rod;
 pub mod universal;
 pub mod wheel_on_rail;
 

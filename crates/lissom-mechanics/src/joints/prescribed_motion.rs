@@ -6,8 +6,8 @@
 //! ```
 //!
 //! Consists of existing joints: prismatic joints along the axes, then revolute joints about them, in series with massless
-//! frames between them, each with a drive. Components that are not given are locked, so that the reaction has all six
-//! components.
+//! frames between them, each with a drive unless it is free. Components that are neither given nor free are locked, so that the
+//! reaction has all six components. Three free rotations are a spherical joint.
 
 use super::kind::{Build, JointKind};
 use crate::kinematics::Quantity;
@@ -24,10 +24,13 @@ pub const COMPONENTS: [(&str, Quantity); 6] = [
     ("rz", Quantity::Angle),
 ];
 
+/// Names of the components that may be free.
+const FREE: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "prescribed_motion",
-    summary: "Prescribes displacements and rotations of the tip as functions of time; omitted ones are zero.",
+    summary: "Prescribes displacements and rotations of the tip as functions of time; others are zero, or free.",
     sample: "x = \"0.01*(1 - cos(2*pi*t))\"\nrz = \"0.1*t^2\"",
     parameters: &[
         displacement("x", "Displacement along `axis` from the start."),
@@ -36,6 +39,12 @@ pub const KIND: JointKind = JointKind {
         rotation("rx", "Rotation about `axis` from the start."),
         rotation("ry", "Rotation about `second_axis` after its rotation by `rx`."),
         rotation("rz", "Rotation about the third axis after its rotations by `rx` and `ry`."),
+        Parameter::optional(
+            "free",
+            ParameterType::Choices(&FREE),
+            "",
+            "Components that are neither prescribed nor locked; default none.",
+        ),
     ],
     ports: Ports::AXES_OF_MODEL,
     build: Build::Motion,

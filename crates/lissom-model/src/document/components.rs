@@ -31,7 +31,7 @@ pub(super) fn read(
         let signal = reader.signal(entry.parameters);
         let ports = entry.ports;
         let named = signal.as_ref().map(|(_, formula)| formula);
-        let attachment = ports::read(reader, name, (ports, named), registry, places);
+        let attachment = ports::read(reader, name, (ports, named), places);
         let may_have_friction = table == "joints" && ports.may_have_friction();
         let friction = if may_have_friction { friction(reader) } else { None };
         let latch = if may_have_friction { latch(reader) } else { None };

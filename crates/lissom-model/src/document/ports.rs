@@ -12,7 +12,6 @@ use crate::keys::Shape;
 use crate::line::are_parallel;
 use crate::parts::ScopeId;
 use crate::reader::Reader;
-use crate::registry::Registry;
 use crate::report::{Located, Problem};
 use crate::text::{Node, Value};
 
@@ -22,7 +21,6 @@ pub(super) fn read(
     reader: &Reader<'_, '_>,
     name: &str,
     (ports, formula): (Ports, Option<&Located<Formula>>),
-    registry: &Registry,
     places: &Places,
 ) -> Option<Attachment> {
     let mut own = Attachment::default();
@@ -40,7 +38,7 @@ pub(super) fn read(
             }
             PortType::Locations => locations(reader, key, places).map(|nodes| own.nodes = nodes),
             PortType::Coordinate(_) => {
-                joint(reader, key, name, registry).map(|joint| own.coordinates.push((joint, None)))
+                joint(reader, key, name).map(|joint| own.coordinates.push((joint, None)))
             }
             PortType::OnlyCoordinate(_) => {
                 reader.name_in(key).map(|joint| own.coordinates.push((joint, None)))
@@ -170,7 +168,7 @@ fn direction(
 }
 
 /// The joint on whose coordinate the entry called `name` acts.
-fn joint(reader: &Reader<'_, '_>, key: &str, name: &str, registry: &Registry) -> Option<Located<String>> {
+fn joint(reader: &Reader<'_, '_>, key: &str, name: &str) -> Option<Located<String>> {
     let joint = reader.name_in(key)?;
     let context = reader.context;
     // Only a joint can name itself: springs live in a table of their own.
@@ -179,17 +177,7 @@ fn joint(reader: &Reader<'_, '_>, key: &str, name: &str, registry: &Registry) ->
         let message = format!("{} acts on itself", reader.what);
         return context.fail(joint.span, message, "specify the joint whose coordinate it prescribes");
     }
-    let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
-    let Value::Text(kind) = &word.value else { return None };
-    let entry = registry.joints.iter().find(|entry| entry.name == kind)?;
-    if entry.ports.may_have_coordinates() {
-        return Some(joint);
-    }
-    let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);
-    let problem = Problem::error(joint.span, message).label("no coordinate");
-    let problem = problem.also(word.span, format!("a {kind} joint"));
-    context.report(problem.help("specify a joint with an axis, such as a revolute joint"));
-    None
+    Some(joint)
 }
 
 /// Names of beams, at least one.

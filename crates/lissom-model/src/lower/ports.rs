@@ -70,7 +70,7 @@ fn first(
                 "a revolute, universal, swing_arm, cylindrical, screw, planar or parallel_axes joint"
             }
             Quantity::Length | Quantity::State => {
-                "a prismatic, cylindrical or point_on_line joint, or generalized coordinates"
+                "a prismatic, cylindrical, point_on_line or telescopic_rod joint, or generalized coordinates"
             }
         };
         return Err(Problem::error(joint.span, message)

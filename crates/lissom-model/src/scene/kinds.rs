@@ -78,6 +78,10 @@ fn joint(kind: &str) -> Option<Drawn> {
         "distance" => {
             WithRod(|[b, t]| [vec![b.ball(0.6, [0.0; 3], Light)], vec![t.ball(0.6, [0.0; 3], Light)]])
         }
+        "telescopic_rod" => WithRod(|[b, t]| {
+            let sleeve = b.block([0.5, 0.5, 0.5], [0.0; 3], Dark);
+            [vec![b.ball(0.6, [0.0; 3], Light), sleeve], vec![t.ball(0.6, [0.0; 3], Light)]]
+        }),
         "rigid_link" => WithRod(|[b, t]| {
             let end = |axes: &Axes| vec![axes.block([1.1, 1.1, 1.1], [0.0; 3], Dark)];
             [end(b), end(t)]
@@ -130,6 +134,10 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
         "bushing" => {
             Solids(|[b, t]| [vec![b.ring(0.95, 0.5, 0.0, Spring)], vec![t.cylinder(0, 0.4, 1.9, Dark)]])
         }
+        "bearing" | "journal_bearing" => Solids(|[b, t]| {
+            let outer = [-0.3, 0.3].map(|at| b.ring(1.0, 0.35, at, Spring));
+            [outer.to_vec(), vec![t.cylinder(0, 0.6, 2.4, Dark)]]
+        }),
         "torsional" => {
             Solids(|[b, _]| base([1.2, 1.55, 1.9].map(|radius| b.ring(radius, 0.1, 0.5, Spring)).to_vec()))
         }

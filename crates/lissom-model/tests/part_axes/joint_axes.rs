@@ -72,7 +72,8 @@ fn frames(end: &End, ports: Ports, entry: &Table, spans: bool) -> [Motion; 2] {
     let third = axes.apply(&Vector3::z());
     let angle = if spans { 0.0 } else { number(entry, "angle") };
     // Along the axis at the start: the base's frame is behind the tip's.
-    let along = number(entry, "displacement") + number(entry, "lead") * angle / std::f64::consts::TAU;
+    let along = if spans { 0.0 } else { number(entry, "displacement") }
+        + number(entry, "lead") * angle / std::f64::consts::TAU;
     let mut turn = Rotation::exponential(&(angle * third));
     if let Some(tip_axis) = vector(entry, "tip_axis") {
         let across = third.cross(&tip_axis.normalize());
@@ -168,6 +169,7 @@ fn values_at_the_start_move_nothing() {
                 continue;
             }
             count += 1;
+            let at = if kind.ports.have_one_location() { "at" } else { "at_base" };
             let text = |value: f64| {
                 let own = kind
                     .sample
@@ -176,7 +178,7 @@ fn values_at_the_start_move_nothing() {
                 let own: Vec<&str> = own.collect();
                 format!(
                     "[bodies.carrier]\nmass = 2\ninertia = [0.1, 0.2, 0.15]\nposition = [-0.1, 0.2, 0.1]\n\
-                     [joints.own]\nkind = \"{}\"\nbase = \"carrier\"\ntip = \"own\"\nat = [0.1, 0.05, -0.1]\n{axes}{}\n{key} = {value:?}\n\
+                     [joints.own]\nkind = \"{}\"\nbase = \"carrier\"\ntip = \"own\"\n{at} = [0.1, 0.05, -0.1]\n{axes}{}\n{key} = {value:?}\n\
                      [bodies.own]\nmass = 1.3\ninertia = [0.02, 0.03, 0.04]\nposition = [0.4, -0.2, 0.3]\nrotation = [0.1, 0.2, 0.3]\n\
                      [joints.carrier]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"carrier\"\nat = [-0.3, 0, 0]\naxis = [1, 0.1, 0.2]\n\
                      [outputs.relative]\nkind = \"relative\"\nof = \"own\"\n",

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use lissom::Model;
 use lissom::modes::{ModeRequest, OperatingPoint, modes};
 
-use crate::support::runs::{column, last, run};
+use crate::support::runs::{column, last, run, set};
 
 macro_rules! model {
     ($name:literal) => {
@@ -335,4 +335,58 @@ fn a_wing_flutters_with_a_limited_amplitude() {
     };
     close(largest(1.0, 2.0), largest(2.0, 3.0), 0.02, "amplitude of the limit cycle");
     assert!(largest(2.0, 3.0) > 0.2);
+}
+
+/// Cylinders of prescribed length fix the position of the bucket; at rest their force follows from the potential energy by the length.
+#[test]
+fn an_excavator_holds_its_load() {
+    let record = run(model!("excavator-arm"), &[]);
+    close(last(&record, "lift", "displacement"), 0.3, 1e-8, "stroke");
+    let force = last(&record, "force", "force");
+    // Virtual work: the same pose with a little more stroke.
+    let potential = |stroke: &str| {
+        let stroke = [set("joints.lift_stroke.displacement", stroke)];
+        last(&run(model!("excavator-arm"), &stroke), "energy", "potential")
+    };
+    let step = 1e-3;
+    let slope = (potential("\"(0.3 + 1e-3)*smoothstep(t/2)\"")
+        - potential("\"(0.3 - 1e-3)*smoothstep(t/2)\""))
+        / (2.0 * step);
+    close(force.abs(), slope.abs(), 1e-3 * slope.abs(), "force of the cylinder");
+    assert!(column(&record, "power", "power").iter().fold(0.0_f64, |most, own| most.max(*own)) > 1e3);
+}
+
+/// v = r s sideways, then r s/(a + b) about the vertical.
+#[test]
+fn a_platform_on_mecanum_wheels_goes_sideways_and_round() {
+    let record = run(model!("mecanum-platform"), &[]);
+    let at = |time: f64, output: &str, component: &str| {
+        let row = record.times.iter().position(|own| *own >= time - 1e-9).expect("a row");
+        column(&record, output, component)[row]
+    };
+    close(at(1.5, "velocity", "v2"), 0.5, 3e-3, "velocity sideways");
+    close(at(1.5, "velocity", "v1"), 0.0, 3e-3, "velocity ahead");
+    close(at(1.5, "turning", "w3"), 0.0, 1e-2, "turning while going sideways");
+    close(last(&record, "turning", "w3"), 0.5 / 0.45, 2e-2, "turning");
+}
+
+/// At 900 rad/s the films drive a whirl at almost half of the speed, whose orbit stays within the clearance; at 400 rad/s the shaft rests.
+#[test]
+fn a_rotor_on_oil_films_whirls_at_half_of_its_speed() {
+    let record = run(model!("oil-whirl"), &[]);
+    let [y, z] = ["u2", "u3"].map(|component| column(&record, "left", component));
+    let from = record.times.iter().position(|own| *own > 0.15).expect("rows");
+    let mut turned = 0.0;
+    let mut largest = 0.0_f64;
+    for k in from..y.len() - 1 {
+        turned += (y[k] * z[k + 1] - z[k] * y[k + 1]).atan2(y[k] * y[k + 1] + z[k] * z[k + 1]);
+        largest = largest.max(y[k].hypot(z[k]));
+    }
+    let rate = turned / (record.times[y.len() - 1] - record.times[from]);
+    assert!((0.45..0.51).contains(&(rate / 900.0)) && (0.5e-4..1e-4).contains(&largest), "{rate} {largest}");
+    let slow = run(model!("oil-whirl"), &[set("parameters.speed", "400")]);
+    let [y, z] = ["u2", "u3"].map(|component| column(&slow, "left", component));
+    let rows = y.len() - 50..y.len() - 1;
+    let moved = rows.map(|k| (y[k] - y[k + 1]).hypot(z[k] - z[k + 1])).fold(0.0, f64::max);
+    assert!(moved < 1e-6, "{moved}");
 }

@@ -1,0 +1,212 @@
+//! Short journal bearing and squeeze-film damper: the film of a lubricant between a journal and a bushing, with the pressure of the
+//! Reynolds equation without gradients around the circumference [Ocvirk 1952], where it is positive (ruptured film) or everywhere.
+//!
+//! Legend: c clearance, R radius, L length, μ viscosity, (y, z) displacement of the journal over c, s speed of rotation of the journal
+//! relative to the bushing, h film thickness over c at the angle ψ, n = (cos ψ, sin ψ), κ = μ R L³/(2 c²).
+//!
+//! ```text
+//! h = 1 - n·(y, z),      p ~ -(s ∂h/∂ψ + 2 ∂h/∂t)/h³ = D sin(ψ - α)/h³
+//! D cos α = -(s y - 2 ż),      D sin α = -(s z + 2 ẏ)
+//! force on the journal  -κ D ∫ sin u n/h³ du,      u = ψ - α from 0 to π, or to 2π
+//! ```
+//!
+//! With a and b the displacements along the directions α and α + π/2, e² = a² + b², w = √(1 - e²) [Capone 1986]:
+//!
+//! ```text
+//! G = 2/w (π/2 + arctan(b/w)),      V = (2 + b G)/(1 - e²),      S = a/(1 - a²)
+//! ∫ sin u cos u/h³ du = (3 a V - 2 S)/(2 (1 - e²)),      ∫ sin² u/h³ du = (3 b V + G)/(2 (1 - e²))      from 0 to π
+//! ```
+
+use std::sync::Arc;
+
+use lissom_motion::{Rotation, Vector3};
+use nalgebra::{Matrix5, Vector5};
+
+use super::{BearingLaw, Response, ShaftMotion, contribution};
+use crate::dual::{Dual, Number};
+use crate::elements::bushing::AXIS;
+use crate::elements::contribution::Contribution;
+use crate::elements::initial_model::InitialModel;
+use crate::elements::kind::{Attached, ElementKind};
+use crate::ports::Ports;
+use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
+
+/// Names of the films.
+const FILMS: [&str; 2] = ["ruptured", "full"];
+
+/// Registry entry.
+pub(crate) const KIND: ElementKind = ElementKind {
+    name: "journal_bearing",
+    summary: "Short journal bearing with a fluid film, or squeeze-film damper of a shaft that does not rotate in it.",
+    sample: "radius = 0.02\nlength = 0.01\nclearance = 5e-5\nviscosity = 0.02",
+    parameters: &[
+        Parameter::required("radius", ParameterType::Positive, "m", "Radius of the journal."),
+        Parameter::required(
+            "length",
+            ParameterType::Positive,
+            "m",
+            "Length along the shaft, short against the diameter.",
+        ),
+        Parameter::required("clearance", ParameterType::Positive, "m", "Radial clearance."),
+        Parameter::required(
+            "viscosity",
+            ParameterType::Positive,
+            "Pa s",
+            "Dynamic viscosity of the lubricant.",
+        ),
+        Parameter::optional(
+            "film",
+            ParameterType::Choice(&FILMS),
+            "",
+            "Film where the pressure is positive (\"ruptured\", default), or everywhere (\"full\").",
+        ),
+        AXIS,
+    ],
+    ports: Ports::TWO_LOCATIONS,
+    build,
+};
+
+/// A film.
+#[derive(Debug)]
+struct Film {
+    /// c [m].
+    clearance: f64,
+    /// κ [N s].
+    factor: f64,
+    is_full: bool,
+}
+
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
+    let (clearance, length) = (parameters.number("clearance")?, parameters.number("length")?);
+    let viscous = 0.5 * parameters.number("viscosity")? * parameters.number("radius")?;
+    let film = Film {
+        clearance,
+        factor: viscous * length.powi(3) / clearance.powi(2),
+        is_full: parameters.word("film")? == Some(FILMS[1]),
+    };
+    let first = parameters.vector_or("axis", ModelAxis::X.direction())?;
+    // The film is the same in all directions across the shaft.
+    let across = Vector3::ith(first.iamin(), 1.0);
+    let axes = Rotation::from_axis_and_reference(&first, &across)
+        .ok_or_else(|| ParameterError::new("axis", "has no direction"))?;
+    contribution(model, attached, axes, (Arc::new(film), Some(clearance)))
+}
+
+/// The two integrals from 0 to π.
+fn integrals<N: Number>(a: N, b: N) -> [N; 2] {
+    let square = (-(a * a + b * b)).plus(1.0);
+    let root = square.square_root();
+    let g = (b / root).arc_tangent().plus(std::f64::consts::FRAC_PI_2).scaled(2.0) / root;
+    let v = (b * g).plus(2.0) / square;
+    let s = a / (-(a * a)).plus(1.0);
+    let half = square.scaled(2.0);
+    [(a * v.scaled(3.0) - s.scaled(2.0)) / half, (b * v.scaled(3.0) + g) / half]
+}
+
+impl Film {
+    /// Force on the bushing along axes 2 and 3, over κ, of the displacement over c, its rate and the speed.
+    fn force<N: Number>(&self, [y, z, y_rate, z_rate, speed]: [N; 5]) -> [N; 2] {
+        let cosine = -(speed * y - z_rate.scaled(2.0));
+        let sine = -(speed * z + y_rate.scaled(2.0));
+        let square = cosine * cosine + sine * sine;
+        // At rest the derivatives are those of a concentric journal; the film has a kink there.
+        let amplitude = square.plus(f64::MIN_POSITIVE).square_root();
+        let (cosine, sine) = (cosine / amplitude, sine / amplitude);
+        let (a, b) = (y * cosine + z * sine, z * cosine - y * sine);
+        let mut along = integrals(a, b);
+        if self.is_full {
+            let opposite = integrals(-a, -b);
+            along = [along[0] + opposite[0], along[1] + opposite[1]];
+        }
+        let [first, second] = along.map(|own| own * amplitude);
+        [first * cosine - second * sine, first * sine + second * cosine]
+    }
+}
+
+impl BearingLaw for Film {
+    fn response(&self, motion: &ShaftMotion) -> Response {
+        let scale = 1.0 / self.clearance;
+        let values = [
+            scale * motion.q[1],
+            scale * motion.q[2],
+            scale * motion.rate[1],
+            scale * motion.rate[2],
+            motion.speed,
+        ];
+        let mut variables = [Dual::constant(0.0); 5];
+        for (k, (variable, value)) in variables.iter_mut().zip(values).enumerate() {
+            *variable = Dual::<5>::variable(value, k);
+        }
+        let mut out = Response {
+            force: Vector5::zeros(),
+            by_q: Matrix5::zeros(),
+            by_rate: Matrix5::zeros(),
+            by_speed: Vector5::zeros(),
+        };
+        for (row, force) in (1..).zip(self.force(variables)) {
+            out.force[row] = self.factor * force.value;
+            for k in 0..2 {
+                out.by_q[(row, 1 + k)] = self.factor * scale * force.by[k];
+                out.by_rate[(row, 1 + k)] = self.factor * scale * force.by[2 + k];
+            }
+            out.by_speed[row] = self.factor * force.by[4];
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ sin u (cos u, sin u)/h³ du by the midpoint rule.
+    fn quadrature(a: f64, b: f64) -> [f64; 2] {
+        let count = 200_000;
+        let width = std::f64::consts::PI / f64::from(count);
+        let mut sum = [0.0; 2];
+        for k in 0..count {
+            let (sine, cosine) = ((f64::from(k) + 0.5) * width).sin_cos();
+            let weight = width * sine / (1.0 - a * cosine - b * sine).powi(3);
+            sum[0] += weight * cosine;
+            sum[1] += weight * sine;
+        }
+        sum
+    }
+
+    #[test]
+    fn closed_forms_are_the_integrals() {
+        for (a, b) in [(0.0, 0.0), (0.4, 0.3), (-0.2, 0.7), (0.6, -0.5), (-0.9, 0.1), (0.05, -0.93)] {
+            let (found, wanted) = (integrals(a, b), quadrature(a, b));
+            for k in 0..2 {
+                assert!(
+                    (found[k] - wanted[k]).abs() < 1e-7 * (1.0 + wanted[k].abs()),
+                    "{a} {b}: {found:?} {wanted:?}"
+                );
+            }
+        }
+    }
+
+    /// Load and attitude of a journal at rest under a constant load [Ocvirk 1952]: along and across the eccentricity
+    /// κ s (2 ε²/(1 - ε²)²) and κ s π ε/(2 (1 - ε²)^(3/2)).
+    #[test]
+    fn a_journal_that_only_spins_has_the_forces_of_the_short_bearing() {
+        let film = |is_full| Film { clearance: 1.0, factor: 1.0, is_full };
+        for ratio in [0.1_f64, 0.5, 0.9] {
+            let speed = 3.0;
+            let rest = 1.0 - ratio * ratio;
+            let radial = speed * 2.0 * ratio * ratio / rest.powi(2);
+            let across = speed * std::f64::consts::FRAC_PI_2 * ratio / rest.powf(1.5);
+            let [along, turned] = film(false).force([ratio, 0.0, 0.0, 0.0, speed]);
+            assert!((along - radial).abs() < 1e-12 * radial, "{along} {radial}");
+            assert!((turned.abs() - across).abs() < 1e-12 * across, "{turned} {across}");
+            // A forward whirl is driven: the force on the bushing is opposite to that on the journal.
+            assert!(turned < 0.0);
+            let [along, turned] = film(true).force([ratio, 0.0, 0.0, 0.0, speed]);
+            assert!(along.abs() < 1e-12 * radial && (turned + 2.0 * across).abs() < 1e-12 * across);
+        }
+    }
+}
