@@ -247,7 +247,18 @@ impl Shape {
                 "s",
                 "time from sample to sample; the value is held in between",
             ),
-            optional("start", Self::Number, "", "value before the first sample, default 0"),
+            optional(
+                "delay",
+                Self::Positive,
+                "s",
+                "the signal is the value of its expression this time earlier; excludes `sample`",
+            ),
+            optional(
+                "start",
+                Self::Number,
+                "",
+                "value before the first sample, default 0; with `delay` the value before the start, default the expression there",
+            ),
             optional(
                 "numerator",
                 Self::Numbers,

@@ -416,7 +416,8 @@ impl Builder {
             let count = batch.freeze_switches(held.len());
             held.resize(held.len() + count, 0.0);
         }
-        let state = self.initial_state(&layout, time, held);
+        let mut state = self.initial_state(&layout, time, held);
+        feedback.graph.fill_windows_before_start(&mut state.kinematics);
         let feedback = DrivenBatch(Arc::new(feedback));
         let mut batches: Vec<Arc<dyn AnyBatch>> = self.batches.into_iter().map(Arc::from).collect();
         for (batch, quantity) in &self.element_quantities {

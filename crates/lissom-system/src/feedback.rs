@@ -220,9 +220,10 @@ impl Feedback {
         Some((driven.signal, &**load))
     }
 
-    /// Known breakpoints of the signals of loads and states [s].
+    /// Known breakpoints of the signals of loads and states, and of those whose past is used [s].
     pub fn breakpoints(&self) -> Vec<f64> {
-        self.graph.breakpoints_of(self.driven.iter().map(|driven| driven.signal))
+        let delayed = self.graph.delays().iter().filter_map(|delay| delay.source);
+        self.graph.breakpoints_of(self.driven.iter().map(|driven| driven.signal).chain(delayed))
     }
 
     /// Determines the positions of local matrices in the tangent's pattern.

@@ -226,7 +226,7 @@ catalogued! {
             advice: "Smooth the function over several steps, or compare runs.",
         }
         Feedback {} => "gradient-feedback" {
-            cause: "outputs of models with feedback, states or sampled signals cannot be differentiated",
+            cause: "outputs of models with feedback, states, delayed or sampled signals cannot be differentiated",
             remedy: "remove loads and states whose signals depend on the motion",
             meaning: "Derivatives along the motion are not implemented for feedback, states, events and sampled signals, except those of \
                       contacts.",

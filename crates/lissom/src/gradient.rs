@@ -282,7 +282,7 @@ pub fn gradient(
     let mut session = Session::new(&document)?;
     let system = session.simulation().system();
     let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
-    let has_samples = system.signals().has_samples();
+    let has_samples = system.signals().has_samples() || !system.signals().delays().is_empty();
     let is_direct = !system.has_feedback() && !has_samples && system.signals().events().is_empty();
     // Restitution and friction of contacts are events and states, which whole runs include.
     let has_contacts = is_dynamic && !document.contacts.is_empty() && document.events.is_empty();

@@ -21,6 +21,7 @@ mod controlled_forces;
 mod couplings;
 #[cfg(feature = "command-line")]
 mod defects;
+mod delays;
 mod distributed;
 mod driven_records;
 mod driven_start;

@@ -26,8 +26,12 @@ impl Drop for Folder {
 }
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(format!("{name}.toml"))
+    let folder = if name == DELAYED { "tests/support" } else { "../../examples" };
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(folder).join(format!("{name}.toml"))
 }
+
+/// A model with delayed signals, whose past a checkpoint contains.
+const DELAYED: &str = "delayed";
 
 fn lissom() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lissom"));
@@ -110,7 +114,9 @@ const KILLS_WITH_MOTION: usize = 40;
 #[test]
 fn runs_that_are_killed_again_and_again_leave_the_same_bytes() {
     let folder = Folder::new("kill");
-    let cases: [(&str, &[&str]); 5] = [
+    let cases: [(&str, &[&str]); 7] = [
+        (DELAYED, &[]),
+        (DELAYED, &["analysis.relative_tolerance=1e-4"]),
         ("tip-crank", &["analysis.end=0.1"]),
         ("tip-crank", &["analysis.end=0.1", "analysis.scheme=hht", "analysis.step=5e-4"]),
         ("four-bar", &["analysis.end=1"]),

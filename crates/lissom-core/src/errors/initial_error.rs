@@ -34,6 +34,17 @@ diagnostics! {
             meaning: "A state, friction or a rolling joint is governed by rates, which statics and a start from equilibrium do not have.",
             advice: "Remove it, or simulate the motion from the given positions.",
         }
+        /// A delayed signal where there is no time.
+        DelayInStatics {
+            /// The signal.
+            signal: Subject,
+        } => "delay-in-statics" {
+            subject: signal,
+            cause: ("statics and a start from equilibrium have no past: the delayed {signal} has no value there"),
+            remedy: "remove its `delay`, or start a dynamic analysis without an equilibrium",
+            meaning: "A delayed signal is a value of the past, which statics, equilibrium paths and a start from equilibrium do not have.",
+            advice: "Remove its `delay`, or simulate the motion from the given positions.",
+        }
         /// Something is free to rest anywhere.
         Free {
             /// Coordinates of joints, or degrees of freedom of nodes, that are free.

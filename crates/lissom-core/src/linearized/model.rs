@@ -40,6 +40,18 @@ diagnostics! {
             meaning: "Sampled signals change at instants only and have no linear model.",
             advice: "Remove their `sample` for this analysis.",
         }
+        /// Signals are delayed.
+        Delayed {
+            /// The first of them.
+            signal: Subject,
+        } => "linear-delayed-signals" {
+            subject: signal,
+            cause: ("the {signal} is delayed, and a system with delays has infinitely many eigenvalues, which the linear model of this \
+                    analysis does not have"),
+            remedy: "remove its `delay` for this analysis, replace it by a lag with `[states]`, or simulate the motion",
+            meaning: "A system with delayed signals has no linear model with finitely many eigenvalues.",
+            advice: "Remove `delay` for this analysis, or approximate it by states, such as `x' = (u - x)/delay`.",
+        }
         /// Constraints between velocities.
         Rolls {
             /// Name of the joint.
@@ -142,6 +154,9 @@ impl<'a> LinearModel<'a> {
         interrupt::check()?;
         if system.signals().has_samples() {
             return Err(LinearError::Sampled {});
+        }
+        if let Some(signal) = system.signals().delayed() {
+            return Err(LinearError::Delayed { signal });
         }
         if let Some(contact) = system.rigid_contacts().next() {
             return Err(LinearError::RigidContact { contact: contact.name.clone() });

@@ -176,6 +176,7 @@ impl Simulation {
             has_switched: self.events.known.has_switched,
         };
         self.monitors.accept(&mut step, &mut self.warnings);
+        self.record_signals();
         self.commit_attempt();
     }
 
@@ -225,6 +226,9 @@ fn refuse_rates(system: &System) -> Result<(), InitialError> {
     let layout = system.layout();
     let mut rows = layout.states().map(|(row, ..)| row).chain(layout.velocity_rows());
     let of_row = rows.next().map(|row| layout.subject_of(row));
+    if let Some(signal) = system.signals().delayed() {
+        return Err(InitialError::DelayInStatics { signal });
+    }
     let of_creep = || system.sees_multipliers().then(|| Subject::nameless("the creep of a wheel on a rail"));
     of_row.or_else(of_creep).map_or(Ok(()), |state| Err(InitialError::StateInStatics { state }))
 }

@@ -6,6 +6,7 @@ use crate::kinematics::Subject;
 use crate::settings::{Problem, StepReport, Stopwatch};
 use crate::signals::event::Occurrence;
 use crate::simulation::Simulation;
+use crate::simulation::signal_history::Break;
 
 /// Maximum nesting depth of laws with levels whose arguments have levels themselves.
 const MAX_NESTED_LEVELS: usize = 8;
@@ -95,6 +96,9 @@ impl Simulation {
             .events
             .accept(&self.system, &self.state, located, longest)
             .map_err(|which| self.chatters(which))?;
+        if located.is_some() {
+            self.stops.history.add_break(Break::Slope);
+        }
         self.freeze_levels(located.map_or(&[], |located| &located.indices))?;
         if happened.is_empty() {
             return self.check_sliding();

@@ -11,6 +11,7 @@ use crate::kinematics::{DiscreteValueId, Kinematics, LOCKED, Quantity, Subject};
 use crate::settings::Settings;
 use crate::signals::SignalError;
 use crate::simulation::Simulation;
+use crate::simulation::signal_history::{Break, SignalHistory};
 use crate::system::{State, System};
 
 diagnostics! {
@@ -66,6 +67,7 @@ pub(crate) fn settle(
     initial: &mut ConsistentInitialConditions,
     settings: &Settings,
 ) -> Result<(), InitialError> {
+    system.signals().fill_windows_before_start(&mut state.kinematics);
     if system.has_readings() {
         // The first samples read accelerations and multipliers computed without these samples.
         system.signals().set_values_before_first_sample(&mut state.kinematics);
@@ -76,7 +78,13 @@ pub(crate) fn settle(
             state.kinematics.held[held.index()] = value;
         }
     }
-    system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
+    let graph = system.signals();
+    for _ in graph.delays() {
+        // Delayed signals and samples may depend on each other. Values of the first passes may not be finite.
+        graph.fill_windows_before_start(&mut state.kinematics);
+        let _ = graph.begin(&mut state.kinematics);
+    }
+    graph.begin(&mut state.kinematics).map_err(InitialError::Signal)?;
     system.check_functions(&state.kinematics).map_err(InitialError::Signal)?;
     initial.set_state_rates(system, &mut state.kinematics);
     initial.accelerations(system, state)?;
@@ -130,6 +138,7 @@ impl Simulation {
             }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }
+        self.stops.history = SignalHistory::new(self.system.signals(), &state.kinematics);
         self.previous.clone_from(&state);
         self.state = state;
         self.begin_contacts().map_err(InputError::Initial)
@@ -228,6 +237,7 @@ impl Simulation {
 
     /// Adds the jump of accelerations, multipliers and rates of states.
     pub(super) fn add_jump(&mut self, mut jump: Vec<f64>) {
+        self.stops.history.add_break(Break::Slope);
         let layout = self.system.layout();
         let kinematics = &mut self.state.kinematics;
         for (rows, node) in layout.node_rows.iter().zip(&mut kinematics.nodes) {

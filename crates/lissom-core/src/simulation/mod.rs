@@ -17,6 +17,7 @@ pub(crate) mod relaxation;
 mod rigid_contacts;
 mod samples;
 mod sequence;
+mod signal_history;
 mod snapshot;
 pub(crate) mod snapshot_parts;
 mod stops;
@@ -113,13 +114,16 @@ impl Simulation {
     /// Size of the step from which velocities, accelerations and multipliers of the state result [s]; 0 if they have been made
     /// consistent since, for example after an event.
     pub fn step_of_rates(&self) -> f64 {
-        // A branch that becomes known is no change.
-        let first_side = self.system.signals().first_side();
+        // A branch that becomes known is no change, nor is the past of delayed signals.
+        let graph = self.system.signals();
+        let first_side = graph.first_side();
         let is_jump = |(index, (now, before)): (usize, (&f64, &f64))| {
-            now != before && (index < first_side || *before != 0.0)
+            now != before && (index < first_side || *before != 0.0) && !graph.is_of_window(index)
         };
         let held = self.state.kinematics.held.iter().zip(&self.previous.kinematics.held);
-        let has_jumped = held.enumerate().any(is_jump);
+        let windows = [&*self.previous.kinematics.held, &self.state.kinematics.held];
+        let has_jumped = held.enumerate().any(is_jump)
+            || graph.delays().iter().any(|delay| delay.jumps(self.state.kinematics.time, windows));
         if has_jumped { 0.0 } else { self.last_step() }
     }
 

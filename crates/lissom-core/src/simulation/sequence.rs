@@ -10,6 +10,7 @@ use crate::settings::{Phase, Problem, StepReport, Stopwatch, Unwatched};
 use crate::simulation::breakpoints::StopTime;
 use crate::simulation::event_detector::LocatedRoot;
 use crate::simulation::events::Verdict;
+use crate::simulation::signal_history::Break;
 use crate::simulation::{EventState, Simulation, cause};
 use crate::system::State;
 use crate::tuning::{MAX_ITERATIONS, TuningParameter};
@@ -94,6 +95,7 @@ impl Simulation {
     fn advance(&mut self, limit: f64, progress: &mut Progress<'_>) -> Result<(), StepError> {
         let (planned, longest) = (self.control.planned(), self.control.longest());
         let now = self.now();
+        self.trim_signals();
         let size = self.control.by_error().unwrap_or(longest).min(limit - now);
         self.stops.look_ahead(
             Problem { system: &self.system, settings: &self.settings },
@@ -111,6 +113,7 @@ impl Simulation {
             if let Some(crossing) = stop.crossing.filter(|_| has_arrived) {
                 self.cross_breakpoint(&crossing, longest)?;
             }
+            self.move_windows()?;
             self.take_samples()?;
             rest = end - self.now();
             let is_complete = has_arrived && stop.is_last || rest <= same;
@@ -127,15 +130,16 @@ impl Simulation {
         Ok(())
     }
 
-    /// The first of samples, breakpoints and the end of the step, which is at the distance `rest` [s]; `limit` [s] is the end of an
+    /// The first of samples, ends of windows of delayed signals, breakpoints and the end of the step, which is at the distance `rest` [s]; `limit` [s] is the end of an
     /// adaptive step.
     fn next_stop(&self, rest: f64, limit: Option<f64>) -> Stop {
         let (now, longest) = (self.now(), self.control.longest());
         let mut stop = Stop { distance: rest, clock: limit, crossing: None, is_last: true };
-        let sample =
-            self.next_sample().filter(|sample| sample - now < rest - instants::tolerance(now, longest));
-        if let Some(sample) = sample {
-            (stop.distance, stop.clock, stop.is_last) = (sample - now, limit.and(Some(sample)), false);
+        let windows = Some(self.end_of_windows()).filter(|end| end.is_finite());
+        let nearest = self.next_sample().into_iter().chain(windows).reduce(f64::min);
+        let nearest = nearest.filter(|instant| instant - now < rest - instants::tolerance(now, longest));
+        if let Some(instant) = nearest {
+            (stop.distance, stop.clock, stop.is_last) = (instant - now, limit.and(Some(instant)), false);
         }
         let end = stop.clock.unwrap_or(now + stop.distance);
         if let Some(crossing) = self.stops.stop_time(self.problem(), [now, end], longest) {
@@ -256,6 +260,7 @@ impl Simulation {
     fn recover(&mut self, error: StepError, progress: Progress<'_>) -> Result<(), StepError> {
         if let Some(start) = progress.start {
             (self.previous, self.state, self.energy_balance, self.events.known) = *start;
+            self.forget_signals();
         }
         self.control.restart();
         let Some(size) = progress.first.filter(|_| !progress.watch.is_cancelled()) else { return Err(error) };
@@ -274,6 +279,7 @@ impl Simulation {
         let Some(size) = self.control.by_error() else { return f64::INFINITY };
         let problem = Problem { system: &self.system, settings: &self.settings };
         let resolved = self.stops.longest_resolved(problem, (now, size.min(distance)));
+        let resolved = self.longest_resolved_delays(now, resolved);
         let nodes = &self.state.kinematics.nodes;
         let fastest = nodes.iter().fold(0.0_f64, |most, node| most.max(node.twist.fixed_rows::<3>(3).norm()));
         let turn = self.settings.limits.tuning.of(TuningParameter::Safety) * MAX_TURN;
@@ -318,6 +324,7 @@ impl Simulation {
             self.integrator.has_last_step &= self.integrator.history.is_none();
         }
         (self.state.kinematics.time, self.state.time_remainder) = (stop_time.clock, 0.0);
+        self.stops.history.add_break(Break::Slope);
         self.integrator.work.forget_predictions();
         Ok(())
     }

@@ -19,11 +19,12 @@ use crate::newton::JacobianState;
 use crate::scaling::Scaled;
 use crate::settings::{Settings, Totals};
 use crate::simulation::Simulation;
+use crate::simulation::signal_history::SignalHistory;
 use crate::simulation::snapshot_parts::Learned;
 use crate::system::State;
 
 /// Incremented whenever the contents of a snapshot change.
-const VERSION: u32 = 19;
+const VERSION: u32 = 20;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +47,7 @@ pub struct Snapshot {
     /// Data of the monitors, by name.
     monitors: Vec<(String, Vec<u8>)>,
     learned: Learned,
+    history: SignalHistory,
 }
 
 /// Of the integrator: the tangent in use and the memory of the scheme.
@@ -205,6 +207,7 @@ impl Simulation {
             magnitudes: self.stops.laws.magnitudes.clone(),
             monitors: self.monitors.save(),
             learned: self.integrator.work.learned(),
+            history: self.stops.history.clone(),
         }
     }
 
@@ -216,7 +219,8 @@ impl Simulation {
         if from.version != VERSION {
             return Err(SnapshotError::Version { found: from.version });
         }
-        let is_alike = from.states[1].accumulated.len() == self.accumulation.numbers.len();
+        let is_alike = from.states[1].accumulated.len() == self.accumulation.numbers.len()
+            && from.history.is_like(&self.stops.history);
         if !is_alike || from.belongs_to != self.belonging() {
             let (scheme, unknowns, nodes, _) = &from.belongs_to;
             return Err(SnapshotError::OtherModel {
@@ -234,6 +238,7 @@ impl Simulation {
         self.origin.kinematics = State::from(&from.origin).kinematics;
         self.origin.velocity_correction = from.velocity_correction;
         self.stops.laws.magnitudes.clone_from(&from.magnitudes);
+        self.stops.history.clone_from(&from.history);
         self.settings.step_size = from.step_size;
         let integrator = &mut self.integrator;
         integrator.scaled = from.integrator.scaled;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::breakpoints::{self, Breakpoint, StopTime};
 use super::laws::{Course, DEPARTURE, Found, Laws, MAX_INTERVALS, OfTime};
+use super::signal_history::{Recorder, SignalHistory};
 use crate::errors::Warning;
 use crate::instants::TIME_TOLERANCE;
 use crate::registry::Function;
@@ -27,6 +28,9 @@ pub(crate) struct Stops {
     hidden: Option<(f64, usize)>,
     /// Laws, and their magnitudes.
     pub(crate) laws: Laws,
+    /// The past of delayed signals.
+    pub(crate) history: SignalHistory,
+    pub(super) recorder: Option<Recorder>,
 }
 
 impl Stops {
@@ -35,7 +39,9 @@ impl Stops {
         let is_bound = settings.control.is_some() || settings.scheme.dynamic;
         let breakpoints = if is_bound { breakpoints::of(system, settings.step_size) } else { Vec::new() };
         let longest = settings.control.map_or(settings.step_size, |control| control.max_step);
-        Self { breakpoints, found: Vec::new(), hidden: None, laws: Laws::new(system, start, longest) }
+        let laws = Laws::new(system, start, longest);
+        let history = SignalHistory::new(system.signals(), &start.kinematics);
+        Self { breakpoints, found: Vec::new(), hidden: None, laws, history, recorder: None }
     }
 
     /// Samples functions of time over a step of at most `size` [s] from the time `now` [s]: jumps that are found end steps. No step is

@@ -11,6 +11,7 @@
 //! signals with a sample period between two samples.
 
 pub mod coordinate;
+pub mod delay;
 pub mod event;
 pub mod frame_quantity;
 pub mod measurement;
@@ -154,6 +155,8 @@ pub struct Graph {
     pub held: Vec<(String, f64)>,
     /// Held values that are quantities of the state at samples.
     pub readings: Vec<DiscreteValueId>,
+    /// Delayed signals.
+    pub delays: Vec<delay::Delay>,
     /// Events.
     pub events: Vec<event::Event>,
     /// Offsets of the sides of each signal's switches among the held values, after inputs and samples, and the end of
@@ -167,10 +170,11 @@ impl Graph {
         &self.signals
     }
 
-    /// Names of the inputs: held values that are neither samples nor readings.
+    /// Names of the inputs: held values that are neither samples nor readings, nor values of a delayed signal.
     pub fn input_names(&self) -> impl Iterator<Item = &str> {
         let is_input = |&held: &DiscreteValueId| {
             !self.readings.contains(&held)
+                && !self.is_of_window(held.index())
                 && !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
         };
         DiscreteValueId::first(self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
@@ -435,7 +439,18 @@ impl Graph {
     /// # Errors
     /// The first that is not.
     pub fn check(&self, at: &Kinematics) -> Result<(), SignalError> {
-        self.evaluate(at, |values| match values.iter().position(|value| !value.is_finite()) {
+        // The cause of a delayed signal that is not finite is its expression.
+        let is_delayed = |index: usize| self.delays.iter().any(|delay| delay.signal.index() == index);
+        let infinite = |values: &[f64]| {
+            let mut all = (0..values.len()).filter(|&index| !values[index].is_finite());
+            let first = all.next()?;
+            Some(if is_delayed(first) {
+                all.find(|&index| !is_delayed(index)).unwrap_or(first)
+            } else {
+                first
+            })
+        };
+        self.evaluate(at, |values| match infinite(values) {
             None => Ok(()),
             Some(index) => {
                 let signal = self.signals[index].in_words();

@@ -88,7 +88,7 @@ fn under_sliders(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// Rejects states and sampled signals in statics, and loads of the local motion where loads are scaled by a factor.
+/// Rejects states, delayed and sampled signals in statics, and loads of the local motion where loads are scaled by a factor.
 fn at_rest(context: &Context<'_>, document: &Document) {
     if let Some(load) = document.local_loads.first()
         && matches!(document.analysis.kind, AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. })
@@ -97,10 +97,21 @@ fn at_rest(context: &Context<'_>, document: &Document) {
         context.fail::<()>(load.name.span, message, "use an analysis of kind `statics` or `dynamics`");
     }
     let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    let what = match document.analysis.kind {
+        AnalysisKind::Statics { .. } => "statics",
+        AnalysisKind::Path { .. } => "an equilibrium path",
+        _ if document.starts_in_equilibrium() => "a start from equilibrium",
+        _ => return,
+    };
+    for (signal, delay) in document.signals.iter().filter_map(|signal| Some((signal, signal.delay?))) {
+        let message =
+            format!("{what} has no past, so the delayed signal `{}` has no value", signal.name.value);
+        let help = "remove `delay`, or use an analysis of kind `dynamics`";
+        context.fail::<()>(delay.time.span, message, help);
+    }
     if !statics && !document.starts_in_equilibrium() {
         return;
     }
-    let what = if statics { "statics" } else { "a start from equilibrium" };
     for state in &document.states {
         let message = format!("{what} has no rates, so the state `{}` is undefined", state.name.value);
         context.fail::<()>(state.name.span, message, "remove it, or use an analysis of kind `dynamics`");

@@ -61,7 +61,7 @@ pub use output_kinds::OutputKind;
 pub(crate) use output_kinds::{Declaration, Feature, Feeds, OutputComponent, Subject};
 pub use outputs::{Output, OutputSource, ReactionAxes};
 pub use rigid_contacts::RigidEntry;
-pub use signals::{DiscreteFilter, SignalEntry, StateEntry};
+pub use signals::{DelayEntry, DiscreteFilter, SignalEntry, StateEntry};
 pub use top_level::VERSION;
 
 /// A model as it was written, checked.

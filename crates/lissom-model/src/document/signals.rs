@@ -26,8 +26,19 @@ pub struct SignalEntry {
     pub table: Option<Table>,
     /// Time from sample to sample [s] and value before the first, for a sampled one.
     pub sampling: Option<(f64, f64)>,
+    /// The delay of a delayed one.
+    pub delay: Option<DelayEntry>,
     /// The filter of a sampled one.
     pub filter: Option<DiscreteFilter>,
+}
+
+/// The delay of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DelayEntry {
+    /// Time by which it is later than its expression [s].
+    pub time: Located<f64>,
+    /// Value before the start; none for the value of the expression at the start.
+    pub start: Option<f64>,
 }
 
 /// A transfer function in z: `y_k = Σ_i b_i u_(k-i) - Σ_j a_j y_(k-j)`, i = 0, 1, …, j = 1, 2, …, u the expression and y
@@ -110,6 +121,7 @@ pub(super) fn signals(context: &Context<'_>) -> Vec<SignalEntry> {
                 value: Located::new(formula, node.span),
                 table: None,
                 sampling: None,
+                delay: None,
                 filter: None,
             })
         };
@@ -148,15 +160,17 @@ fn of_table(reader: &Reader<'_, '_>, node: &Node, name: Located<String>) -> Opti
             return context.fail(reader.name, message, help);
         }
     };
+    let delay = if reader.has("delay") { Some(delay(reader)?) } else { None };
     let sampling = match reader.number("sample") {
         Some(period) => Some((period.value, reader.number("start").map_or(0.0, |start| start.value))),
         None if reader.has("sample") => return None,
         None => {
-            let needed_by = ["start", "numerator", "denominator"].into_iter().find(|word| reader.has(word));
-            let needed_by = needed_by.or(table.is_none().then_some("value"));
-            if let Some(word) = needed_by {
+            let needed_by = ["numerator", "denominator"].into_iter().find(|word| reader.has(word));
+            let of_start = (delay.is_none() && reader.has("start")).then_some("start");
+            let of_value = (delay.is_none() && table.is_none()).then_some("value");
+            if let Some(word) = of_start.or(needed_by).or(of_value) {
                 let message = format!("{what} has `{word}`, but lacks `sample`");
-                let help = "add `sample = …` [s]: time from sample to sample; \
+                let help = "add `sample = …` [s], the time from sample to sample, or `delay = …` [s]; \
                             a continuous signal is an expression alone, or a table over one";
                 return context.fail(reader.name, message, help);
             }
@@ -165,7 +179,20 @@ fn of_table(reader: &Reader<'_, '_>, node: &Node, name: Located<String>) -> Opti
     };
     let filter =
         if reader.has("numerator") || reader.has("denominator") { Some(filter(reader)?) } else { None };
-    Some(SignalEntry { name, value, table, sampling, filter })
+    Some(SignalEntry { name, value, table, sampling, delay, filter })
+}
+
+/// The delay of a signal, which is not sampled.
+fn delay(reader: &Reader<'_, '_>) -> Option<DelayEntry> {
+    let time = reader.number("delay")?;
+    if reader.has("sample") {
+        let message = format!("{} has both `delay` and `sample`", reader.what);
+        let help = "remove one of them; the past of a sampled signal is a discrete filter, such as \
+                    `numerator = [0, 1]`, or another signal with `delay`";
+        return reader.context.fail(time.span, message, help);
+    }
+    let start = if reader.has("start") { Some(reader.number("start")?.value) } else { None };
+    Some(DelayEntry { time, start })
 }
 
 /// The filter of a sampled signal, divided by the first coefficient of its denominator.

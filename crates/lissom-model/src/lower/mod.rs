@@ -6,6 +6,7 @@ mod beam_contacts;
 mod connections;
 mod contacts;
 mod couplings;
+mod delay;
 mod discrete_filter;
 mod distributed;
 mod initial_state;

@@ -10,6 +10,7 @@ use lissom_core::signals::event::Event;
 use lissom_core::signals::{Argument, Sampling, Signal, SignalId};
 use lissom_core::system::Builder;
 
+use super::delay;
 use super::discrete_filter;
 use super::measurements::{Fault, Measured, measure};
 use super::names::{LaterMeasurement, NamedReading, Names};
@@ -41,8 +42,22 @@ pub(super) fn add(
         names.signals.insert(state.name.value.clone(), Argument::Measured(measured));
         states.push(coordinate);
     }
+    let mut delayed = Vec::new();
+    for entry in by_name(&document.signals, |entry| &entry.name.value) {
+        let Some(own) = &entry.delay else { continue };
+        match delay::add(document, builder, names, (entry, own)) {
+            Ok(signal) => delayed.push((entry, signal)),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if !problems.is_empty() {
+        return;
+    }
     let mut order = Order { document, marks: BTreeMap::new(), path: Vec::new(), sorted: Vec::new() };
     for entry in by_name(&document.signals, |entry| &entry.name.value) {
+        if entry.delay.is_some() {
+            continue;
+        }
         if let Err(problem) = order.visit(entry) {
             problems.push(problem);
             // Expressions that refer to a signal of a loop would be wrong as well.
@@ -60,6 +75,11 @@ pub(super) fn add(
             // Later expressions that name it are not to be reported.
             let instead = builder.add_held(&entry.name.value, 0.0);
             names.signals.insert(entry.name.value.clone(), Argument::Held(instead));
+        }
+    }
+    for entry in delayed {
+        if let Err(problem) = delay::add_source(document, builder, names, entry) {
+            problems.push(problem);
         }
     }
     if !problems.is_empty() {
@@ -127,7 +147,8 @@ impl<'d> Order<'d> {
             if entry.sampling.is_some() && previous_sample(&argument.text, name).is_some_and(is_sampled) {
                 continue;
             }
-            for named in signals_named(self.document, &argument.text, &mut Vec::new()) {
+            let named = signals_named(self.document, &argument.text, &mut Vec::new());
+            for named in named.into_iter().filter(|named| named.delay.is_none()) {
                 self.visit(named)?;
             }
         }
@@ -143,9 +164,9 @@ impl<'d> Order<'d> {
         let names: Vec<String> =
             self.path[from..].iter().chain([&name]).map(|name| format!("`{name}`")).collect();
         let message = format!("signals form an algebraic loop: {}", names.join(" names "));
-        Problem::error(entry.name.span, message)
-            .label("needs its own value")
-            .help("make one of them a state, or use the previous sample of a sampled one: `NAME.last`")
+        Problem::error(entry.name.span, message).label("needs its own value").help(
+            "make one of them a state, delay one, or use the previous sample of a sampled one: `NAME.last`",
+        )
     }
 }
 
@@ -175,22 +196,7 @@ fn add_signal(
         own_sample: own.map(|_| name.as_str()),
     };
     let invalid = |error: ParameterError| Problem::error(entry.value.span, error.to_string());
-    let (mut signal, line) = match &entry.table {
-        None => formula(document, builder, names, &reader)?,
-        Some(table) => {
-            let subject = Subject::new("signal", name).component("`of`");
-            let (argument, line) =
-                formula(document, builder, names, &Reader { subject: &subject, ..reader })?;
-            let text = format!("a table over {}", argument.text);
-            // The argument of a sampled table is sampled as well: between samples it has no effect.
-            let sampling =
-                own.map(|(own, _)| Sampling { held: builder.add_held(&subject.to_string(), 0.0), ..own });
-            let argument = builder.add_signal(Signal { sampling, ..argument }).map_err(invalid)?;
-            let function = Arc::new(OverArgument::new(table.clone().into(), line));
-            let arguments = vec![Argument::Signal(argument)];
-            (Signal { subject: reader.subject.clone(), text, function, arguments, sampling: None }, None)
-        }
-    };
+    let (mut signal, line) = of_entry(document, builder, names, entry, (&reader, own.map(|own| own.0)))?;
     match (&entry.filter, own) {
         (Some(filter), Some(own)) => {
             signal = discrete_filter::filtered(builder, filter, signal, own).map_err(invalid)?;
@@ -202,6 +208,27 @@ fn add_signal(
     // Between samples it is constant, with a value that is not known in advance.
     names.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
     Ok(())
+}
+
+/// The expression of a signal, or its table over one, and the straight line of time that it is.
+pub(super) fn of_entry(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    entry: &SignalEntry,
+    (reader, own): (&Reader<'_>, Option<Sampling>),
+) -> Result<(Signal, Line), Problem> {
+    let Some(table) = &entry.table else { return formula(document, builder, names, reader) };
+    let invalid = |error: ParameterError| Problem::error(entry.value.span, error.to_string());
+    let subject = Subject::new(reader.subject.kind.clone(), &entry.name.value).component("`of`");
+    let (argument, line) = formula(document, builder, names, &Reader { subject: &subject, ..*reader })?;
+    let text = format!("a table over {}", argument.text);
+    // The argument of a sampled table is sampled as well: between samples it has no effect.
+    let sampling = own.map(|own| Sampling { held: builder.add_held(&subject.to_string(), 0.0), ..own });
+    let argument = builder.add_signal(Signal { sampling, ..argument }).map_err(invalid)?;
+    let function = Arc::new(OverArgument::new(table.clone().into(), line));
+    let arguments = vec![Argument::Signal(argument)];
+    Ok((Signal { subject: reader.subject.clone(), text, function, arguments, sampling: None }, None))
 }
 
 /// Adds an expression that has no name in the model file as a signal; messages are about `subject`.
@@ -395,7 +422,11 @@ fn output_value(
 }
 
 /// The signals that a name in an expression means: one, or those that an output of signals depends on.
-fn signals_named<'d>(document: &'d Document, name: &str, path: &mut Vec<&'d str>) -> Vec<&'d SignalEntry> {
+pub(super) fn signals_named<'d>(
+    document: &'d Document,
+    name: &str,
+    path: &mut Vec<&'d str>,
+) -> Vec<&'d SignalEntry> {
     if let Some(own) = document.signals.iter().find(|other| other.name.value == name) {
         return vec![own];
     }

@@ -10,8 +10,11 @@ use crate::element_quantity::{ElementQuantity, Of};
 use crate::feedback::Target;
 use lissom_mechanics::elements::Contribution;
 use lissom_mechanics::elements::initial_model::Coordinate;
-use lissom_mechanics::kinematics::{CarriedFrame, CoordinateId, CoordinateMotion, GROUND, Kinematics};
+use lissom_mechanics::kinematics::{
+    CarriedFrame, CoordinateId, CoordinateMotion, GROUND, Kinematics, Subject,
+};
 use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::delay::{Delay, Past, Piece, window_size};
 use lissom_mechanics::signals::event::Event;
 use lissom_mechanics::signals::frame_quantity::{FrameQuantity, Of::Position};
 use lissom_mechanics::signals::measurement::{Component, Measurement};
@@ -121,6 +124,48 @@ impl Builder {
         }
         self.graph.signals.push(signal);
         Ok(next)
+    }
+
+    /// Adds a signal that is another one, its source, `delay` [s] earlier, and `start` before the start of the simulation, or the
+    /// value of the source there. Earlier and later signals may refer to it. The source is given with
+    /// [`set_source`](Self::set_source).
+    ///
+    /// # Errors
+    /// If the delay is not positive and finite, or `start` is not finite.
+    pub fn add_delay(
+        &mut self,
+        subject: Subject,
+        delay: f64,
+        start: Option<f64>,
+    ) -> Result<SignalId, ParameterError> {
+        if !(delay > 0.0 && delay.is_finite() && start.is_none_or(f64::is_finite)) {
+            return Err(ParameterError::new(
+                &subject.to_string(),
+                "needs a delay above 0, and finite numbers",
+            ));
+        }
+        let window = DiscreteValueId::new(self.graph.held.len());
+        let words = subject.clone().component("the past");
+        let before = Piece::constant([-delay, 0.0], start.unwrap_or(0.0)).to_values();
+        let values = before.into_iter().cycle().take(window_size());
+        let values: Vec<DiscreteValueId> =
+            values.map(|value| self.add_held(&words.to_string(), value)).collect();
+        let signal = self.add_signal(Signal {
+            subject,
+            text: format!("its value {delay} s earlier"),
+            function: Arc::new(Past { delay }),
+            arguments: values.into_iter().map(Argument::Held).collect(),
+            sampling: None,
+        })?;
+        self.graph.delays.push(Delay::new(signal, window, delay, start));
+        Ok(signal)
+    }
+
+    /// Makes `source` the signal of which `delayed` is the past.
+    pub fn set_source(&mut self, delayed: SignalId, source: SignalId) {
+        for delay in self.graph.delays.iter_mut().filter(|delay| delay.signal == delayed) {
+            delay.source = Some(source);
+        }
     }
 
     /// Makes a signal the derivative of a first-order state.

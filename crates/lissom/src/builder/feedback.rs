@@ -51,6 +51,13 @@ impl Signal {
         Self { value: value.into(), fields }
     }
 
+    /// A signal that is the value of `value` `delay` [s] earlier, and the value at the start before it.
+    pub fn delayed(value: impl Into<Expression>, delay: f64) -> Self {
+        let mut fields = Fields::default();
+        fields.set("delay", delay);
+        Self { value: value.into(), fields }
+    }
+
     /// The signal as the input of a discrete filter: `numerator` are the coefficients of its present and past samples, `denominator`
     /// those of the filter's present and past values. The signal must be sampled.
     pub fn filtered(mut self, numerator: impl Into<Vec<f64>>, denominator: impl Into<Vec<f64>>) -> Self {

@@ -78,7 +78,7 @@ fn wraps_nothing(error: &str) -> bool {
 }
 
 /// Errors for which there is no model here, with the reason.
-const WITHOUT_MODEL: [(&str, &str); 11] = [
+const WITHOUT_MODEL: [(&str, &str); 12] = [
     ("StepError::NoTime", "a session is asked for it, no model can"),
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
@@ -86,6 +86,7 @@ const WITHOUT_MODEL: [(&str, &str); 11] = [
     ("StepError::LoopIsSingular", "no model found: contradictions are reported before"),
     ("StepError::NegativeKineticEnergy", "its matrices are too large for a file here: tests/superelements"),
     ("InitialError::ZeroPivot", "the reader rejects parts without mass"),
+    ("InitialError::DelayInStatics", "the reader rejects delays there"),
     ("InitialError::NormalForces", "no model found, with friction coefficients up to 100 and 0.3 rad of yaw"),
     ("InitialError::ContactForces", "no model found: motions that drives prescribe contradict a contact"),
     ("InitialError::NotFinite", "the reader rejects functions that are not finite at the start"),
