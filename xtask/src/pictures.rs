@@ -47,6 +47,7 @@ const PICTURES: &[(&str, &str, Instants)] = &[
     ("slider-crank-elastic", "slider-crank-elastic", Strip(4)),
     ("tip-crank", "tip-crank", At(&[0.0, 0.1, 0.2, 0.4])),
     ("tip-crank-moving", "tip-crank", Moving(25)),
+    ("turning-chatter", "turning-chatter", At(&[0.5])),
     ("turbine-rotor", "turbine-rotor", At(&[0.0, 0.25, 0.5, 0.75])),
     ("walking-linkage", "walking-linkage", At(&[0.75])),
     ("wheelset", "wheelset", At(&[1.0])),

@@ -390,3 +390,20 @@ fn a_rotor_on_oil_films_whirls_at_half_of_its_speed() {
     let moved = rows.map(|k| (y[k] - y[k + 1]).hypot(z[k] - z[k + 1])).fold(0.0, f64::max);
     assert!(moved < 1e-6, "{moved}");
 }
+
+/// A tool that cuts the wave of the previous revolution chatters beyond the width 2 k ζ (1 + ζ)/K, if the revolution has the phase of the
+/// smallest limit: 1.236 mm.
+#[test]
+fn a_lathe_chatters_beyond_its_limit() {
+    for (width, grows) in [("1.21e-3", false), ("1.26e-3", true)] {
+        let record = run(model!("turning-chatter"), &[set("parameters.width", width)]);
+        let displacement = column(&record, "tool", "displacement");
+        let range = |from: f64, to: f64| {
+            let rows = record.times.iter().zip(&displacement).filter(|(time, _)| (from..to).contains(*time));
+            let [least, most] =
+                rows.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], (_, own)| [a.min(*own), b.max(*own)]);
+            most - least
+        };
+        assert_eq!(range(1.2, 1.5) > range(0.2, 0.5), grows, "{width}");
+    }
+}

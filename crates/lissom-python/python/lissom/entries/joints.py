@@ -491,7 +491,7 @@ class PrescribedDisplacement(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class PrescribedMotion(Joint):
-    """Prescribes displacements and rotations of the tip as functions of time; omitted ones are zero.
+    """Prescribes displacements and rotations of the tip as functions of time; others are zero, or free.
 
     Args:
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
@@ -506,6 +506,7 @@ class PrescribedMotion(Joint):
         rx: Rotation about `axis` from the start [rad]; a function of time, or nothing.
         ry: Rotation about `second_axis` after its rotation by `rx` [rad]; a function of time, or nothing.
         rz: Rotation about the third axis after its rotations by `rx` and `ry` [rad]; a function of time, or nothing.
+        free: Components that are neither prescribed nor locked; default none; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -528,6 +529,7 @@ class PrescribedMotion(Joint):
     rx: Function | None = None
     ry: Function | None = None
     rz: Function | None = None
+    free: list[Literal["x", "y", "z", "rx", "ry", "rz"]] | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None
@@ -809,6 +811,35 @@ class SwingArm(Joint):
     release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class TelescopicRod(Joint):
+    """A massless rod of variable length between two points, with spherical joints at its ends; the displacement is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
+        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
+        release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
+    """
+
+    _form: ClassVar[str] = "telescopic_rod"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    displacement: Number | None = None
+    friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)

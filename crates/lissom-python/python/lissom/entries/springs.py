@@ -111,6 +111,7 @@ class RollingContact(Spring):
         friction_coefficient: Coefficient of sliding friction; default 0; a number ≥ 0, or nothing.
         slip_velocity: Velocity v_s of the law μ tanh(v/v_s), below which the wheel creeps; default 0.01 [m/s]; a number > 0, or nothing.
         traction: Coefficient of friction over the sliding velocity `slip` [m/s], instead of the law of `friction_coefficient`; an expression of `slip`, or a table of it written as a function of time, or nothing.
+        roller_angle: Angle about the normal from the axis of the wheel to that of the roller in contact, for a wheel with free rollers on its rim: friction acts along the axis of the roller [rad]; a number, or nothing.
         rolling_friction: Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane; default 0 [m]; a number ≥ 0, or nothing.
         rolling_damping: Additional moment per normal force and rolling rate; default 0 [m s/rad]; a number ≥ 0, or nothing.
         rolling_rate: Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps; default 0.01 [rad/s]; a number > 0, or nothing.
@@ -133,6 +134,7 @@ class RollingContact(Spring):
     friction_coefficient: Number | None = None
     slip_velocity: Number | None = None
     traction: Function | None = None
+    roller_angle: Number | None = None
     rolling_friction: Number | None = None
     rolling_damping: Number | None = None
     rolling_rate: Number | None = None
@@ -276,6 +278,7 @@ class Bushing(Spring):
         damping: 6 x 6 or its diagonal, as `stiffness`; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
         axis: First axis at the start, global axes; default global x. The axes rotate with the base; a direction, or nothing.
         second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; a direction, or nothing.
+        form: Displacement and rotation in the axes of the base ("base_axes", default), or as a screw, which is the same from both sides; `"base_axes"`, `"screw"`, or nothing.
     """
 
     _form: ClassVar[str] = "bushing"
@@ -289,6 +292,85 @@ class Bushing(Spring):
     damping: Vector | list[Vector] | None = None
     axis: Vector | str | None = None
     second_axis: Vector | str | None = None
+    form: Literal["base_axes", "screw"] | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Bearing(Spring):
+    """Bearing of a rotating shaft: stiffness and damping matrices, which may be unsymmetric and depend on the speed.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
+        stiffness: For displacements across the shaft (2 x 2), along it and across (3 x 3), across with rotations about both axes (4 x 4), or all (5 x 5); a number is for both directions across; default 0 [N/m, N, N m/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
+        damping: As `stiffness`; default 0 [N s/m, N s, N m s/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
+        k22: Stiffness over `speed` [rad/s], added to `stiffness`: force along axis 2 per displacement along it [N/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        k23: The same for a displacement along axis 3 [N/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        k32: Force along axis 3 per displacement along axis 2 [N/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        k33: The same for a displacement along axis 3 [N/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        c22: Damping over `speed` [rad/s], added to `damping`, as `k22` [N s/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        c23: As `k23` [N s/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        c32: As `k32` [N s/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        c33: As `k33` [N s/m]; an expression of `speed`, or a table of it written as a function of time, or nothing.
+        axis: First axis at the start, global axes; default global x. The axes rotate with the base; a direction, or nothing.
+        second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; a direction, or nothing.
+    """
+
+    _form: ClassVar[str] = "bearing"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    stiffness: Number | Vector | list[Vector] | None = None
+    damping: Number | Vector | list[Vector] | None = None
+    k22: Function | None = None
+    k23: Function | None = None
+    k32: Function | None = None
+    k33: Function | None = None
+    c22: Function | None = None
+    c23: Function | None = None
+    c32: Function | None = None
+    c33: Function | None = None
+    axis: Vector | str | None = None
+    second_axis: Vector | str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class JournalBearing(Spring):
+    """Short journal bearing with a fluid film, or squeeze-film damper of a shaft that does not rotate in it.
+
+    Args:
+        in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
+        base: first node: "ground", "body", "beam.end" …; a node.
+        tip: second node; a node.
+        at_base: location on the base; default: the node's position [m]; a position, or nothing.
+        at_tip: location on the tip; default: the node's position [m]; a position, or nothing.
+        radius: Radius of the journal [m]; a number > 0.
+        length: Length along the shaft, short against the diameter [m]; a number > 0.
+        clearance: Radial clearance [m]; a number > 0.
+        viscosity: Dynamic viscosity of the lubricant [Pa s]; a number > 0.
+        film: Film where the pressure is positive ("ruptured", default), or everywhere ("full"); `"ruptured"`, `"full"`, or nothing.
+        axis: First axis at the start, global axes; default global x. The axes rotate with the base; a direction, or nothing.
+    """
+
+    _form: ClassVar[str] = "journal_bearing"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    radius: Number
+    length: Number
+    clearance: Number
+    viscosity: Number
+    film: Literal["ruptured", "full"] | None = None
+    axis: Vector | str | None = None
 
 
 @dataclass(kw_only=True, slots=True)

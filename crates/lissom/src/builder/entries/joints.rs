@@ -65,10 +65,6 @@ entry! {
     /// - `base`: first node: "ground", "body", "beam.end" …
     /// - `tip`: second node
     new(base: Node = "base", tip: Node = "tip")
-    /// Location on the base; default: the node's position \[m\].
-    at_base: [f64; 3] = "at_base";
-    /// Location on the tip; default: the node's position \[m\].
-    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -204,7 +200,7 @@ entry! {
 }
 
 entry! {
-    /// Prescribes displacements and rotations of the tip as functions of time; omitted ones are zero.
+    /// Prescribes displacements and rotations of the tip as functions of time; others are zero, or free.
     PrescribedMotion => JointId, "prescribed_motion";
     ["kind" = "prescribed_motion"]
     /// With what must be given.
@@ -224,6 +220,8 @@ entry! {
     ry: Function = "ry";
     /// Rotation about the third axis after its rotations by `rx` and `ry` \[rad\].
     rz: Function = "rz";
+    /// Components that are neither prescribed nor locked; default none.
+    free: Vec<words::Free> = "free";
 }
 
 entry! {
@@ -347,6 +345,17 @@ entry! {
 }
 
 entry! {
+    /// A massless rod of variable length between two points, with spherical joints at its ends; the displacement is a coordinate.
+    TelescopicRod => JointId, "telescopic_rod";
+    ["kind" = "telescopic_rod"]
+    /// With what must be given.
+    ///
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
+    new(base: Node = "base", tip: Node = "tip")
+}
+
+entry! {
     /// Two nodes share a point; two perpendicular axes, one fixed in each; both rotations are coordinates.
     Universal => JointId, "universal";
     ["kind" = "universal"]
@@ -443,7 +452,7 @@ keys! {
 }
 
 keys! {
-    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, Universal, WheelOnRail]
+    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, TelescopicRod, Universal, WheelOnRail]
     /// Friction on its only coordinate.
     friction: Friction = "friction";
     /// Latch that engages when its only coordinate first reaches the value `at`, and locks it there.
@@ -473,9 +482,17 @@ keys! {
 }
 
 keys! {
-    [Cylindrical, PointOnLine, Prismatic]
+    [Cylindrical, PointOnLine, Prismatic, TelescopicRod]
     /// Value of the relative displacement at the start; default 0 \[m\].
     displacement: f64 = "displacement";
+}
+
+keys! {
+    [Distance, TelescopicRod]
+    /// Location on the base; default: the node's position \[m\].
+    at_base: [f64; 3] = "at_base";
+    /// Location on the tip; default: the node's position \[m\].
+    at_tip: [f64; 3] = "at_tip";
 }
 
 keys! {

@@ -58,6 +58,8 @@ entry! {
     slip_velocity: f64 = "slip_velocity";
     /// Coefficient of friction over the sliding velocity `slip` \[m/s\], instead of the law of `friction_coefficient`.
     traction: Function = "traction";
+    /// Angle about the normal from the axis of the wheel to that of the roller in contact, for a wheel with free rollers on its rim: friction acts along the axis of the roller \[rad\].
+    roller_angle: f64 = "roller_angle";
     /// Moment per normal force against rolling, of a wheel about its axis, of a ball about every axis in the plane; default 0 \[m\].
     rolling_friction: f64 = "rolling_friction";
     /// Additional moment per normal force and rolling rate; default 0 \[m s/rad\].
@@ -175,10 +177,56 @@ entry! {
     stiffness: Matrix = "stiffness";
     /// 6 x 6 or its diagonal, as `stiffness`; default 0 \[N s/m, N s, N m s/rad\].
     damping: Matrix = "damping";
-    /// First axis at the start, global axes; default global x. The axes rotate with the base.
-    axis: [f64; 3] = "axis";
-    /// Second axis at the start, global axes, made perpendicular to the first; default global y.
-    second_axis: [f64; 3] = "second_axis";
+    /// Displacement and rotation in the axes of the base ("base\_axes", default), or as a screw, which is the same from both sides.
+    form: words::Form = "form";
+}
+
+entry! {
+    /// Bearing of a rotating shaft: stiffness and damping matrices, which may be unsymmetric and depend on the speed.
+    Bearing => SpringId, "bearing";
+    ["kind" = "bearing"]
+    /// With what must be given.
+    ///
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
+    new(base: Node = "base", tip: Node = "tip")
+    /// For displacements across the shaft (2 x 2), along it and across (3 x 3), across with rotations about both axes (4 x 4), or all (5 x 5); a number is for both directions across; default 0 \[N/m, N, N m/rad\].
+    stiffness: Vec<Vec<f64>> = "stiffness";
+    /// As `stiffness`; default 0 \[N s/m, N s, N m s/rad\].
+    damping: Vec<Vec<f64>> = "damping";
+    /// Stiffness over `speed` \[rad/s\], added to `stiffness`: force along axis 2 per displacement along it \[N/m\].
+    k22: Function = "k22";
+    /// The same for a displacement along axis 3 \[N/m\].
+    k23: Function = "k23";
+    /// Force along axis 3 per displacement along axis 2 \[N/m\].
+    k32: Function = "k32";
+    /// The same for a displacement along axis 3 \[N/m\].
+    k33: Function = "k33";
+    /// Damping over `speed` \[rad/s\], added to `damping`, as `k22` \[N s/m\].
+    c22: Function = "c22";
+    /// As `k23` \[N s/m\].
+    c23: Function = "c23";
+    /// As `k32` \[N s/m\].
+    c32: Function = "c32";
+    /// As `k33` \[N s/m\].
+    c33: Function = "c33";
+}
+
+entry! {
+    /// Short journal bearing with a fluid film, or squeeze-film damper of a shaft that does not rotate in it.
+    JournalBearing => SpringId, "journal_bearing";
+    ["kind" = "journal_bearing"]
+    /// With what must be given.
+    ///
+    /// - `base`: first node: "ground", "body", "beam.end" …
+    /// - `tip`: second node
+    /// - `radius`: Radius of the journal \[m\]
+    /// - `length`: Length along the shaft, short against the diameter \[m\]
+    /// - `clearance`: Radial clearance \[m\]
+    /// - `viscosity`: Dynamic viscosity of the lubricant \[Pa s\]
+    new(base: Node = "base", tip: Node = "tip", radius: f64 = "radius", length: f64 = "length", clearance: f64 = "clearance", viscosity: f64 = "viscosity")
+    /// Film where the pressure is positive ("ruptured", default), or everywhere ("full").
+    film: words::Film = "film";
 }
 
 entry! {
@@ -288,11 +336,23 @@ keys! {
 }
 
 keys! {
-    [Point, RollingContact, Bushing]
+    [Point, RollingContact, Bushing, Bearing, JournalBearing]
     /// Location on the base; default: the node's position \[m\].
     at_base: [f64; 3] = "at_base";
     /// Location on the tip; default: the node's position \[m\].
     at_tip: [f64; 3] = "at_tip";
+}
+
+keys! {
+    [Bushing, Bearing, JournalBearing]
+    /// First axis at the start, global axes; default global x. The axes rotate with the base.
+    axis: [f64; 3] = "axis";
+}
+
+keys! {
+    [Bushing, Bearing]
+    /// Second axis at the start, global axes, made perpendicular to the first; default global y.
+    second_axis: [f64; 3] = "second_axis";
 }
 
 keys! {

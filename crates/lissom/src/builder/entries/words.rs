@@ -48,6 +48,31 @@ words! {
 }
 
 words! {
+    /// One of `ruptured`, `full`.
+    Film;
+    Ruptured = "ruptured";
+    Full = "full";
+}
+
+words! {
+    /// One of `base_axes`, `screw`.
+    Form;
+    BaseAxes = "base_axes";
+    Screw = "screw";
+}
+
+words! {
+    /// One of `x`, `y`, `z`, `rx`, `ry`, `rz`.
+    Free;
+    X = "x";
+    Y = "y";
+    Z = "z";
+    Rx = "rx";
+    Ry = "ry";
+    Rz = "rz";
+}
+
+words! {
     /// One of `x`, `y`, `z`, `rx`, `ry`, `rz`.
     Locked;
     X = "x";
