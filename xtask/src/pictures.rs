@@ -40,7 +40,7 @@ const PICTURES: &[(&str, &str, Instants)] = &[
     ("excavator-arm", "excavator-arm", At(&[0.0, 2.0, 4.0])),
     ("geneva-drive", "geneva-drive", At(&[0.6, 0.78, 0.95])),
     ("mecanum-platform", "mecanum-platform", At(&[0.0, 2.0, 3.5])),
-    ("oil-whirl", "oil-whirl", At(&[0.3])),
+    ("oil-whirl", "oil-whirl", At(&[0.1])),
     ("rolling-disc", "rolling-disc", Strip(4)),
     ("satellite-latching-booms", "satellite-latching-booms", Strip(4)),
     ("slider-crank-3500rpm", "slider-crank-3500rpm", At(&[0.0, 0.002, 0.006, 0.01])),
