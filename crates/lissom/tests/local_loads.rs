@@ -411,6 +411,79 @@ fn an_expression_without_a_value_ends_the_run_with_its_name() {
     }
 }
 
+const WING: &str = r#"
+lissom = 1
+[parameters]
+wind = 15
+
+chord = 0.1
+rho = 1.2
+[materials.aluminium]
+E = 70e9
+nu = 0.33
+density = 2700
+[sections.plate]
+shape = "rectangle"
+material = "aluminium"
+width = 0.1
+height = 0.001
+[beams.wing]
+section = "plate"
+from = [0, 0, 0]
+to = [0, 0, 0.6]
+elements = 12
+order = 1
+up = [0, -1, 0]
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "wing.start"
+[local_loads.air]
+on = "wing"
+flow = ["wind", -1, 0]
+force = [0, 0, "lift + apparent"]
+moment = ["b/2*(lift - apparent)", 0, 0]
+[local_loads.air.variables]
+b = "chord/2"
+apparent = "pi*rho*b^2*wind*w1"
+w = "u3 + b*w1"
+effective = "0.5*w + z1 + z2"
+lift = "2*pi*rho*b*wind*effective/(1 + (effective/(0.25*wind))^2)"
+[local_loads.air.states]
+z1 = { derivative = "wind/(chord/2)*0.0455*(0.165*w - z1)" }
+z2 = { derivative = "wind/(chord/2)*0.3*(0.335*w - z2)" }
+[outputs.tip]
+kind = "displacement"
+of = "wing.end"
+[analysis]
+kind = "statics"
+"#;
+
+/// At rest the states of Wagner's function are those of the quasi-steady air; a motion from this equilibrium stays there.
+#[test]
+fn states_are_at_rest_in_statics() {
+    let record = run(WING, &[]);
+    let quasi_steady = WING.replace("0.5*w + z1 + z2", "w");
+    let states =
+        quasi_steady.find("[local_loads.air.states]").unwrap()..quasi_steady.find("[outputs.tip]").unwrap();
+    let mut quasi_steady = quasi_steady;
+    quasi_steady.replace_range(states, "");
+    let quasi_steady = run(&quasi_steady, &[]);
+    for component in ["u1", "u2", "u3"] {
+        let [found, wanted] = [&record, &quasi_steady].map(|record| last(record, "tip", component));
+        assert!((found - wanted).abs() < 1e-9 && wanted.abs() > 1e-3, "{component}: {found} {wanted}");
+    }
+    let moving = WING.replace(
+        "kind = \"statics\"",
+        "kind = \"dynamics\"\nend = 0.5\nrelative_tolerance = 1e-6\n[initial]\nequilibrium = true",
+    );
+    let moving = run(&moving, &[]);
+    for component in ["u1", "u2", "u3"] {
+        let [found, wanted] = [&moving, &record].map(|record| last(record, "tip", component));
+        assert!((found - wanted).abs() < 1e-6, "{component}: {found} {wanted}");
+    }
+}
+
 const ACTUATOR: &str = r#"
 lissom = 1
 

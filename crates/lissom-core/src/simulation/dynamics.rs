@@ -1,6 +1,7 @@
 //! Start of a simulation, attempts at steps and their acceptance; `control` determines their length.
 
 use crate::kinematics::Subject;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use lissom_solver::FactorError;
@@ -11,6 +12,7 @@ use super::held_values::settle;
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
 use crate::consistent::singular_positions::SingularPositions;
 use crate::control;
+use crate::elements::Load;
 use crate::energy_balance::{EnergyBalance, StepWork};
 use crate::errors::InitialError;
 use crate::errors::StepError;
@@ -224,7 +226,9 @@ fn event_detector(system: &System, state: &State, settings: &Settings) -> EventD
 /// Rejects equations that contain rates, which statics does not support.
 fn refuse_rates(system: &System) -> Result<(), InitialError> {
     let layout = system.layout();
-    let mut rows = layout.states().map(|(row, ..)| row).chain(layout.velocity_rows());
+    let at_rest: BTreeSet<_> = system.elements_with(|own| own.load).flat_map(Load::states_at_rest).collect();
+    let states = layout.states().filter(|(_, state, _)| !at_rest.contains(state));
+    let mut rows = states.map(|(row, ..)| row).chain(layout.velocity_rows());
     let of_row = rows.next().map(|row| layout.subject_of(row));
     if let Some(signal) = system.signals().delayed() {
         return Err(InitialError::DelayInStatics { signal });

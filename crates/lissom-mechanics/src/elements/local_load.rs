@@ -425,6 +425,10 @@ impl Load for LocalLoad {
         Ok(())
     }
 
+    fn states_at_rest(&self) -> &[CoordinateId] {
+        &self.states
+    }
+
     fn add_by_held(&self, held: DiscreteValueId, at: &Kinematics, out: &mut [f64]) {
         let mut by = [0.0; MAX_FUNCTIONS];
         let local = self.local(at);

@@ -4,7 +4,7 @@
 use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
-use crate::kinematics::{DiscreteValueId, Kinematics, NodeId, Switch};
+use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::signals::SignalError;
 use crate::signals::measurement::Gradient;
@@ -55,6 +55,11 @@ pub trait Load: Element {
     /// If one is not finite.
     fn check(&self, _at: &Kinematics) -> Result<(), SignalError> {
         Ok(())
+    }
+
+    /// First-order states that its equations determine at rest. Default: none.
+    fn states_at_rest(&self) -> &[CoordinateId] {
+        &[]
     }
 
     /// Adds the derivatives of its forces with respect to a held value. Default: they do not depend on any.

@@ -116,14 +116,6 @@ fn at_rest(context: &Context<'_>, document: &Document) {
         let message = format!("{what} has no rates, so the state `{}` is undefined", state.name.value);
         context.fail::<()>(state.name.span, message, "remove it, or use an analysis of kind `dynamics`");
     }
-    for load in document.local_loads.iter().filter(|load| !load.states.is_empty()) {
-        let message = format!("{what} has no rates, so the states of `{}` are undefined", load.name.value);
-        context.fail::<()>(
-            load.name.span,
-            message,
-            "remove `states`, or use an analysis of kind `dynamics` or modes `--about undeformed`",
-        );
-    }
     for signal in document.signals.iter().filter(|signal| signal.sampling.is_some()) {
         let message =
             format!("{what} has no sampling times, so the signal `{}` has no value", signal.name.value);
