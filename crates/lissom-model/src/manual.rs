@@ -8,7 +8,7 @@ use crate::document::tables::variants;
 use crate::document::top_level::{Holds, Top, Variants, tops};
 use crate::expression::FUNCTION_NAMES;
 use crate::keys::{Key, Shape, direction};
-use crate::registry::{ChoiceEntry, KindEntry, Registry};
+use crate::registry::{ChoiceEntry, DEFAULT_SCHEMES, KindEntry, Registry};
 use crate::table_values::table_keys;
 
 const INTRODUCTION: &str = "\
@@ -148,13 +148,13 @@ fn forms(text: &mut String, name: &str, registry: &Registry) {
         }
     }
     if name == "analysis" {
-        choices(text, "Schemes", &registry.schemes);
-        choices(text, "Solvers", &registry.solvers);
+        choices(text, ("Schemes", DEFAULT_SCHEMES), &registry.schemes);
+        choices(text, ("Solvers", "the first is the default"), &registry.solvers);
     }
 }
 
-fn choices(text: &mut String, heading: &str, table: &[ChoiceEntry]) {
-    line(text, &format!("\n{heading}; the first is the default:\n"));
+fn choices(text: &mut String, (heading, default): (&str, &str), table: &[ChoiceEntry]) {
+    line(text, &format!("\n{heading}; {default}:\n"));
     for entry in table {
         let own: Vec<String> =
             entry.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect();

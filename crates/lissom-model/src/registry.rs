@@ -32,6 +32,9 @@ pub struct ChoiceEntry {
     pub tolerance: Option<f64>,
 }
 
+/// The defaults of `analysis.scheme`.
+pub const DEFAULT_SCHEMES: &str = "with `step`, the first is the default; without, `radau-iia-9`, and `radau-iia-5` for tolerances above 3e-5";
+
 /// All the tables.
 #[derive(Clone, Debug, Default)]
 pub struct Registry {
@@ -41,7 +44,7 @@ pub struct Registry {
     pub springs: Vec<KindEntry>,
     /// Kinds of `[loads.*]`.
     pub loads: Vec<KindEntry>,
-    /// Words for `analysis.scheme`; the first is the default.
+    /// Words for `analysis.scheme`; see [`DEFAULT_SCHEMES`].
     pub schemes: Vec<ChoiceEntry>,
     /// Words for `analysis.solver`; the first is the default.
     pub solvers: Vec<ChoiceEntry>,

@@ -543,3 +543,57 @@ fn friction_of_contacts_is_differentiated() {
     );
     assert!(matches!(refused, Err(GradientError::Feedback)), "{refused:?}");
 }
+
+const GROOVE: &str = r#"
+lissom = 1
+gravity = [0, -9.81, 0]
+[ground]
+shape = { kind = "outline", length = 1, points = [[-1, 1], [0, 0], [1, 1], [2, 1], [2, -1], [-2, -1], [-2, 1]] }
+[bodies.ball]
+mass = 1
+inertia = { sphere = 0.1 }
+position = [0, 0.15, 0]
+shape = { sphere = 0.1 }
+[joints.guide]
+kind = "planar"
+base = "ground"
+tip = "ball"
+axis = "z"
+[contacts.groove]
+base = "ground"
+tip = "ball"
+stiffness = 1e5
+dissipation = 20
+[outputs.groove]
+kind = "contact_force"
+of = "groove"
+[analysis]
+kind = "dynamics"
+end = 0.1
+"#;
+
+/// A ball in a groove of one outline has a force on one side only, which is reported; not so on one side of it, on its ridge, or
+/// between two planes.
+#[test]
+fn balls_in_hollows_are_reported() {
+    let planes =
+        "shape = [{ kind = \"plane\", normal = [1, 1, 0] }, { kind = \"plane\", normal = [-1, 1, 0] }]";
+    let outline = GROOVE.lines().find(|line| line.starts_with("shape = { kind")).expect("an outline");
+    let at = |place: &str| GROOVE.replace("[0, 0.15, 0]", place);
+    for (text, is_reported) in [
+        (GROOVE.to_owned(), true),
+        (at("[0.4, 0.54, 0]"), false),
+        (at("[1.02, 1.11, 0]"), false),
+        (GROOVE.replace(outline, planes), false),
+    ] {
+        let mut session = Model::from_text("groove.toml", &text).session(&[]).expect("valid");
+        let (record, report) = session.record();
+        assert!(report.is_complete(), "{:?}", report.error());
+        let largest = series(&record, "groove.normal").iter().copied().fold(0.0, f64::max);
+        assert!(largest > 1.0, "no contact: {text}");
+        let found = session.warnings().filter(|warning| warning.code() == "contact-in-hollow");
+        let found: Vec<String> = found.map(ToString::to_string).collect();
+        assert_eq!(found.len(), usize::from(is_reported), "{text}: {found:?}");
+        assert!(found.iter().all(|text| text.contains("contact `groove`")), "{found:?}");
+    }
+}

@@ -411,7 +411,7 @@ fn an_expression_without_a_value_ends_the_run_with_its_name() {
     }
 }
 
-const WING: &str = r#"
+const WING_IN_WIND: &str = r#"
 lissom = 1
 [parameters]
 wind = 15
@@ -462,8 +462,8 @@ kind = "statics"
 /// At rest the states of Wagner's function are those of the quasi-steady air; a motion from this equilibrium stays there.
 #[test]
 fn states_are_at_rest_in_statics() {
-    let record = run(WING, &[]);
-    let quasi_steady = WING.replace("0.5*w + z1 + z2", "w");
+    let record = run(WING_IN_WIND, &[]);
+    let quasi_steady = WING_IN_WIND.replace("0.5*w + z1 + z2", "w");
     let states =
         quasi_steady.find("[local_loads.air.states]").unwrap()..quasi_steady.find("[outputs.tip]").unwrap();
     let mut quasi_steady = quasi_steady;
@@ -473,7 +473,7 @@ fn states_are_at_rest_in_statics() {
         let [found, wanted] = [&record, &quasi_steady].map(|record| last(record, "tip", component));
         assert!((found - wanted).abs() < 1e-9 && wanted.abs() > 1e-3, "{component}: {found} {wanted}");
     }
-    let moving = WING.replace(
+    let moving = WING_IN_WIND.replace(
         "kind = \"statics\"",
         "kind = \"dynamics\"\nend = 0.5\nrelative_tolerance = 1e-6\n[initial]\nequilibrium = true",
     );

@@ -390,6 +390,26 @@ diagnostics! {
                 and the parts may pass through each other.",
             advice: "Use a larger contact stiffness, or start the parts apart.",
         }
+        /// A ball in a hollow of a shape touches two sides of it.
+        ContactInHollow {
+            /// When it was first detected [s].
+            time: f64,
+            /// The contact.
+            contact: Subject,
+            /// Penetration of the second side that remains without that of the nearest one [m].
+            depth: f64,
+        } => "contact-in-hollow" {
+            time: *time,
+            subject: contact,
+            cause: ("at t = {time} s the {contact} touches two sides of a hollow, but has a force on the nearest side only; on the other \
+                    side {depth:.3e} m of penetration are not resisted"),
+            remedy: "split the shape into solids without hollows, such as planes, boxes or convex outlines; where points approximate a curve, \
+                use `smooth = true`",
+            meaning: "A ball or roller in a hollow of an `outline`, a `mesh` or another shape touches two sides of it. The contact force acts on the \
+                nearest side only: it has a wrong direction, and may change from side to side in every step.",
+            advice: "Split the shape into several solids without hollows, such as planes, boxes or convex outlines (`shape` may be a list). Where the \
+                points of an outline approximate a curve, use `smooth = true`.",
+        }
         /// A wheel that rolls is pulled by its plane.
         WheelLifts {
             /// When it was first detected [s].

@@ -11,6 +11,7 @@ mod drives;
 mod energy_drift;
 mod energy_surplus;
 mod equilibrium_jump;
+mod hollows;
 mod impacts;
 mod instants;
 mod linear_range;
@@ -58,6 +59,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "singular-positions", begin: singular_positions::begin },
     Kind { name: "impacts", begin: impacts::begin },
     Kind { name: "penetration", begin: penetration::begin },
+    Kind { name: "hollows", begin: hollows::begin },
     Kind { name: "beam-strains", begin: beam_strains::begin },
     Kind { name: "section-forces", begin: section_forces::begin },
     Kind { name: "unresolved-forces", begin: unresolved_forces::begin },

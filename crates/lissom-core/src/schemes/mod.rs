@@ -18,7 +18,7 @@ pub use scheme::{
     SchemeKind, SchemeParameters, Stage, StageSystem, Tableau, Weights,
 };
 
-/// All schemes for dynamics, one line each; the first is the default.
+/// All schemes for dynamics, one line each; the first is the default with steps of given size.
 pub static KINDS: &[SchemeKind] = &[
     generalized_alpha::KIND,
     generalized_alpha::HHT_KIND,

@@ -14,6 +14,8 @@ use std::fmt::Debug;
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
+use super::hollow::Hollow;
+
 /// Derivatives of a vector with respect to η.
 pub type Matrix3x6 = SMatrix<f64, 3, 6>;
 
@@ -43,6 +45,11 @@ pub trait Pair: Debug + Send + Sync {
 
     /// Largest change of the gap per change of the norm of R [m]; zero where it does not depend on R.
     fn reach(&self) -> f64;
+
+    /// The penetration of a second side of the base, which the gap does not contain. Default: there is none.
+    fn hollow(&self, _x: &Vector3) -> Option<Hollow> {
+        None
+    }
 
     /// Whether the gap is linear in x and independent of R. Default: it is not.
     fn is_linear(&self) -> bool {

@@ -4,6 +4,7 @@ pub mod compliance;
 pub mod creep_law;
 pub mod curves;
 pub mod gap;
+pub mod hollow;
 pub mod pairs;
 pub mod profile;
 pub mod surfaces;

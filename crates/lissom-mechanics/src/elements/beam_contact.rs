@@ -20,6 +20,7 @@ use super::contact::{Contact, ContactForces, ContactFriction, Dissipation};
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::Pair;
+use crate::contact::hollow::Hollow;
 use crate::evaluation::switch_states::SwitchStates;
 use crate::kinematics::{
     CarriedFrame, CoordinateId, CoordinateMotion, GROUND, Kinematics, MAX_NODES, NodeId, NodeMotion, Switch,
@@ -92,6 +93,12 @@ impl BeamContact {
             }
         }
         Self { contact, base: base.node, section, bristles, nodes, switch_states: SwitchStates::default() }
+    }
+
+    /// The same with the name that warnings contain.
+    pub fn with_name(mut self, name: &str) -> Self {
+        self.contact = self.contact.with_name(name);
+        self
     }
 
     /// What acts on the beam.
@@ -278,6 +285,11 @@ impl Spring for BeamContact {
 
     fn least_elongation(&self) -> Option<f64> {
         self.contact.least_elongation()
+    }
+
+    fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
+        let found = self.between(at, |contact, scratch, _| Some(contact.hollow(&scratch.at)?.1))?;
+        Some((self.contact.name(), found))
     }
 }
 

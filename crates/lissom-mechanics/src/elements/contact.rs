@@ -28,6 +28,7 @@ use super::force_law::Response;
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
 use crate::contact::gap::{Gap, Matrix3x6, Pair, side_by_side};
+use crate::contact::hollow::Hollow;
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
 use crate::kinematics::{CarriedFrame, CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
@@ -150,6 +151,7 @@ impl ContactFriction {
 /// Two solids that may touch.
 #[derive(Clone, Debug)]
 pub struct Contact {
+    name: String,
     frames: FramePair,
     pair: Arc<dyn Pair>,
     compliance: Compliance,
@@ -280,7 +282,14 @@ impl Contact {
         let frames = FramePair::new(frames);
         let bristles = friction.as_ref().map_or_else(Vec::new, |friction| friction.bristles.clone());
         let (resistance, switch_states) = (None, SwitchStates::default());
-        Self { frames, pair, compliance, dissipation, friction, resistance, bristles, switch_states }
+        let name = String::new();
+        Self { name, frames, pair, compliance, dissipation, friction, resistance, bristles, switch_states }
+    }
+
+    /// The same with the name that warnings contain.
+    pub fn with_name(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.name);
+        self
     }
 
     /// The same with resistance to rolling and spinning.
@@ -288,6 +297,10 @@ impl Contact {
         self.bristles.extend(&resistance.bristles.bristles);
         self.resistance = Some(resistance);
         self
+    }
+
+    pub(super) fn name(&self) -> &str {
+        &self.name
     }
 
     /// Gap [m], its rate [m/s] and the normal force [N].
@@ -603,6 +616,11 @@ impl Spring for Contact {
     fn least_elongation(&self) -> Option<f64> {
         let deepest = self.pair.deepest();
         deepest.is_finite().then_some(-0.5 * deepest)
+    }
+
+    fn hollow(&self, at: &Kinematics) -> Option<(&str, Hollow)> {
+        let found = self.pair.hollow(&self.frames.motion(at).position)?;
+        Some((&self.name, found))
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {

@@ -4,6 +4,7 @@
 use lissom_motion::Vector3;
 
 use super::element::{Element, Tangents};
+use crate::contact::hollow::Hollow;
 use crate::kinematics::{CoordinateId, DiscreteValueId, Kinematics, NodeId, Switch};
 use crate::law::VisitLaw;
 use crate::signals::SignalError;
@@ -80,6 +81,12 @@ pub trait Spring: Element {
     /// The elongation below which it describes no real part [m], as where two solids in contact penetrate each other almost
     /// completely. Default: there is none.
     fn least_elongation(&self) -> Option<f64> {
+        None
+    }
+
+    /// Name of the contact and penetrations of two sides of a surface, of which its force resists the nearest one only. Default: it
+    /// touches no second side.
+    fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {
         None
     }
 }

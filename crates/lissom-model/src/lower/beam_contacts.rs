@@ -143,7 +143,8 @@ impl OfBeam<'_> {
                     pair,
                     (compliance, self.dissipation),
                     friction,
-                );
+                )
+                .with_name(&self.entry.name.value);
                 if contact.unknowns().nodes.len() > MAX_NODES {
                     return Err(self.fault(
                         "beams of order 3 touch moving parts at no points within their elements",

@@ -130,7 +130,8 @@ pub(super) fn add(
             deflection: entry.deflection,
         });
         let resistance = resistance(entry, &own, &mut contribution);
-        let mut contact = Contact::new(frames, meeting.pair, (compliance, dissipation), friction);
+        let mut contact =
+            Contact::new(frames, meeting.pair, (compliance, dissipation), friction).with_name(name);
         if let Some(resistance) = resistance {
             contact = contact.with_resistance(resistance);
         }

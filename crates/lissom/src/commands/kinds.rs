@@ -7,7 +7,7 @@ use clap::Args;
 use lissom_core::ports::Ports;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::lower::registry::registry;
-use lissom_model::registry::{ChoiceEntry, KindEntry, Registry};
+use lissom_model::registry::{ChoiceEntry, DEFAULT_SCHEMES, KindEntry, Registry};
 use lissom_model::{Form, FormKey, forms, function_names, meant, topic, topics};
 use serde_json::{Value, json};
 
@@ -96,8 +96,12 @@ impl Catalogue<'_> {
         }
     }
 
-    fn schemes_and_solvers(&self) -> [(&'static str, &[ChoiceEntry]); 2] {
-        [("scheme", &self.registry.schemes), ("solver", &self.registry.solvers)]
+    /// Keys with their words, and the default.
+    fn schemes_and_solvers(&self) -> [(&'static str, &[ChoiceEntry], &'static str); 2] {
+        [
+            ("scheme", &self.registry.schemes, DEFAULT_SCHEMES),
+            ("solver", &self.registry.solvers, "the first is the default"),
+        ]
     }
 
     /// Kinds whose names contain `wanted`, by table.
@@ -115,9 +119,9 @@ impl Catalogue<'_> {
 
     /// Schemes and solvers whose names contain `wanted`.
     fn choices(&self, text: &mut String, wanted: &str) {
-        for (word, choices) in self.schemes_and_solvers() {
+        for (word, choices, default) in self.schemes_and_solvers() {
             let entries = choices.iter().filter(|choice| normal(choice.name).contains(wanted)).map(of_choice);
-            section(text, &format!("[analysis]  {word} = \"…\"  (the first is the default)"), entries);
+            section(text, &format!("[analysis]  {word} = \"…\"  ({default})"), entries);
         }
     }
 
@@ -138,9 +142,9 @@ impl Catalogue<'_> {
             }
         }
         if wanted == "analysis" {
-            for (word, choices) in self.schemes_and_solvers() {
+            for (word, choices, default) in self.schemes_and_solvers() {
                 let list = choices.iter().map(|choice| item(choice.name, choice.summary));
-                section(text, &format!("[analysis]  {word} = \"…\"  (the first is the default)"), list);
+                section(text, &format!("[analysis]  {word} = \"…\"  ({default})"), list);
             }
         }
     }
@@ -173,7 +177,7 @@ impl Catalogue<'_> {
         let mut known: Vec<&str> = forms().map(|form| form.word).filter(|word| !word.is_empty()).collect();
         known.extend(forms().flat_map(|form| [form.table, form.singular]));
         known.extend(
-            self.schemes_and_solvers().iter().flat_map(|(_, all)| all.iter().map(|choice| choice.name)),
+            self.schemes_and_solvers().iter().flat_map(|(_, all, _)| all.iter().map(|choice| choice.name)),
         );
         known.extend(forms().flat_map(|form| form.keys.iter().map(|key| key.name)));
         known.extend(function_names());

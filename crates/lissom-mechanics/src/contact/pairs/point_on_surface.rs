@@ -11,6 +11,7 @@ use std::sync::Arc;
 use lissom_motion::{Matrix3, Vector3};
 
 use crate::contact::gap::{Gap, Pair, side_by_side};
+use crate::contact::hollow::{Hollow, hollow};
 use crate::contact::surfaces::Surface;
 
 /// The tip's origin and a surface of the base: a sphere, or a corner.
@@ -51,6 +52,10 @@ impl Pair for PointOnSurface {
 
     fn reach(&self) -> f64 {
         0.0
+    }
+
+    fn hollow(&self, x: &Vector3) -> Option<Hollow> {
+        hollow(&*self.surface, x, self.rounding)
     }
 
     fn is_linear(&self) -> bool {

@@ -82,6 +82,55 @@ impl HeightField {
             Matrix2::new(sums[2][0] / (width * width), mixed, mixed, sums[0][2] / (depth * depth)),
         )
     }
+
+    /// The foot of a point that is found from `start` on.
+    fn foot(&self, y: &Vector3, start: Vector2<f64>) -> Vector2<f64> {
+        let mut place = start;
+        let (mut height, mut slope, mut bend) = self.height(&place);
+        let squared = |place: &Vector2<f64>, height: f64| {
+            (y.xy() - place).norm_squared() + (y.z - height) * (y.z - height)
+        };
+        for _ in 0..MAX_CORRECTIONS {
+            // Half the squared distance over (u, v): gradient, and a positive Hessian.
+            let above = y.z - height;
+            let gradient = place - y.xy() - above * slope;
+            let mut hessian = Matrix2::identity() + slope * slope.transpose();
+            let bent = hessian - above * bend;
+            if bent.determinant() > 0.0 && bent.trace() > 0.0 {
+                hessian = bent;
+            }
+            let Some(inverse) = hessian.try_inverse() else { break };
+            let (mut step, before) = (-(inverse * gradient), squared(&place, height));
+            for _ in 0..MAX_CORRECTIONS {
+                let trial = place + step;
+                (height, slope, bend) = self.height(&trial);
+                if squared(&trial, height) <= before * (1.0 + round_off::SQUARED_DISTANCE) {
+                    break;
+                }
+                step *= 0.5;
+            }
+            place += step;
+            if step.norm() <= round_off::CURVE_PARAMETER * (self.spacing.norm() + place.norm()) {
+                break;
+            }
+        }
+        place
+    }
+
+    /// Distance of a point from the tangent plane at its foot.
+    fn distance_at(&self, place: &Vector2<f64>, y: &Vector3) -> Distance {
+        let (height, slope, bend) = self.height(place);
+        let length = (1.0 + slope.norm_squared()).sqrt();
+        let normal = Vector3::new(-slope.x, -slope.y, 1.0) / length;
+        let value = normal.dot(&(y - Vector3::new(place.x, place.y, height)));
+        let along = Matrix3x2::new(1.0, 0.0, 0.0, 1.0, slope.x, slope.y);
+        let (first, second) = (Matrix2::identity() + slope * slope.transpose(), bend / length);
+        let curvature = match ((first - value * second).try_inverse(), first.try_inverse()) {
+            (Some(by_place), Some(inverse)) => -along * inverse * second * by_place * along.transpose(),
+            _ => nalgebra::Matrix3::zeros(),
+        };
+        Distance { value, normal, curvature }
+    }
 }
 
 /// The cell of a position in units of cells, and the position in it; beyond the border the height is constant.
@@ -117,45 +166,39 @@ impl Surface for HeightField {
     }
 
     fn distance(&self, y: &Vector3) -> Distance {
-        let mut place = y.xy();
-        let (mut height, mut slope, mut bend) = self.height(&place);
-        let squared = |place: &Vector2<f64>, height: f64| {
-            (y.xy() - place).norm_squared() + (y.z - height) * (y.z - height)
+        self.distance_at(&self.foot(y, y.xy()), y)
+    }
+
+    fn has_hollows(&self) -> bool {
+        true
+    }
+
+    /// From those points of the grid on that are nearer than the eight around them.
+    fn sides(&self, y: &Vector3, within: f64, visit: &mut dyn FnMut(&Distance)) {
+        let index = |place: Vector2<f64>| (place - self.corner).component_div(&self.spacing);
+        let reach = Vector2::repeat(within);
+        let (low, high) = (index(y.xy() - reach), index(y.xy() + reach));
+        let last = [self.columns() - 1, self.heights.len() - 1];
+        // One line beyond the ball on both sides, within the grid.
+        let [first, end] = [low.map(f64::floor), high.map(f64::ceil)];
+        let range = |k: usize| first[k].max(0.0) as usize..=(end[k].max(0.0) as usize).min(last[k]);
+        let squared = |i: usize, j: usize| {
+            let place = self.corner + self.spacing.component_mul(&Vector2::new(i as f64, j as f64));
+            ((y.xy() - place).norm_squared() + (y.z - self.heights[j][i]).powi(2), place)
         };
-        for _ in 0..MAX_CORRECTIONS {
-            // Half the squared distance over (u, v): gradient, and a positive Hessian.
-            let above = y.z - height;
-            let gradient = place - y.xy() - above * slope;
-            let mut hessian = Matrix2::identity() + slope * slope.transpose();
-            let bent = hessian - above * bend;
-            if bent.determinant() > 0.0 && bent.trace() > 0.0 {
-                hessian = bent;
-            }
-            let Some(inverse) = hessian.try_inverse() else { break };
-            let (mut step, before) = (-(inverse * gradient), squared(&place, height));
-            for _ in 0..MAX_CORRECTIONS {
-                let trial = place + step;
-                (height, slope, bend) = self.height(&trial);
-                if squared(&trial, height) <= before * (1.0 + round_off::SQUARED_DISTANCE) {
-                    break;
+        for j in range(1) {
+            for i in range(0) {
+                let (own, place) = squared(i, j);
+                let beside = |k: usize, most: usize| k.saturating_sub(1)..=(k + 1).min(most);
+                let is_least = beside(j, last[1])
+                    .all(|row| beside(i, last[0]).all(|column| own <= squared(column, row).0));
+                if is_least {
+                    let side = self.distance_at(&self.foot(y, place), y);
+                    if side.value > 0.0 && side.value < within {
+                        visit(&side);
+                    }
                 }
-                step *= 0.5;
-            }
-            place += step;
-            if step.norm() <= round_off::CURVE_PARAMETER * (self.spacing.norm() + place.norm()) {
-                break;
             }
         }
-        (height, slope, bend) = self.height(&place);
-        let length = (1.0 + slope.norm_squared()).sqrt();
-        let normal = Vector3::new(-slope.x, -slope.y, 1.0) / length;
-        let value = normal.dot(&(y - Vector3::new(place.x, place.y, height)));
-        let along = Matrix3x2::new(1.0, 0.0, 0.0, 1.0, slope.x, slope.y);
-        let (first, second) = (Matrix2::identity() + slope * slope.transpose(), bend / length);
-        let curvature = match ((first - value * second).try_inverse(), first.try_inverse()) {
-            (Some(by_place), Some(inverse)) => -along * inverse * second * by_place * along.transpose(),
-            _ => nalgebra::Matrix3::zeros(),
-        };
-        Distance { value, normal, curvature }
     }
 }

@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use std::fmt;
 
 use lissom_motion::{Matrix3, Vector3};
+use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector as Point;
 use parry3d_f64::query::{PointQueryWithLocation, Ray, RayCast};
 use parry3d_f64::shape::{TriMesh, TriMeshFlags, TrianglePointLocation};
@@ -170,6 +171,31 @@ impl Surface for Mesh {
                 Distance { value, normal, curvature: across / value }
             }
             _ => Distance { value: normal.dot(&away), normal, curvature: Matrix3::zeros() },
+        }
+    }
+
+    fn has_hollows(&self) -> bool {
+        true
+    }
+
+    fn sides(&self, y: &Vector3, within: f64, visit: &mut dyn FnMut(&Distance)) {
+        let vector = |point: Point| Vector3::new(point.x, point.y, point.z);
+        let centre = Point::new(y.x, y.y, y.z);
+        let around = Aabb::from_half_extents(centre, Point::splat(within));
+        for triangle in self.shape.bvh().intersect_aabb(&around) {
+            let own = self.shape.triangle(triangle);
+            let (nearest, location) = own.project_local_point_and_get_location(centre, false);
+            let away = y - vector(nearest.point);
+            let (value, outwards) = (away.norm(), self.normals[triangle as usize].dot(&away));
+            if value >= within || outwards <= 0.0 {
+                continue;
+            }
+            // A point on an edge is the nearest one of all around it if it remains the nearest one closer to it.
+            let is_within = matches!(location, TrianglePointLocation::OnFace(..));
+            let closer = || self.distance(&(y - 0.5 * away)).value;
+            if is_within || closer() >= 0.5 * value - round_off::OPERATIONS * self.size {
+                visit(&Distance { value, normal: away / value, curvature: Matrix3::zeros() });
+            }
         }
     }
 }

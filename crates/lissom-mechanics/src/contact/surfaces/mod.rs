@@ -41,6 +41,15 @@ pub trait Surface: std::fmt::Debug + Send + Sync {
     /// Depth below the surface at which the nearest point of it changes to the other side [m]; infinite for a plane.
     fn depth(&self) -> f64;
 
+    /// Whether a ball outside can touch two sides of it, which [`sides`](Self::sides) passes. Default: it cannot.
+    fn has_hollows(&self) -> bool {
+        false
+    }
+
+    /// Passes the distances of the point y from the outer side to `visit`: those smaller than `within` [m] at points of the surface
+    /// that are nearer to y than all points around them. One may be passed several times. Default: none.
+    fn sides(&self, _y: &Vector3, _within: f64, _visit: &mut dyn FnMut(&Distance)) {}
+
     /// Whether its curvature is zero everywhere, so that the distance of a point is linear in its position. Default: it is not.
     fn is_plane(&self) -> bool {
         false

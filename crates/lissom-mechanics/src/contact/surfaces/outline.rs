@@ -63,6 +63,40 @@ impl Outline {
         }
         t
     }
+
+    /// Passes the parameters of all points that are nearer to y than those around them to `visit`, of those nearer than `within` [m].
+    fn feet(&self, y: &Vector2<f64>, within: f64, mut visit: impl FnMut(f64)) {
+        let points = self.curve.points();
+        let count = points.len();
+        let squared = |k: usize| (points[k] - y).norm_squared();
+        // The foot of a point is at most a chord nearer than the points beside it.
+        let most = (within + self.spacing).powi(2);
+        let [mut before, mut at] = [squared(count - 1), squared(0)];
+        for k in 0..count {
+            let after = squared((k + 1) % count);
+            let is_candidate = at <= most && at <= after && at <= before;
+            (before, at) = (at, after);
+            if is_candidate {
+                visit(self.foot(y, k));
+            }
+        }
+    }
+
+    /// Distance of y from the tangent at a foot.
+    fn distance_at(&self, foot: f64, y: &Vector2<f64>) -> Distance {
+        let [p, first, second] = self.curve.at(foot);
+        let speed = first.norm();
+        let tangent = first / speed;
+        let normal = Vector2::new(tangent.y, -tangent.x);
+        let value = normal.dot(&(y - p));
+        let bend = -normal.dot(&second) / (speed * speed);
+        let along = Vector3::new(tangent.x, tangent.y, 0.0);
+        Distance {
+            value,
+            normal: Vector3::new(normal.x, normal.y, 0.0),
+            curvature: along * along.transpose() * (bend / (1.0 + bend * value)),
+        }
+    }
 }
 
 /// The smallest radius of a circle within the outline that touches it at one of its points and at another [m].
@@ -89,37 +123,29 @@ impl Surface for Outline {
 
     fn distance(&self, y: &Vector3) -> Distance {
         let own = y.xy();
-        let points = self.curve.points();
-        let count = points.len();
-        let squared = |k: usize| (points[k] - own).norm_squared();
-        let least = (0..count).map(squared).fold(f64::INFINITY, f64::min);
-        // The foot of a point is at most a chord nearer than the points beside it.
-        let most = (least.sqrt() + self.spacing).powi(2);
+        let points = self.curve.points().iter();
+        let least = points.map(|point| (point - own).norm_squared()).fold(f64::INFINITY, f64::min).sqrt();
         let (mut foot, mut nearest) = (0.0, f64::INFINITY);
-        let [mut before, mut at] = [squared(count - 1), squared(0)];
-        for k in 0..count {
-            let after = squared((k + 1) % count);
-            let is_candidate = at <= most && at <= after && at <= before;
-            (before, at) = (at, after);
-            if is_candidate {
-                let t = self.foot(&own, k);
-                let distance = (self.curve.at(t)[0] - own).norm();
-                if distance < nearest {
-                    (foot, nearest) = (t, distance);
-                }
+        self.feet(&own, least, |t| {
+            let distance = (self.curve.at(t)[0] - own).norm();
+            if distance < nearest {
+                (foot, nearest) = (t, distance);
             }
-        }
-        let [p, first, second] = self.curve.at(foot);
-        let speed = first.norm();
-        let tangent = first / speed;
-        let normal = Vector2::new(tangent.y, -tangent.x);
-        let value = normal.dot(&(own - p));
-        let bend = -normal.dot(&second) / (speed * speed);
-        let along = Vector3::new(tangent.x, tangent.y, 0.0);
-        Distance {
-            value,
-            normal: Vector3::new(normal.x, normal.y, 0.0),
-            curvature: along * along.transpose() * (bend / (1.0 + bend * value)),
-        }
+        });
+        self.distance_at(foot, &own)
+    }
+
+    fn has_hollows(&self) -> bool {
+        true
+    }
+
+    fn sides(&self, y: &Vector3, within: f64, visit: &mut dyn FnMut(&Distance)) {
+        let own = y.xy();
+        self.feet(&own, within, |t| {
+            let side = self.distance_at(t, &own);
+            if side.value > 0.0 && side.value < within {
+                visit(&side);
+            }
+        });
     }
 }

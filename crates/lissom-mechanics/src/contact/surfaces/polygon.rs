@@ -73,6 +73,15 @@ fn inner_radius(corners: &[Vector2<f64>]) -> f64 {
     least
 }
 
+fn flat(normal: Vector2<f64>, value: f64) -> Distance {
+    Distance { value, normal: Vector3::new(normal.x, normal.y, 0.0), curvature: Matrix3::zeros() }
+}
+
+/// The normal of a line to its right.
+fn outwards(along: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(along.y, -along.x).normalize()
+}
+
 impl Surface for Polygon {
     fn depth(&self) -> f64 {
         self.depth
@@ -92,13 +101,7 @@ impl Surface for Polygon {
         }
         let (k, share) = found;
         let line = |k: usize| self.corners[(k + 1) % count] - self.corners[k % count];
-        let outwards = |along: Vector2<f64>| Vector2::new(along.y, -along.x).normalize();
         let (start, along) = (self.corners[k], line(k));
-        let flat = |normal: Vector2<f64>, value: f64| Distance {
-            value,
-            normal: Vector3::new(normal.x, normal.y, 0.0),
-            curvature: Matrix3::zeros(),
-        };
         let is_corner = share == 0.0 || share == 1.0;
         if !is_corner || nearest == 0.0 {
             let normal = outwards(along);
@@ -112,5 +115,31 @@ impl Surface for Polygon {
         let normal = (own - self.corners[corner]) / value;
         let tangent = Vector3::new(-normal.y, normal.x, 0.0);
         Distance { curvature: tangent * tangent.transpose() / value, ..flat(normal, value) }
+    }
+
+    fn has_hollows(&self) -> bool {
+        self.convex_corners().count() < self.corners.len()
+    }
+
+    fn sides(&self, y: &Vector3, within: f64, visit: &mut dyn FnMut(&Distance)) {
+        let own = y.xy();
+        let count = self.corners.len();
+        for k in 0..count {
+            let [before, start, end] = [k + count - 1, k, k + 1].map(|index| self.corners[index % count]);
+            let (along, from) = (end - start, own - start);
+            let share = from.dot(&along) / along.norm_squared();
+            let (value, normal) = if share > 0.0 && share < 1.0 {
+                let normal = outwards(along);
+                (normal.dot(&from), normal)
+            } else if share <= 0.0 && from.dot(&(start - before)) >= 0.0 {
+                let value = from.norm();
+                (value, from / value)
+            } else {
+                continue;
+            };
+            if value > 0.0 && value < within {
+                visit(&flat(normal, value));
+            }
+        }
     }
 }
