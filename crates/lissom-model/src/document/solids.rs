@@ -302,7 +302,7 @@ fn read(own: &Reader<'_, '_>, node: &Node, kind: &str) -> Option<Solid> {
     let context = own.context;
     let number = |key: &str| own.number(key).map(|number| number.value);
     let axis = direction(own, "axis")?;
-    let short = own.node(kind).filter(|_| !own.has("kind"));
+    let short = if own.has("kind") { None } else { own.node(kind) };
     let solid = match (kind, short) {
         ("box", None) => Solid::Box(own.vector("sides")?.value.into()),
         ("box", Some(value)) => Solid::Box(context.numbers::<3>(value, &own.words(kind))?),
