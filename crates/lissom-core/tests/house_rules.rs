@@ -308,7 +308,7 @@ const FLOORS: [(&str, &[&str]); 14] = [
     ("contact/", &["contact", "dual", "kinematics", "registry", "round_off"]),
     ("signals/", &["dual", "instants", "kinematics", "law", "round_off"]),
     ("joints/", &["contact", "joints", "kinematics", "law", "ports", "registry", "relation", "round_off"]),
-    ("evaluation/", &["evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
+    ("evaluation/", &["contact", "evaluation", "joints", "kinematics", "law", "round_off", "signals"]),
     (
         "elements/",
         &[

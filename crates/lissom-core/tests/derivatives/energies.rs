@@ -47,7 +47,7 @@ fn with_spring(
     }
     if kind.name == "rolling_contact" {
         // So that it is pressed.
-        parameters.insert("radius", Value::Number(3.0));
+        parameters.insert("radius", Value::Number(6.0));
     }
     two_coordinates(&mut builder);
     let attached = attached(&mut builder, kind, nodes, random);

@@ -39,7 +39,7 @@ fn wheels_that_yield_and_slip() {
         if given {
             parameters.insert("traction", Value::Function(Arc::new(Grip)));
             if radius > 0.0 {
-                parameters.insert("roller_angle", Value::Number(0.7));
+                parameters.insert("roller_angle", Value::Number(1.1));
             }
         } else {
             parameters.insert("friction_coefficient", Value::Number(0.7));

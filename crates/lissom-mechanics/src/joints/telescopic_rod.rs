@@ -16,7 +16,7 @@ use crate::registry::{DISPLACEMENT_AT_START, ParameterError};
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "telescopic_rod",
-    summary: "A massless rod of variable length between two points, with spherical joints at its ends; the displacement is a coordinate.",
+    summary: "A massless rod of variable length between two points, otherwise as `distance`; the displacement is a coordinate.",
     sample: "",
     parameters: &[DISPLACEMENT_AT_START],
     ports: Ports::TWO_LOCATIONS,

@@ -38,7 +38,7 @@ const FILMS: [&str; 2] = ["ruptured", "full"];
 pub(crate) const KIND: ElementKind = ElementKind {
     name: "journal_bearing",
     summary: "Short journal bearing with a fluid film, or squeeze-film damper of a shaft that does not rotate in it.",
-    sample: "radius = 0.02\nlength = 0.01\nclearance = 5e-5\nviscosity = 0.02",
+    sample: "at_tip = [0.0, 0.0, 0.0]\nradius = 0.02\nlength = 0.01\nclearance = 5e-5\nviscosity = 0.02",
     parameters: &[
         Parameter::required("radius", ParameterType::Positive, "m", "Radius of the journal."),
         Parameter::required(
