@@ -440,7 +440,7 @@ base = "ground"
 tip = "wing.start"
 [local_loads.air]
 on = "wing"
-flow = ["wind", -1, 0]
+flow = ["wind", -0.3, 0]
 force = [0, 0, "lift + apparent"]
 moment = ["b/2*(lift - apparent)", 0, 0]
 [local_loads.air.variables]
@@ -471,7 +471,7 @@ fn states_are_at_rest_in_statics() {
     let quasi_steady = run(&quasi_steady, &[]);
     for component in ["u1", "u2", "u3"] {
         let [found, wanted] = [&record, &quasi_steady].map(|record| last(record, "tip", component));
-        assert!((found - wanted).abs() < 1e-9 && wanted.abs() > 1e-3, "{component}: {found} {wanted}");
+        assert!((found - wanted).abs() < 1e-9 && wanted.abs() > 1e-5, "{component}: {found} {wanted}");
     }
     let moving = WING_IN_WIND.replace(
         "kind = \"statics\"",
