@@ -815,7 +815,7 @@ class SwingArm(Joint):
 
 @dataclass(kw_only=True, slots=True)
 class TelescopicRod(Joint):
-    """A massless rod of variable length between two points, with spherical joints at its ends; the displacement is a coordinate.
+    """A massless rod of variable length between two points, otherwise as `distance`; the displacement is a coordinate.
 
     Args:
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.

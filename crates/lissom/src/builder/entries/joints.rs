@@ -345,7 +345,7 @@ entry! {
 }
 
 entry! {
-    /// A massless rod of variable length between two points, with spherical joints at its ends; the displacement is a coordinate.
+    /// A massless rod of variable length between two points, otherwise as `distance`; the displacement is a coordinate.
     TelescopicRod => JointId, "telescopic_rod";
     ["kind" = "telescopic_rod"]
     /// With what must be given.
