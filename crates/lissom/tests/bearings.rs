@@ -3,6 +3,8 @@
 use lissom::campbell::{CampbellRequest, campbell};
 use lissom::{Model, Override, Record};
 
+use crate::support::refused::refused;
+
 fn run(text: &str, set: &[(&str, String)]) -> Record {
     let set: Vec<Override> = set.iter().map(|(path, value)| ((*path).to_owned(), value.clone())).collect();
     let mut session = Model::from_text("model.toml", text).session(&set).unwrap_or_else(|e| panic!("{e}"));
@@ -151,6 +153,22 @@ fn a_rotor_on_a_fluid_film_whirls_beyond_its_critical_mass() {
         assert!(first < 5e-6, "{first}");
         assert!(if grows { last > 1.2 * first } else { last < 0.8 * first }, "{relative}: {first} {last}");
     }
+}
+
+#[test]
+fn films_that_are_not_short_and_journals_beside_their_bearing_are_refused() {
+    let film = |keys: &str| {
+        let keys = format!(
+            "[springs.film]\nkind = \"journal_bearing\"\nbase = \"ground\"\ntip = \"rotor\"\nviscosity = 0.02\nclearance = 1e-4\n{keys}\n[analysis]"
+        );
+        refused(&ROTOR.replace("[analysis]", &keys)).split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    assert!(film("radius = 0.02\nlength = 0.05").contains("is greater than the diameter"));
+    let beside = film("radius = 0.02\nlength = 0.01\nat_base = [0, 0.1, 0]");
+    assert!(
+        beside.contains("is 0.1 m from the axis of the journal") && beside.contains("centre of the bearing"),
+        "{beside}"
+    );
 }
 
 /// A full film around a shaft that does not rotate is a damper with c = π μ R L³/C³ for small motions.

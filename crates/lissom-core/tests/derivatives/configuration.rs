@@ -123,8 +123,10 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
     {
         let value = match parameter.holds {
             ParameterType::Positive if parameter.name == "exponent" => Value::Number(1.7),
-            // Wider than the random positions.
-            ParameterType::Positive if parameter.name == "clearance" => Value::Number(20.0),
+            // Wider than the random positions, and longer than films may be.
+            ParameterType::Positive if ["clearance", "radius"].contains(&parameter.name) => {
+                Value::Number(20.0)
+            }
             ParameterType::Number => Value::Number(random.number()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
             ParameterType::Vector

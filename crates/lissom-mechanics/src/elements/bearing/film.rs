@@ -82,6 +82,10 @@ fn build(
     parameters: &Parameters,
 ) -> Result<Contribution, ParameterError> {
     let (clearance, length) = (parameters.number("clearance")?, parameters.number("length")?);
+    if length > 2.0 * parameters.number("radius")? {
+        let problem = "is greater than the diameter: such a film has gradients around the circumference, which a short bearing neglects";
+        return Err(ParameterError::new("length", problem));
+    }
     let viscous = 0.5 * parameters.number("viscosity")? * parameters.number("radius")?;
     let film = Film {
         clearance,
