@@ -16,6 +16,7 @@ use std::ops::Mul;
 use lissom_motion::{Motion, Vector6};
 use serde::{Deserialize, Serialize};
 
+use crate::elements::inertia::Inertia;
 use crate::joints::evaluation_point::Augmentation;
 use crate::kinematics::step_stages::STAGES;
 use crate::kinematics::{CoordinateMotion, Kinematics, Layout, MotionChange, Quantity};
@@ -102,7 +103,8 @@ pub struct Representative {
     pub damping: f64,
     /// k_r [N/m].
     pub stiffness: f64,
-    /// Representative length: root mean square distance between two nodes [m].
+    /// Representative length: root mean square distance between two nodes except the ground's, or the radius of gyration of
+    /// the parts about their nodes if that is longer [m].
     pub length: f64,
 }
 
@@ -111,7 +113,7 @@ impl Representative {
     pub fn of(system: &System, at: &Kinematics, linearization: &Linearization) -> Self {
         let pattern = system.pattern();
         let count = system.layout().coordinate_count();
-        let length = spread(at);
+        let length = extent(system, at);
         let quantities = system.layout().quantities();
         // States have other units than positions.
         let is_place = |row: &usize| quantities[*row] != Quantity::State;
@@ -141,15 +143,20 @@ fn unit(quantity: Quantity, radian: f64) -> f64 {
     }
 }
 
-/// Root mean square distance between two nodes; 1 if all nodes coincide.
-fn spread(at: &Kinematics) -> f64 {
-    let places: Vec<_> = at.nodes.iter().map(|node| node.frame.position).collect();
-    let count = places.len() as f64;
-    let center = places.iter().sum::<lissom_motion::Vector3>() / count;
+/// Size of a model that does not depend on its distance from the origin, where the ground's node is; 1 for a single point mass.
+fn extent(system: &System, at: &Kinematics) -> f64 {
+    let places = || at.nodes.iter().skip(1).map(|node| node.frame.position);
+    let count = places().count() as f64;
+    let first = places().next().unwrap_or_default();
+    let center = places().map(|place| place - first).sum::<lissom_motion::Vector3>() / count;
     // Σ over pairs |xᵢ - xⱼ|² = n Σ |xᵢ - x̄|²
-    let square =
-        2.0 * places.iter().map(|place| (place - center).norm_squared()).sum::<f64>() / (count - 1.0);
-    if square > 0.0 { square.sqrt() } else { 1.0 }
+    let square = places().map(|place| (place - first - center).norm_squared()).sum::<f64>();
+    let [mass, trace] = system.inertias().iter().map(Inertia::mass).fold([0.0; 2], |[mass, trace], own| {
+        [mass + own[(0, 0)], trace + own[(3, 3)] + own[(4, 4)] + own[(5, 5)]]
+    });
+    // Each sum may be empty.
+    let most = (2.0 * square / (count - 1.0)).max(0.0).max((0.5 * trace / mass).max(0.0));
+    if most > 0.0 { most.sqrt() } else { 1.0 }
 }
 
 /// The scaled equations for one step size.

@@ -1,5 +1,5 @@
 //! The same mechanism in other units and on another level of mass takes the same iterations and gives the same motion.
-//! In other units positions are rounded elsewhere, which decides a few iterations.
+//! In other units positions are rounded elsewhere, which decides a few iterations. So are those of a mechanism far from the origin.
 
 use std::path::Path;
 
@@ -109,6 +109,64 @@ fn units_and_mass_levels_do_not_show() {
         compare(&reference, &run(scheme, &in_millimetres_and_tonnes()), 1e3, 1.0);
         for factor in [1e6, 1e-6] {
             compare(&reference, &run(scheme, &heavier(factor)), 1.0, factor);
+        }
+    }
+}
+
+/// A double pendulum on a spring, and a body in flight, `shift` m away from the origin: steps and the last positions relative to it.
+fn shifted(body: &str, shift: f64) -> (usize, Vec<f64>) {
+    let text = format!(
+        "lissom = 1\ngravity = [0, 0, -9.81]\nparameters.far = {shift:e}\n{body}\n\
+         analysis = {{ kind = \"dynamics\", end = 1 }}\n"
+    );
+    let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
+    while !session.is_finished() {
+        session.advance().unwrap();
+    }
+    let steps = session.simulation().totals().steps;
+    let nodes = session.simulation().state().kinematics.nodes.iter().skip(1);
+    let [x, y, z] = [shift, -shift / 2.0, shift / 4.0];
+    let positions = nodes.map(|node| node.frame.position);
+    (steps, positions.flat_map(|place| [place.x - x, place.y - y, place.z - z]).collect())
+}
+
+#[test]
+fn distances_from_the_origin_do_not_show() {
+    let pendulum = r#"
+        [bodies]
+        a = { mass = 2, inertia = { box = [0.6, 0.05, 0.05] }, position = ["far + 0.3", "-far/2", "far/4"] }
+        b = { mass = 1, inertia = { box = [0.4, 0.05, 0.05] }, position = ["far + 0.8", "-far/2", "far/4"] }
+        [joints]
+        h = { kind = "revolute", base = "ground", tip = "a", at = ["far", "-far/2", "far/4"], axis = "y" }
+        k = { kind = "spherical", base = "a", tip = "b", at = ["far + 0.6", "-far/2", "far/4"] }
+        [springs.spring]
+        kind = "point"
+        base = "ground"
+        tip = "b"
+        at_base = ["far + 1.2", "0.3 - far/2", "far/4"]
+        at_tip = ["far + 1.0", "-far/2", "far/4"]
+        stiffness = 60
+        length = 0.3"#;
+    let arm = r#"
+        [bodies]
+        arm = { mass = 2, inertia = { box = [0.6, 0.05, 0.05] }, position = ["far + 0.3", "-far/2", "far/4"] }
+        [joints]
+        h = { kind = "revolute", base = "ground", tip = "arm", at = ["far", "-far/2", "far/4"], axis = "y" }"#;
+    let flight = r#"
+        [bodies.stone]
+        mass = 2
+        inertia = { box = [0.6, 0.05, 0.04] }
+        position = ["far", "-far/2", "far/4"]
+        velocity = [3, 0, 1]
+        angular_velocity = [1, 0.2, 4]"#;
+    for body in [pendulum, arm, flight] {
+        let (steps, wanted) = shifted(body, 0.0);
+        for shift in [1e3, 1e6, 5e6] {
+            let (others, found) = shifted(body, shift);
+            assert!(steps.abs_diff(others) <= steps / 20, "{shift:e} m: {others} steps, not {steps}");
+            for (found, wanted) in found.iter().zip(&wanted) {
+                assert!((found - wanted).abs() < 1e-5, "{shift:e} m: {found} instead of {wanted}");
+            }
         }
     }
 }

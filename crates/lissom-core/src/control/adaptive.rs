@@ -13,7 +13,9 @@ use super::interface::{Control, Review};
 use crate::bytes::{from_bytes, to_bytes};
 use crate::instants::TIME_TOLERANCE;
 use crate::integrator::Attempt;
-use crate::integrator::error_estimate::{MIN_ERROR, MIN_REFERENCE, driven, excursion};
+use crate::integrator::error_estimate::{
+    MIN_ERROR, MIN_REFERENCE, driven, excursion, larger, largest, relative_size, travel,
+};
 use crate::kinematics::CoordinateId;
 use crate::settings::{Controlled, Problem, StepControl};
 use crate::tuning::{Tuning, TuningParameter};
@@ -58,6 +60,8 @@ pub(crate) struct Adaptive {
 struct Extent {
     /// Largest displacement of a node, at most 1 [-].
     displacement: f64,
+    /// Largest mean displacement of the nodes [-].
+    travel: f64,
     /// Largest scaled acceleration [1/s²]; zero if forces are not controlled.
     acceleration: f64,
 }
@@ -66,6 +70,7 @@ impl Extent {
     fn or(self, other: Self) -> Self {
         Self {
             displacement: self.displacement.max(other.displacement),
+            travel: self.travel.max(other.travel),
             acceleration: self.acceleration.max(other.acceleration),
         }
     }
@@ -96,11 +101,14 @@ impl Adaptive {
         let integrator = review.integrator;
         let (end, length) = (&review.attempt.end.kinematics, integrator.representative.length);
         let displacement = excursion(system, (review.origin, end), length);
-        self.reached = Extent { displacement, acceleration: 0.0 };
+        let travel = travel(system, (review.origin, end)) / length;
+        self.reached = Extent { displacement, travel, acceleration: 0.0 };
         let mut reference = self.farthest.displacement.max(displacement).max(MIN_REFERENCE);
         if reference < 1.0 {
             reference = reference.max(driven(system, (review.origin.time, end.time + max_step), length));
         }
+        let references = [reference, reference.max(self.farthest.travel).max(travel)];
+        let limits = |allowed: f64| references.map(|reference| (allowed * reference).max(MIN_ERROR));
         let scheme = &settings.scheme;
         let share = settings.limits.tuning.of(TuningParameter::ShareOfStep);
         let root = |ratio: f64, order: i32| ratio.powf(1.0 / f64::from(order));
@@ -110,17 +118,12 @@ impl Adaptive {
             let allowed = share * tolerance.powf(f64::from(order) / f64::from(scheme.order));
             integrator.estimate_error(review.problem, estimate, end, review.has_switched);
             let work = &*integrator.work;
-            let errors = work
-                .error
-                .filtered
-                .iter()
-                .zip(&work.units.coordinates)
-                .map(|(error, size)| (error * size).abs());
-            let positions = largest(errors) / (reference * allowed).max(MIN_ERROR);
+            let scaled = |row: usize| work.error.filtered[row] * work.units.coordinates[row];
+            let positions = relative_size(system, end, scaled, limits(allowed));
             // First-order states, each relative to its magnitude, unfiltered.
             let of = |(row, coordinate, magnitude): (usize, CoordinateId, f64)| {
                 let value = review.start.kinematics.coordinates[coordinate].value;
-                (work.error.unfiltered[row] / magnitude.max(value.abs())).abs()
+                work.error.unfiltered[row] / magnitude.max(value.abs())
             };
             let states = largest(system.layout().states().map(of)) / allowed;
             excess = larger(excess, root(larger(positions, states), order));
@@ -140,20 +143,10 @@ impl Adaptive {
         }
         let ends = (review.start, &review.attempt.end);
         let order = integrator.dense(review.problem, ends).order();
-        let defect = integrator.defect(review.problem, ends);
         let allowed = tolerance.powf((f64::from(order) / f64::from(scheme.order)).min(1.0)).min(MAX_DEFECT);
-        self.defect = defect / (allowed * reference).max(MIN_ERROR);
+        self.defect = integrator.defect(review.problem, ends, limits(allowed));
         larger(excess, root(self.defect, order))
     }
-}
-
-/// The larger of two numbers; a NaN counts as the largest.
-fn larger(a: f64, b: f64) -> f64 {
-    if b <= a || a.is_nan() { a } else { b }
-}
-
-fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, larger)
 }
 
 impl Control for Adaptive {

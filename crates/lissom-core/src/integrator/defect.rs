@@ -15,6 +15,7 @@
 //! the step. Neither is the correction of the violations at the start, which does not decrease with the step size: defects up to its
 //! size are reported as zero.
 
+use super::error_estimate::relative_size;
 use super::{Integrator, dense_output};
 use crate::joints::evaluation_point::{Increments, Point};
 use crate::kinematics::MotionChange;
@@ -45,12 +46,13 @@ impl Middle {
 }
 
 impl Integrator {
-    /// Largest scaled displacement of the defect within the last attempt, from one of these states to the other. NaN if the
-    /// residual is not finite.
+    /// Largest scaled displacement of the defect within the last attempt, from one of these states to the other, over the allowed
+    /// ones of [`relative_size`]. NaN if the residual is not finite.
     pub(crate) fn defect(
         &mut self,
         Problem { system, settings }: Problem<'_>,
         (from, to): (&State, &State),
+        allowed: [f64; 2],
     ) -> f64 {
         let Self { middle, work, scaled, .. } = self;
         let Middle { state, unmoved, unchanged } = &mut **middle;
@@ -78,19 +80,16 @@ impl Integrator {
         work.tangent.matrices.solve(&settings.scheme.coupling, &mut residuals);
         let length = self.representative.length;
         let corrected = system.layout().relative_violations(&from.violations, length).fold(0.0, f64::max);
-        let mut largest = 0.0_f64;
         if let Some(last) = residuals.last_mut() {
             work.tangent.scale(last);
-            for (value, size) in last.iter().zip(&work.units.coordinates) {
-                let displacement = (value * size).abs();
-                // A NaN counts as the largest.
-                if largest.is_nan() || displacement <= largest {
-                    continue;
-                }
-                largest = displacement;
-            }
         }
+        let sizes = &work.units.coordinates;
+        let size = |allowed| {
+            let last = residuals.last().map_or(&[][..], Vec::as_slice);
+            relative_size(system, at, |row| last[row] * sizes[row], allowed)
+        };
+        let (largest, relative) = (size([1.0; 2]), size(allowed));
         work.residuals = residuals;
-        if largest <= CORRECTED * corrected { 0.0 } else { largest }
+        if largest <= CORRECTED * corrected { 0.0 } else { relative }
     }
 }

@@ -13,11 +13,14 @@
 //! ε is the size of the step over that of a step with the largest allowed error. The filter is that of [Hairer and Wanner 1996,
 //! IV.8]. A scheme of several stages has two estimates, of which the larger ε is used. The norm is the maximum norm, with lengths
 //! relative to ℓ_r. The reference is the largest displacement or rotation of a node since the start, or that of a drive within the
-//! longest step, at most 1.
+//! longest step, at most 1. That of the mean displacement of all nodes is its own largest value, if that is longer: the motion of an
+//! orbit is not resolved to a fraction of the size of the satellite.
+
+use lissom_motion::Vector3;
 
 use super::Integrator;
 use crate::elements::contribution::CoordinateMass;
-use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity, Subject};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Layout, NodeId, Quantity, Subject};
 use crate::schemes::ErrorEstimate;
 use crate::settings::Problem;
 use crate::system::{Drive, System};
@@ -49,6 +52,59 @@ pub(crate) fn excursion(system: &System, (from, to): (&Kinematics, &Kinematics),
         }
     }
     most
+}
+
+/// Mean of a vector over the nodes that can move, in global axes.
+fn mean(layout: &Layout, of: impl Fn(NodeId) -> Vector3) -> Vector3 {
+    let moving = layout.nodes().filter(|&node| layout.rows_of_node(node).iter().any(|&row| row != LOCKED));
+    let (sum, count) =
+        moving.fold((Vector3::zeros(), 0.0_f64), |(sum, count), node| (sum + of(node), count + 1.0));
+    sum / count.max(1.0)
+}
+
+/// Mean displacement of the nodes between two instants [m].
+pub(crate) fn travel(system: &System, (from, to): (&Kinematics, &Kinematics)) -> f64 {
+    mean(system.layout(), |node| to.nodes[node].frame.position - from.nodes[node].frame.position).norm()
+}
+
+/// Size of a scaled displacement by row over the allowed one; the mean displacement of the nodes has a limit of its own, if that is
+/// larger. A NaN counts as the largest.
+pub(crate) fn relative_size(
+    system: &System,
+    at: &Kinematics,
+    scaled: impl Fn(usize) -> f64,
+    [allowed, of_mean]: [f64; 2],
+) -> f64 {
+    let layout = system.layout();
+    let rows = 0..layout.coordinate_count();
+    if of_mean <= allowed {
+        return largest(rows.map(scaled)) / allowed;
+    }
+    let own = |row: u32| if row == LOCKED { 0.0 } else { scaled(row as usize) };
+    let global = |node: NodeId| {
+        let rows = layout.rows_of_node(node);
+        at.nodes[node].frame.rotation.apply(&Vector3::from_fn(|k, _| own(rows[k])))
+    };
+    let mean = mean(layout, global);
+    let of_node = |node: NodeId| {
+        let common = at.nodes[node].frame.rotation.apply_inverse(&mean);
+        let rows = layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED);
+        rows.map(move |(k, &row)| (k, row))
+            .map(move |(k, row)| own(row) - if k < 3 { common[k] } else { 0.0 })
+    };
+    let others = layout.coordinate_rows.iter().map(|&row| own(row));
+    let apart = largest(layout.nodes().flat_map(of_node).chain(others)) / allowed;
+    larger(apart, mean.norm() / of_mean)
+}
+
+/// The larger of two numbers; a NaN counts as the largest.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if b <= a || a.is_nan() { a } else { b }
+}
+
+/// Largest magnitude; a NaN counts as the largest.
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.map(f64::abs).fold(0.0, larger)
 }
 
 /// Largest change of a drive between two instants, at most 1.

@@ -44,6 +44,25 @@ fn models_that_are_not_yet_right_exist() {
     }
 }
 
+/// Errors are relative to the way around, not to the size of the satellite, and the distance from the origin is not a size of the model.
+#[test]
+fn orbit_of_a_free_body() {
+    let results = Results::clean("orbit-of-a-free-body.toml", &[]);
+    let output = &results.ended.output;
+    let steps = output.split(" steps").next().unwrap().rsplit(' ').next().unwrap().parse::<usize>();
+    assert!(steps.as_ref().is_ok_and(|steps| *steps < 60), "{output}");
+    let (radius, speed, mu) = (6.9e6, 7600.5, 3.986_004_418e14_f64);
+    let axis = radius / (2.0 - speed * speed * radius / mu);
+    let angle = (mu / axis.powi(3)).sqrt() * 5702.2;
+    // The orbit departs by 1e-5 from a circle.
+    results.assert_last(
+        "p",
+        &["x", "y"],
+        &[angle.cos(), angle.sin()].map(|share| share * radius),
+        1e-4 * radius,
+    );
+}
+
 // Recorded quantities.
 
 #[test]
