@@ -50,7 +50,7 @@ fn orbit_of_a_free_body() {
     let results = Results::clean("orbit-of-a-free-body.toml", &[]);
     let output = &results.ended.output;
     let steps = output.split(" steps").next().unwrap().rsplit(' ').next().unwrap().parse::<usize>();
-    assert!(steps.as_ref().is_ok_and(|steps| *steps < 60), "{output}");
+    assert!(steps.as_ref().is_ok_and(|steps| *steps < 1500), "{output}");
     let (radius, speed, mu) = (6.9e6, 7600.5, 3.986_004_418e14_f64);
     let axis = radius / (2.0 - speed * speed * radius / mu);
     let angle = (mu / axis.powi(3)).sqrt() * 5702.2;
