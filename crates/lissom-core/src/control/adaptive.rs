@@ -30,6 +30,8 @@ const MIN_TREND: f64 = 0.5;
 /// than the distance of two branches does not distinguish them. Of a four-bar whose links pass through one line, generalized-α,
 /// HHT and Radau IIA find the branch with seven times this limit.
 const MAX_DEFECT: f64 = 1e-3;
+/// Largest growth from step to step of the size that the defect allows: the defect of a periodic motion vanishes twice a period.
+const MAX_GROWTH_BY_DEFECT: f64 = 1.5;
 /// Defects below this fraction of the allowed one are not expected to exceed it in the next step, which is at most five times as
 /// long.
 const NEGLIGIBLE_DEFECT: f64 = 0.02;
@@ -43,8 +45,9 @@ pub(crate) struct Adaptive {
     controller: Controller,
     /// Of the motion since the start.
     farthest: Extent,
-    /// Defect that was evaluated last, over the allowed one.
+    /// Defect that was evaluated last, over the allowed one, and the size that it allows [s].
     defect: f64,
+    by_defect: f64,
     /// Duration to the target of the present step, and the longest step on the way [s].
     distance: f64,
     bound: f64,
@@ -86,6 +89,7 @@ impl Adaptive {
             controller,
             farthest: Extent::default(),
             defect: 0.0,
+            by_defect: f64::INFINITY,
             distance,
             bound,
             excess: 1.0,
@@ -135,6 +139,7 @@ impl Adaptive {
                 excess = larger(excess, root(forces, order));
             }
         }
+        integrator.correct_dense_start(review.problem);
         // A tangent that remains valid over the step shows that the equations change little within it, unless the last defect was
         // considerable. A step that is rejected needs no second reason.
         let is_due = review.attempt.outcome.factorizations > 0 || self.defect > NEGLIGIBLE_DEFECT;
@@ -143,9 +148,15 @@ impl Adaptive {
         }
         let ends = (review.start, &review.attempt.end);
         let order = integrator.dense(review.problem, ends).order();
-        let allowed = tolerance.powf((f64::from(order) / f64::from(scheme.order)).min(1.0)).min(MAX_DEFECT);
+        let allowed = tolerance.min(MAX_DEFECT);
         self.defect = integrator.defect(review.problem, ends, limits(allowed));
-        larger(excess, root(self.defect, order))
+        let (size, own) = (review.attempt.size, root(self.defect, order));
+        let by_last = size / (MAX_GROWTH_BY_DEFECT * self.by_defect);
+        let of_defect = larger(own, by_last.min(1.0));
+        if of_defect.is_finite() {
+            self.by_defect = size / of_defect;
+        }
+        larger(excess, of_defect)
     }
 }
 
@@ -212,13 +223,13 @@ impl Control for Adaptive {
     }
 
     fn save(&self) -> Vec<u8> {
-        to_bytes(&(self.controller, self.farthest, self.defect))
+        to_bytes(&(self.controller, self.farthest, self.defect, self.by_defect))
     }
 
     fn restore(&mut self, saved: &[u8]) -> bool {
-        let mut learned = (self.controller, self.farthest, self.defect);
+        let mut learned = (self.controller, self.farthest, self.defect, self.by_defect);
         let is_read = from_bytes(saved, &mut learned);
-        (self.controller, self.farthest, self.defect) = learned;
+        (self.controller, self.farthest, self.defect, self.by_defect) = learned;
         is_read
     }
 }

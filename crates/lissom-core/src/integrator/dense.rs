@@ -34,6 +34,8 @@ pub(crate) struct SolvedStages<'s> {
     pub(crate) layout: &'s Layout,
     /// By stage, then by row.
     pub(crate) increments: &'s [Vec<f64>],
+    /// Change of q' at the start in constrained directions, by row.
+    pub(crate) start_change: &'s [f64],
     /// Multipliers, by stage [N, N m].
     pub(crate) multipliers: &'s [Vec<f64>],
 }
@@ -80,14 +82,15 @@ impl DenseOutput<'_> {
 
 impl SolvedStages<'_> {
     fn at(&self, from: &State, to: &State, x: f64, out: &mut State) {
-        let Self { polynomial, table, layout, increments, multipliers } = *self;
+        let Self { polynomial, table, layout, increments, start_change, multipliers } = *self;
         let (start, end) = (&from.kinematics, &to.kinematics);
         let duration = end.time - start.time;
         let ahead = x * duration;
         let weights = polynomial.at(x, table);
         let combine = |combination: &Combination, row: usize| {
             let terms = combination.increments.iter().zip(increments);
-            terms.map(|(weight, stage)| weight * stage[row]).sum::<f64>()
+            combination.velocity * start_change[row]
+                + terms.map(|(weight, stage)| weight * stage[row]).sum::<f64>()
         };
         let (per_time, per_square) = (1.0 / duration, 1.0 / (duration * duration));
         out.kinematics.held.clone_from(&start.held);

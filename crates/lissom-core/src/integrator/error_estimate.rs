@@ -187,6 +187,21 @@ impl Integrator {
         work.tangent.scale(&mut work.error.filtered);
     }
 
+    /// Takes the velocity at the start out of the dense output in constrained directions and those of stiff parts. The last error of a
+    /// collocation scheme, which must have been estimated, is proportional to the velocity that its stages imply at the start.
+    pub(crate) fn correct_dense_start(&mut self, Problem { system, settings }: Problem<'_>) {
+        let scheme = &settings.scheme;
+        let (Some(dense), Some(estimate)) = (&scheme.dense, scheme.errors.last()) else { return };
+        let work = &mut *self.work;
+        let factor = dense.slopes_at_start().next().unwrap_or(0.0) / estimate.combination.increments[0];
+        let errors = work.error.unfiltered.iter().zip(&work.error.filtered);
+        for (change, (whole, free)) in work.start_change.iter_mut().zip(errors) {
+            *change = factor * (whole - free);
+        }
+        // Rates of first-order states follow from the states.
+        system.layout().states().for_each(|(row, ..)| work.start_change[row] = 0.0);
+    }
+
     /// The unknown with the largest estimated error of the last attempt.
     pub(crate) fn most_inaccurate(&self, system: &System) -> Subject {
         let errors = self

@@ -161,6 +161,7 @@ impl Integrator {
         let start = attempt.start(state);
         self.scaled.to_unit_step(system.layout(), &settings.scheme, start, &mut self.work.unit);
         self.work.round_off.travel = None;
+        self.work.start_change.fill(0.0);
         system.begin_step(&start.kinematics, &mut self.work.evaluation.joint_starts);
         Ok(())
     }
@@ -268,6 +269,7 @@ fn dense_output<'s>(
         table: &settings.scheme.stages,
         layout: system.layout(),
         increments: &work.increments,
+        start_change: &work.start_change,
         multipliers: &work.multipliers,
     });
     DenseOutput { from, to, stages }

@@ -104,6 +104,9 @@ pub(crate) struct Workspace {
     pub(crate) prediction: Prediction,
     /// Increments beyond the extrapolated start of the step, by stage and coordinate row.
     pub(crate) increments: Vec<Vec<f64>>,
+    /// Change of q' at the start that the stages imply in constrained directions, by coordinate row; zero until the error of the
+    /// attempt is estimated.
+    pub(crate) start_change: Vec<f64>,
     /// Multipliers by stage [N, N m].
     pub(crate) multipliers: Vec<Vec<f64>>,
     /// By stage; then at the end of the step, for schemes that integrate velocities.
@@ -151,6 +154,7 @@ impl Workspace {
                 extrapolates: false,
             },
             increments: vec![vec![0.0; count]; stages],
+            start_change: vec![0.0; count],
             multipliers: vec![state.multipliers.clone(); stages],
             motions: vec![
                 StageMotion::new(&state.kinematics);

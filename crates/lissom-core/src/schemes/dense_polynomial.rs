@@ -8,8 +8,12 @@
 //! ```
 //!
 //! Position and velocity are those of the step at both ends, since the quadrature of the scheme is exact for polynomials of degree
-//! 2 S - 2. Between them positions of unconstrained motions have an error of order S + 2 in the step size, those of constrained
-//! directions one of order S + 1. Equations of motion are satisfied at the stages and at the start.
+//! 2 S - 2. Between them positions of unconstrained motions have an error of order S + 2 in the step size. Equations of motion are
+//! satisfied at the stages and at the start.
+//!
+//! In constrained directions the velocity at the start has the error of the *previous* step, which a shorter step does not reduce: with
+//! it positions would err in proportion to h. There q'_0 is replaced by the velocity that the stages imply, q'_0 + Σ_j w_j'(0) D_j, and
+//! positions have an error of order S + 1.
 
 use super::scheme::{Combination, MAX_STAGES, Stage};
 
@@ -20,7 +24,7 @@ pub struct DensePolynomial {
     basis: Vec<Vec<f64>>,
 }
 
-/// Linear combinations of the increments and the start at a step fraction.
+/// Linear combinations of the increments and the start at a step fraction; of velocities, that of a change of q'_0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DenseWeights {
     /// The increment.
@@ -62,12 +66,13 @@ impl DensePolynomial {
         for (knot, powers) in self.basis.iter().enumerate() {
             let value = powers.iter().rev().fold(0.0, |sum, power| sum * x + power);
             weights.multipliers[knot] = value;
-            let Some(stage) = knot.checked_sub(1).map(|stage| &stages[stage]) else {
-                weights.acceleration.acceleration = value;
-                continue;
-            };
             let terms = powers.iter().enumerate().rev();
             let integral = terms.fold(0.0, |sum, (degree, power)| (sum + power / (degree + 1) as f64) * x);
+            let Some(stage) = knot.checked_sub(1).map(|stage| &stages[stage]) else {
+                weights.acceleration.acceleration = value;
+                (weights.place.velocity, weights.velocity.velocity) = (integral, value);
+                continue;
+            };
             weights.place = weights.place.plus(&stage.velocity.times(integral));
             weights.velocity = weights.velocity.plus(&stage.velocity.times(value));
             weights.acceleration = weights.acceleration.plus(&stage.acceleration.times(value));

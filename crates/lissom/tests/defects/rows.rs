@@ -65,6 +65,29 @@ fn orbit_of_a_free_body() {
 
 // Recorded quantities.
 
+/// Between the ends of steps, which are exact: x = r cos φ + √(ℓ² - r² sin² φ).
+#[test]
+fn records_within_the_steps_of_driven_mechanisms() {
+    for (tolerance, allowed) in [("1e-4", 6e-5), ("1e-6", 1e-6)] {
+        let tolerance = format!("analysis.relative_tolerance={tolerance}");
+        let options = ["--set", &tolerance, "--set", "analysis.output_step=0.005", "--no-plots"];
+        let results = Results::of("run", "driven-slider-crank.toml", &options);
+        results.assert_done();
+        for (time, x) in results.column("time").iter().zip(results.column("s.x")) {
+            let (sine, cosine) = (20.0 * time).sin_cos();
+            near("s.x", x, 0.1 * cosine + (0.09 - 0.01 * sine * sine).sqrt(), allowed);
+        }
+    }
+    let chain = Results::clean("driven-chain-1e-8.toml", &[]);
+    let scheme = "analysis.scheme=\"radau-iia-9\"";
+    let fine =
+        Results::clean("driven-chain-1e-8.toml", &["--set", scheme, "--set", "analysis.max_step=0.004"]);
+    for name in ["p.x", "p.y", "p.z", "v.v1"] {
+        let (found, wanted) = (chain.column(name), fine.column(name));
+        found.iter().zip(&wanted).for_each(|(found, wanted)| near(name, *found, *wanted, 1e-7));
+    }
+}
+
 #[test]
 fn reactions_by_default() {
     let results = Results::clean("reactions-by-default.toml", &[]);
