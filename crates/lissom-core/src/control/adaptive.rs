@@ -5,7 +5,9 @@
 //! ```
 //!
 //! Legend: ε size of the step over that of a step with the largest allowed error, a size of the latter: if it becomes smaller from step to
-//! step it is expected to do so again. The size is kept if it would change only slightly.
+//! step it is expected to do so again. The size is kept if it would change only slightly. It grows slowly after a step that needed
+//! many iterations, and shrinks after one that needed very many, if that has been of use; a size without solution is avoided for a
+//! while.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,6 +26,17 @@ use crate::tuning::{Tuning, TuningParameter};
 const SHARE_OF_FORCES: f64 = 0.4;
 /// Largest growth of a step.
 const MAX_GROWTH: f64 = 2.5;
+/// Iterations of a step after which the next one grows slowly, and those and tangents after which it becomes shorter: longer steps
+/// would cost more than they gain.
+const MANY_ITERATIONS: usize = 8;
+const TOO_MANY_ITERATIONS: usize = 14;
+const MANY_TANGENTS: usize = 2;
+/// Slow growth, and the ratio by which steps are shortened.
+const SLOW_GROWTH: f64 = 1.25;
+const SHORTENED: f64 = 0.7;
+/// Fraction of a size without solution to which steps grow, and growth of that limit per step.
+const BELOW_FAILED: f64 = 0.8;
+const FORGETTING: f64 = 1.02;
 /// Smallest ratio of the allowed sizes of two steps that is expected to continue.
 const MIN_TREND: f64 = 0.5;
 /// Largest defect in the middle of a step, as a fraction of the reference, if the tolerance is not smaller: a tolerance coarser
@@ -206,7 +219,8 @@ impl Control for Adaptive {
     }
 
     fn accept(&mut self, attempt: &Attempt, tuning: &Tuning) -> bool {
-        self.controller.accept(attempt.size, self.excess, self.control.max_step, tuning);
+        let limits = (self.controller.growth(attempt), self.control.max_step);
+        self.controller.accept(attempt.size, self.excess, limits, tuning);
         // An event may have ended the step before the time at which it was reviewed.
         if attempt.size == self.reviewed {
             self.farthest = self.farthest.or(self.reached);
@@ -243,12 +257,18 @@ struct Controller {
     has_failed: bool,
     /// Largest allowed size of the last accepted step [s]; zero before the first.
     allowed: f64,
+    /// Size of the last accepted step [s], and its iterations per second.
+    last: [f64; 2],
+    /// Size below which fewer iterations are not expected [s].
+    futile: f64,
+    /// Limit from a size without solution [s].
+    failed: f64,
 }
 
 impl Controller {
     /// At the start, with a first step of `size` [s].
     fn new(size: f64) -> Self {
-        Self { size, has_failed: false, allowed: 0.0 }
+        Self { size, has_failed: false, allowed: 0.0, last: [0.0; 2], futile: 0.0, failed: f64::INFINITY }
     }
 
     /// Size of the next step [s].
@@ -268,9 +288,27 @@ impl Controller {
         }
     }
 
-    /// A step of `taken` [s] is accepted, which is `excess` times as long as one with the largest allowed error.
-    fn accept(&mut self, taken: f64, excess: f64, max_step: f64, tuning: &Tuning) {
-        let largest = if self.has_failed { 1.0 } else { MAX_GROWTH };
+    /// Largest growth after an accepted attempt, by its iterations.
+    fn growth(&mut self, attempt: &Attempt) -> f64 {
+        let (size, outcome) = (attempt.size, &attempt.outcome);
+        let last = std::mem::replace(&mut self.last, [size, outcome.iterations as f64 / size]);
+        if outcome.iterations <= MANY_ITERATIONS {
+            self.futile = 0.0;
+            return MAX_GROWTH;
+        }
+        if size < last[0] && self.last[1] > last[1] {
+            self.futile = size;
+        }
+        let is_laborious = outcome.iterations > TOO_MANY_ITERATIONS || outcome.factorizations > MANY_TANGENTS;
+        if is_laborious && size > self.futile { SHORTENED } else { SLOW_GROWTH }
+    }
+
+    /// A step of `taken` [s] is accepted, which is `excess` times as long as one with the largest allowed error. The next one may grow
+    /// by a factor, and to a size.
+    fn accept(&mut self, taken: f64, excess: f64, (growth, max_step): (f64, f64), tuning: &Tuning) {
+        // A step shortened to end at the target shows little of the work of longer ones.
+        let growth = if taken < self.size { MAX_GROWTH } else { growth };
+        let largest = if self.has_failed { growth.min(1.0) } else { growth };
         let allowed = taken / excess;
         let trend = (allowed / std::mem::replace(&mut self.allowed, allowed)).sqrt().clamp(MIN_TREND, 1.0);
         // After a step without any error there is no trend.
@@ -281,7 +319,8 @@ impl Controller {
         let wanted = taken * if (1.0 / kept..kept).contains(&factor) { 1.0 } else { factor };
         // A step shortened to end at the target shows that at least its size is possible.
         self.size = if taken < self.size { wanted.max(self.size.min(taken * factor)) } else { wanted };
-        self.size = self.size.min(max_step);
+        self.failed *= FORGETTING;
+        self.size = self.size.min(max_step).min(self.failed);
     }
 
     /// A step of `taken` [s] is rejected, which is `excess` times as long, more than 1.
@@ -297,6 +336,7 @@ impl Controller {
     /// A step of `taken` [s] has no solution.
     fn fail(&mut self, taken: f64) {
         self.size = 0.25 * taken;
+        self.failed = BELOW_FAILED * taken;
         self.has_failed = true;
     }
 }
@@ -316,7 +356,7 @@ mod tests {
                 controller.reject(size, excess, &Tuning::default());
                 rejected += 1;
             } else {
-                controller.accept(size, excess, 10.0, &Tuning::default());
+                controller.accept(size, excess, (MAX_GROWTH, 10.0), &Tuning::default());
                 time += size;
                 taken.push(size);
             }
