@@ -185,10 +185,28 @@ impl EnergyBalance {
         after
     }
 
-    /// Records an impact that dissipates energy at an instant.
-    pub(crate) fn record_impact(&mut self, system: &System, before: &Kinematics, after: &Kinematics) {
-        self.latches += system.energy(before).kinetic - system.energy(after).kinetic;
-        self.weigh(system.energy(after), None);
+    /// Records an impact that dissipates `lost` [J] at an instant; without it an inelastic one, which dissipates the kinetic energy of
+    /// the change of velocities. The rest of the change of energy is work of drives.
+    pub(crate) fn record_impact(
+        &mut self,
+        system: &System,
+        before: &Kinematics,
+        after: &Kinematics,
+        lost: Option<f64>,
+    ) {
+        let lost = lost.unwrap_or_else(|| {
+            let mut change = after.clone();
+            change.nodes.iter_mut().zip(&before.nodes).for_each(|(own, before)| own.twist -= before.twist);
+            let coordinates = change.coordinates.iter_mut().zip(&before.coordinates);
+            coordinates.for_each(|(own, before)| own.rate -= before.rate);
+            system.energy(&change).kinetic
+        });
+        let [before, after] = [before, after].map(|at| system.energy(at));
+        let drives = after.kinetic - before.kinetic + lost;
+        self.latches += lost;
+        self.drives += drives;
+        self.moved += drives.abs();
+        self.weigh(after, None);
     }
 
     /// Records the energy; in statics with the part of the weight that acts as a load.

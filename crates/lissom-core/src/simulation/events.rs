@@ -6,6 +6,7 @@ use crate::kinematics::Subject;
 use crate::settings::{Problem, StepReport, Stopwatch};
 use crate::signals::event::Occurrence;
 use crate::simulation::Simulation;
+use crate::simulation::recovery::{Need, Recovery};
 use crate::simulation::signal_history::Break;
 
 /// Maximum nesting depth of laws with levels whose arguments have levels themselves.
@@ -105,10 +106,16 @@ impl Simulation {
         }
         let graph = self.system.signals();
         let mut at = self.state.kinematics.clone();
-        for &event in &happened {
-            // All signals are evaluated before any value is set.
-            for &(held, signal) in &graph.events()[event].sets {
-                at.held[held.index()] = graph.value(signal, &self.state.kinematics);
+        let mut sets = happened.iter().flat_map(|&event| &graph.events()[event].sets).peekable();
+        if sets.peek().is_some() {
+            // Rates are those that would be recorded. All signals are evaluated before any value is set.
+            let mut recovery = Recovery::of(self);
+            let recovered = recovery.as_mut().and_then(|recovery| {
+                recovery.recover(Need::Forces, (&self.system, &self.state), self.attempt.size)
+            });
+            let read = recovered.map_or(&self.state, |recovered| &recovered.rates);
+            for &(held, signal) in sets {
+                at.held[held.index()] = graph.value(signal, &read.kinematics);
             }
         }
         let contacts = self.contacts_of(&happened);

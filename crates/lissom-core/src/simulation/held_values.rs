@@ -134,7 +134,8 @@ impl Simulation {
         if let Some(initial) = &mut self.held_values {
             if engages {
                 initial.velocities(&self.system, &mut state)?;
-                self.energy_balance.record_impact(&self.system, &self.state.kinematics, &state.kinematics);
+                let [before, after] = [&self.state, &state].map(|state| &state.kinematics);
+                self.energy_balance.record_impact(&self.system, before, after, None);
             }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }
@@ -205,7 +206,8 @@ impl Simulation {
             }
         };
         if engages {
-            self.energy_balance.record_impact(&self.system, &kept.kinematics, &self.state.kinematics);
+            let [before, after] = [&kept, &self.state].map(|state| &state.kinematics);
+            self.energy_balance.record_impact(&self.system, before, after, None);
         }
         jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
         self.add_jump(jump);

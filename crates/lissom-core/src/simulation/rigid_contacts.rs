@@ -149,7 +149,8 @@ fn compliance(candidates: &[Candidate<'_>], responses: &[DVector<f64>]) -> DMatr
 /// What changed at an instant.
 #[derive(Default)]
 pub(super) struct Outcome {
-    has_impact: bool,
+    /// Energy that an impact has dissipated [J].
+    lost: Option<f64>,
     /// Whether no part approached faster than its velocity of rest: a part that rocks is stopped.
     is_slow: bool,
     warnings: Vec<Warning>,
@@ -269,14 +270,14 @@ fn impact(
         Some((impulses, gain))
     };
     let unsolved = || InitialError::ContactForces { contact: candidates[0].subject() };
-    let (mut impulses, gain) = solve(1.0).ok_or_else(unsolved)?;
+    let (mut impulses, mut gain) = solve(1.0).ok_or_else(unsolved)?;
     if gain > GAIN * kinetic {
         let (mut low, mut high) = (0.0, 1.0);
-        (impulses, _) = solve(0.0).ok_or_else(unsolved)?;
+        (impulses, gain) = solve(0.0).ok_or_else(unsolved)?;
         for _ in 0..BISECTIONS {
             let middle = 0.5 * (low + high);
             match solve(middle) {
-                Some((found, gain)) if gain <= GAIN * kinetic => (low, impulses) = (middle, found),
+                Some((found, own)) if own <= GAIN * kinetic => (low, impulses, gain) = (middle, found, own),
                 _ => high = middle,
             }
         }
@@ -291,7 +292,7 @@ fn impact(
         changes += response * *impulse;
     }
     add_velocities(system.layout(), &changes, &mut state.kinematics);
-    outcome.has_impact = true;
+    outcome.lost = Some(-gain);
     Ok(())
 }
 
@@ -517,6 +518,10 @@ impl Simulation {
         let (system, state) = (&self.system, &mut self.state);
         let change = || {
             state.kinematics.time = earlier;
+            if !touched.is_empty() {
+                // In schemes of low order velocities deviate from those of drives.
+                initial.velocities(system, state)?;
+            }
             let before = initial.acceleration_at(system, state)?;
             state.kinematics.time = later;
             if let Some(held) = held {
@@ -585,8 +590,9 @@ impl Simulation {
 
     /// Records an impact, and makes all events of contacts possible.
     fn finish_contacts(&mut self, before: &Kinematics, outcome: Outcome) {
-        if outcome.has_impact {
-            self.energy_balance.record_impact(&self.system, before, &self.state.kinematics);
+        if outcome.lost.is_some() {
+            let after = &self.state.kinematics;
+            self.energy_balance.record_impact(&self.system, before, after, outcome.lost);
         }
         for warning in outcome.warnings {
             warn(&mut self.warnings, warning);
