@@ -153,7 +153,7 @@ of = "arch@0.5"
 [analysis]
 kind = "path"
 end = 3242.463348
-step = 200
+step = 190
 branch = 1
 "#;
 
