@@ -131,14 +131,14 @@ impl<'l> Course<'l> {
     }
 
     /// The largest magnitude of a law that is not bounded, where the time or one argument takes all values and the others those of
-    /// the interval. Times of the next steps are included: the values of a law that starts smoothly may be round-off.
-    fn magnitude(&self) -> f64 {
+    /// the interval from `from` on. Times of the next steps are included: the values of a law that starts smoothly may be round-off.
+    fn magnitude(&self, from: f64) -> f64 {
         let count = self.arguments.len();
         let of =
             |time: Interval, arguments: &[Interval]| self.law.bounds(time, arguments).map_or(0.0, largest);
         let mut arguments = [[0.0; 2]; MAX_ARGUMENTS];
         for (argument, cubic) in arguments.iter_mut().zip(self.arguments) {
-            *argument = range(cubic, [0.0, 1.0]);
+            *argument = range(cubic, [from, 1.0]);
         }
         let time = [self.time(0.0), self.time(1.0)];
         let ahead = [time[0], self.time(f64::from(STEPS_AHEAD))];
@@ -516,12 +516,17 @@ impl Laws {
                 magnitude.value = magnitude.value.max(largest([course.value(1.0); 2]));
             }
             let mut found = None;
-            if magnitude.value > 0.0 {
-                found = find(&course, magnitude.value);
-            }
-            if !is_bounded && (found.is_some() || magnitude.value == 0.0) {
-                magnitude.value = magnitude.value.max(course.magnitude());
-                found = find(&course, magnitude.value);
+            if !is_bounded && !law.is_smooth() && [0.0, 1.0].iter().all(|&end| course.value(end) == 0.0) {
+                // Solids in free flight: over the way the bounds of the force would be those of solids within each other.
+                found = find(&course, course.magnitude(1.0));
+            } else {
+                if magnitude.value > 0.0 {
+                    found = find(&course, magnitude.value);
+                }
+                if !is_bounded && (found.is_some() || magnitude.value == 0.0) {
+                    magnitude.value = magnitude.value.max(course.magnitude(0.0));
+                    found = find(&course, magnitude.value);
+                }
             }
             let Some(share) = found else { return };
             if middle.is_empty() {

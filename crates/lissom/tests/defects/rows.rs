@@ -261,6 +261,20 @@ fn bump_stop_table_chosen_steps() {
     }
 }
 
+/// A wall of a millimetre after a free flight, whose steps are as long as the run allows.
+#[test]
+fn bullet_through_a_wall() {
+    for (file, tolerance) in [
+        ("bullet-through-a-wall.toml", "1e-5"),
+        ("bullet-through-a-wall.toml", "1e-8"),
+        ("rigid-bullet-through-a-wall.toml", "1e-5"),
+    ] {
+        let tolerance = format!("analysis.relative_tolerance={tolerance}");
+        let results = Results::clean(file, &["--set", &tolerance]);
+        results.assert_last("v", &["v1"], &[-300.0], 1e-3);
+    }
+}
+
 /// Points that are as far apart at the ends of a long step as if they had never met.
 #[test]
 fn contacts_of_points_within_long_steps() {
