@@ -515,18 +515,19 @@ impl Laws {
             if !is_bounded {
                 magnitude.value = magnitude.value.max(largest([course.value(1.0); 2]));
             }
+            // Solids in free flight: over the way the bounds of the force would be those of solids within each other.
+            let is_flight =
+                !is_bounded && !law.is_smooth() && [0.0, 1.0].iter().all(|&end| course.value(end) == 0.0);
+            let of_flight = if is_flight { course.magnitude(1.0) } else { 0.0 };
             let mut found = None;
-            if !is_bounded && !law.is_smooth() && [0.0, 1.0].iter().all(|&end| course.value(end) == 0.0) {
-                // Solids in free flight: over the way the bounds of the force would be those of solids within each other.
-                found = find(&course, course.magnitude(1.0));
-            } else {
-                if magnitude.value > 0.0 {
-                    found = find(&course, magnitude.value);
-                }
-                if !is_bounded && (found.is_some() || magnitude.value == 0.0) {
-                    magnitude.value = magnitude.value.max(course.magnitude(0.0));
-                    found = find(&course, magnitude.value);
-                }
+            if of_flight > 0.0 {
+                found = find(&course, of_flight);
+            } else if magnitude.value > 0.0 {
+                found = find(&course, magnitude.value);
+            }
+            if !is_bounded && of_flight == 0.0 && (found.is_some() || magnitude.value == 0.0) {
+                magnitude.value = magnitude.value.max(course.magnitude(0.0));
+                found = find(&course, magnitude.value);
             }
             let Some(share) = found else { return };
             if middle.is_empty() {
