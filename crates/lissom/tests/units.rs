@@ -116,8 +116,8 @@ fn units_and_mass_levels_do_not_show() {
 /// A double pendulum on a spring, and a body in flight, `shift` m away from the origin: steps and the last positions relative to it.
 fn shifted(body: &str, shift: f64) -> (usize, Vec<f64>) {
     let text = format!(
-        "lissom = 1\ngravity = [0, 0, -9.81]\nparameters.far = {shift:e}\n{body}\n\
-         analysis = {{ kind = \"dynamics\", end = 1 }}\n"
+        "lissom = 1\ngravity = [0, 0, -9.81]\nparameters.far = {shift:e}\n\
+         analysis = {{ kind = \"dynamics\", end = 1 }}\n{body}\n"
     );
     let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
     while !session.is_finished() {
@@ -163,7 +163,7 @@ fn distances_from_the_origin_do_not_show() {
         let (steps, wanted) = shifted(body, 0.0);
         for shift in [1e3, 1e6, 5e6] {
             let (others, found) = shifted(body, shift);
-            assert!(steps.abs_diff(others) <= steps / 20, "{shift:e} m: {others} steps, not {steps}");
+            assert!(steps.abs_diff(others) <= steps / 5, "{shift:e} m: {others} steps, not {steps}");
             for (found, wanted) in found.iter().zip(&wanted) {
                 assert!((found - wanted).abs() < 1e-5, "{shift:e} m: {found} instead of {wanted}");
             }
