@@ -18,7 +18,7 @@ use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
 
-/// Iterates with a last correction above this, of the representative length or of a longer increment, are far from equilibrium [-].
+/// Iterates with a last correction above this, of the representative length or of a longer predicted increment, are far from equilibrium [-].
 pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
 /// Smallest reference of increments, relative to the drift, for the convergence of first-order states [-].
 const MIN_DEPARTURE: f64 = 1e-5;
@@ -226,8 +226,11 @@ impl StepEquations<'_> {
     /// relative to the largest multiplier, in the same units, because they may still change after the positions have converged.
     fn add_corrections(&mut self) -> Correction {
         let places = self.measure_places();
-        // A free flight of many representative lengths has corrections of that size.
-        let largest = places.reference.max(1.0);
+        if self.work.newton.correction.is_infinite() {
+            // A free flight of many representative lengths, as predicted, has corrections of that size.
+            self.work.newton.reach = places.reference.max(1.0);
+        }
+        let largest = self.work.newton.reach;
         self.work.newton.correction = places.size / largest;
         if !places.size.is_finite() {
             return places;

@@ -43,6 +43,8 @@ pub(crate) struct Progress {
     pub(crate) backed_off: bool,
     /// Size of the last correction of positions.
     pub(crate) correction: f64,
+    /// Size beyond which corrections are cut.
+    pub(crate) reach: f64,
     /// All iterations and tangents so far.
     pub(crate) effort: Effort,
     /// Secants.
@@ -167,6 +169,7 @@ impl Workspace {
                 before: vec![vec![0.0; layout.size()]; stages],
                 backed_off: false,
                 correction: f64::INFINITY,
+                reach: 1.0,
                 effort: Effort::default(),
                 anderson: Anderson::new(stages, layout.size(), &sizes),
             },
