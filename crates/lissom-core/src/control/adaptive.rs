@@ -43,6 +43,8 @@ const MIN_TREND: f64 = 0.5;
 /// than the distance of two branches does not distinguish them. Of a four-bar whose links pass through one line, generalized-α,
 /// HHT and Radau IIA find the branch with seven times this limit.
 const MAX_DEFECT: f64 = 1e-3;
+/// Ratio of sizes below which the last step was longer.
+const SHORTER: f64 = 0.9;
 /// Largest growth from step to step of the size that the defect allows: the defect of a periodic motion vanishes twice a period.
 const MAX_GROWTH_BY_DEFECT: f64 = 1.5;
 /// Defects below this fraction of the allowed one are not expected to exceed it in the next step, which is at most five times as
@@ -152,7 +154,10 @@ impl Adaptive {
                 excess = larger(excess, root(forces, order));
             }
         }
-        integrator.correct_dense_start(review.problem);
+        // The polynomial of two stages alone is no better than their start, unless that comes from a longer step.
+        if scheme.stages.len() > 2 || review.attempt.size < SHORTER * self.controller.last[0] {
+            integrator.correct_dense_start(review.problem);
+        }
         // A tangent that remains valid over the step shows that the equations change little within it, unless the last defect was
         // considerable. A step that is rejected needs no second reason.
         let is_due = review.attempt.outcome.factorizations > 0 || self.defect > NEGLIGIBLE_DEFECT;

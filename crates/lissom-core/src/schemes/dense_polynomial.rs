@@ -12,8 +12,8 @@
 //! satisfied at the stages and at the start.
 //!
 //! In constrained directions the velocity at the start has the error of the *previous* step, which a shorter step does not reduce: with
-//! it positions would err in proportion to h. There q'_0 is replaced by the velocity that the stages imply, q'_0 + Σ_j w_j'(0) D_j, and
-//! positions have an error of order S + 1.
+//! it positions would err in proportion to h. There positions use the velocity that the stages imply, q'_0 + Σ_j w_j'(0) D_j, and have an
+//! error of order S + 1.
 
 use super::scheme::{Combination, MAX_STAGES, Stage};
 
@@ -24,7 +24,7 @@ pub struct DensePolynomial {
     basis: Vec<Vec<f64>>,
 }
 
-/// Linear combinations of the increments and the start at a step fraction; of velocities, that of a change of q'_0.
+/// Linear combinations of the increments and the start at a step fraction; of velocities, that of a change of q'_0 in positions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct DenseWeights {
     /// The increment.
@@ -70,7 +70,7 @@ impl DensePolynomial {
             let integral = terms.fold(0.0, |sum, (degree, power)| (sum + power / (degree + 1) as f64) * x);
             let Some(stage) = knot.checked_sub(1).map(|stage| &stages[stage]) else {
                 weights.acceleration.acceleration = value;
-                (weights.place.velocity, weights.velocity.velocity) = (integral, value);
+                weights.place.velocity = integral;
                 continue;
             };
             weights.place = weights.place.plus(&stage.velocity.times(integral));
