@@ -11,6 +11,8 @@ pub enum PortType {
     Node {
         /// Whether it must not be the ground.
         moves: bool,
+        /// Whether its axes are used, so that it cannot be a point mass; for joints their equations determine this.
+        axes: bool,
     },
     /// A location on nodes at the start [m]. Nodes without one have their own position.
     Location {
@@ -74,6 +76,13 @@ impl PortDeclaration {
         Self { sample, ..self }
     }
 
+    const fn with_axes(mut self) -> Self {
+        if let PortType::Node { axes, .. } = &mut self.holds {
+            *axes = true;
+        }
+        self
+    }
+
     const fn location(
         key: &'static str,
         of: &'static [&'static str],
@@ -86,12 +95,33 @@ impl PortDeclaration {
 
 const BASE: PortDeclaration = PortDeclaration::required(
     "base",
-    PortType::Node { moves: false },
+    PortType::Node { moves: false, axes: false },
     "first node: \"ground\", \"body\", \"beam.end\" …",
 )
 .sample("base = \"ground\"");
-const TIP: PortDeclaration = PortDeclaration::required("tip", PortType::Node { moves: false }, "second node")
-    .sample("tip = \"my_body\"");
+const TIP: PortDeclaration =
+    PortDeclaration::required("tip", PortType::Node { moves: false, axes: false }, "second node")
+        .sample("tip = \"my_body\"");
+const AT_BASE: PortDeclaration = PortDeclaration::location(
+    "at_base",
+    &["base"],
+    &["base"],
+    "location on the base; default: the node's position",
+)
+.sample("at_base = [0.0, 0.0, 0.0]");
+const AT_TIP: PortDeclaration = PortDeclaration::location(
+    "at_tip",
+    &["tip"],
+    &["tip"],
+    "location on the tip; default: the node's position",
+)
+.listed("at_tip (default: the nodes' positions)");
+const ON: PortDeclaration =
+    PortDeclaration::required("on", PortType::Node { moves: true, axes: false }, "node on which it acts")
+        .sample("on = \"my_body\"");
+const AT_NODE: PortDeclaration =
+    PortDeclaration::location("at", &["on"], &["on"], "location; default: the node's position")
+        .listed("at (default: the node's position)");
 const AT: PortDeclaration = common_location(&["base", "tip"]);
 const AT_HINGE: PortDeclaration = common_location(&["base"]);
 const AXIS: PortDeclaration =
@@ -153,31 +183,13 @@ impl Ports {
         .listed(""),
     ]);
     /// Two nodes, each at a location of its own.
-    pub const TWO_LOCATIONS: Self = Self(&[
-        BASE,
-        TIP,
-        PortDeclaration::location(
-            "at_base",
-            &["base"],
-            &["base"],
-            "location on the base; default: the node's position",
-        )
-        .sample("at_base = [0.0, 0.0, 0.0]"),
-        PortDeclaration::location(
-            "at_tip",
-            &["tip"],
-            &["tip"],
-            "location on the tip; default: the node's position",
-        )
-        .listed("at_tip (default: the nodes' positions)"),
-    ]);
+    pub const TWO_LOCATIONS: Self = Self(&[BASE, TIP, AT_BASE, AT_TIP]);
+    /// The same, with axes in both nodes, which cannot be point masses.
+    pub const TWO_FRAMES: Self = Self(&[BASE.with_axes(), TIP.with_axes(), AT_BASE, AT_TIP]);
     /// One node.
-    pub const ONE_NODE: Self = Self(&[
-        PortDeclaration::required("on", PortType::Node { moves: true }, "node on which it acts")
-            .sample("on = \"my_body\""),
-        PortDeclaration::location("at", &["on"], &["on"], "location; default: the node's position")
-            .listed("at (default: the node's position)"),
-    ]);
+    pub const ONE_NODE: Self = Self(&[ON, AT_NODE]);
+    /// One node with axes, which cannot be a point mass.
+    pub const ONE_FRAME: Self = Self(&[ON.with_axes(), AT_NODE]);
     /// A rotation of a joint.
     pub const ROTATION: Self = Self(&[coordinate(
         Quantity::Angle,
@@ -220,6 +232,15 @@ impl Ports {
     pub fn node(self, key: &str) -> usize {
         let mut nodes = self.0.iter().filter(|port| matches!(port.holds, PortType::Node { .. }));
         nodes.position(|port| port.key == key).expect("locations are declared of nodes of the same kind")
+    }
+
+    /// Key of the node at this position among the nodes, and whether its axes are used.
+    pub fn node_port(self, index: usize) -> (&'static str, bool) {
+        let mut nodes = self.0.iter().filter_map(|port| match port.holds {
+            PortType::Node { axes, .. } => Some((port.key, axes)),
+            _ => None,
+        });
+        nodes.nth(index).unwrap_or_else(|| (self.0.first().map_or("", |port| port.key), false))
     }
 
     /// Whether it connects two nodes, base and tip.

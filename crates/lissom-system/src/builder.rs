@@ -35,6 +35,7 @@ use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
 use lissom_mechanics::joints::attached::AttachedJoint;
 use lissom_mechanics::joints::blocks::Batches;
 use lissom_mechanics::joints::derivatives::{LOCAL, OWN, TIP};
+use lissom_mechanics::joints::spherical::Spherical;
 use lissom_mechanics::joints::{Build, Geometry, JointKind};
 use lissom_mechanics::kinematics::{
     CarriedFrame, CoordinateId, CoordinateMotion, Freedoms, GROUND, Kinematics, LOCKED, Layout, NodeId,
@@ -204,7 +205,7 @@ impl Builder {
         attached: Attached,
         parameters: &Parameters,
     ) -> Result<Option<ElementId>, ParameterError> {
-        (kind.build)(&self.model, attached, parameters).map(|contribution| self.add(contribution))
+        kind.contribution(&self.model, attached, parameters).map(|contribution| self.add(contribution))
     }
 
     /// Adds an entry whose elements are unit loads, multiplied by a signal.
@@ -289,12 +290,30 @@ impl Builder {
                 base = base * Motion::translation(back);
             }
         }
+        let points = placement.nodes.map(|node| self.model.nodes[node].freedoms.is_point());
+        if points.contains(&true) && joint.equations().len() == 6 && joint.coordinates().is_empty() {
+            // What locks everything fixes the position of a point mass in the frame of the other node.
+            joint = Box::new(Spherical);
+            if on_tip.is_none() {
+                let point = placement.nodes[usize::from(!points[0])];
+                base.position = self.model.nodes[point].motion.frame.position;
+            }
+        }
         let (values, relative) = joint.initial();
         let places = [base, on_tip.map_or(Ok(base), |place| place.frame(&base, placement))? * relative];
         let carried = [0, 1].map(|side| {
             let node = placement.nodes[side];
             CarriedFrame { node, offset: places[side].relative_to(&self.model.nodes[node].motion.frame) }
         });
+        let turns = joint.contact().is_some()
+            || joint.rail_contact().is_some()
+            || (0..joint.equations().len()).any(|k| joint.equation_quantity(k) == Quantity::Angle);
+        for (side, CarriedFrame { node, offset }) in carried.into_iter().enumerate() {
+            let axes = turns || (side == 0 && kind.ports.directions() > 0);
+            self.model.check_carried(["base", "tip"][side], (node, offset.position), axes).map_err(
+                |error| ParameterError::new(&error.parameter, error.problem + ", or use `distance`"),
+            )?;
+        }
         let coordinates: Vec<CoordinateId> = joint
             .coordinates()
             .iter()

@@ -98,7 +98,7 @@ fn sizes_that_are_signals() {
             let last = graph(&mut builder, nodes, own, &mut random);
             let parameters = sample_parameters(kind.parameters, flag, &mut random)
                 .with(size.name, Value::Function(Arc::new(Constant(1.0))));
-            let load = (kind.build)(builder.model(), attached, &parameters).expect("valid");
+            let load = kind.contribution(builder.model(), attached, &parameters).expect("valid");
             builder.add_driven(last, load);
             let (system, state) = builder.build(0.0).expect("valid");
             check(kind.name, &system, &state, 0.4, &mut random);

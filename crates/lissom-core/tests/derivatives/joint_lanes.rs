@@ -5,6 +5,7 @@ use lissom_core::joints::evaluation_point::Point;
 use lissom_core::joints::starts::JointStarts;
 use lissom_core::joints::{self, Build};
 use lissom_core::kinematics::{Freedoms, LOCKED};
+use lissom_core::registry::ParameterError;
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Motion, Vector3};
 
@@ -28,17 +29,26 @@ fn many(kind: &joints::JointKind, random: &mut Random) -> (System, State) {
         } else {
             builder.add_node("base", frame(random), Freedoms::Full)
         };
-        let freedoms = if is_planar { Freedoms::Planar(0, 1) } else { Freedoms::Full };
-        let tip = builder.add_node("tip", frame(random), freedoms);
-        let placement = Placement {
-            nodes: [base, tip],
-            at: random.vector(),
-            at_tip: None,
-            axis: Some(if is_plain { Vector3::z() } else { random.vector() }),
-            second_axis: Some(random.vector()),
-        };
         let parameters = sample_parameters(kind.parameters, true, random);
-        builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
+        let axis = if is_plain { Vector3::z() } else { random.vector() };
+        let mut added = Err(ParameterError::new("tip", "has no rotation"));
+        // Joints that need a rotation reject the point mass, and have a body instead.
+        for freedoms in [Freedoms::Planar(0, 1), Freedoms::Full].into_iter().skip(usize::from(!is_planar)) {
+            let tip = builder.add_node("tip", frame(random), freedoms);
+            let at = if freedoms.is_point() { builder.initial_frame(tip).position } else { random.vector() };
+            let placement = Placement {
+                nodes: [base, tip],
+                at,
+                at_tip: None,
+                axis: Some(axis),
+                second_axis: Some(random.vector()),
+            };
+            added = builder.add_joint("joint", kind, &placement, &parameters);
+            if added.is_ok() {
+                break;
+            }
+        }
+        added.expect("valid");
     }
     builder.build(0.0).expect("valid")
 }

@@ -221,14 +221,19 @@ fn all_joints() {
             }
             let placement = Placement {
                 nodes,
-                at: random.vector(),
+                // Only joints fixed to two nodes are at a point mass.
+                at: if planar { builder.initial_frame(nodes[1]).position } else { random.vector() },
                 at_tip: None,
                 axis: Some(axis),
                 second_axis: Some(random.vector()),
             };
             let parameters = sample_parameters(kind.parameters, true, &mut random);
             let attachment = ports::joint_attachment(&mut builder, kind, &placement, &mut random);
-            builder.add_joint_of_kind("constraint", kind, attachment, &parameters).expect("valid");
+            let added = builder.add_joint_of_kind("constraint", kind, attachment, &parameters);
+            if planar && added.as_ref().is_err_and(|error| error.problem.contains("no rotation")) {
+                continue;
+            }
+            added.expect("valid");
             let (system, state) = builder.build(0.0).expect("valid");
             check_names(kind.name, &system);
             check(kind.name, &system, &state, size, &mut random);

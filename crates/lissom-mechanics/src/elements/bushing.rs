@@ -72,7 +72,7 @@ pub const KIND: ElementKind = ElementKind {
             "Displacement and rotation in the axes of the base (\"base_axes\", default), or as a screw, which is the same from both sides.",
         ),
     ],
-    ports: Ports::TWO_LOCATIONS,
+    ports: Ports::TWO_FRAMES,
     build,
 };
 

@@ -61,6 +61,10 @@ impl DirectedLoad {
         parameters: &Parameters,
     ) -> Result<Self, ParameterError> {
         let follower = parameters.flag_or("follower", false)?;
+        if follower && model.nodes[node].freedoms.is_point() {
+            let problem = "rotates with the node, and a point mass has no rotation: remove it, or make the point mass a body";
+            return Err(ParameterError::new("follower", problem));
+        }
         let vector = parameters.vector("vector")?;
         let vector = if follower { model.frame(node).rotation.apply_inverse(&vector) } else { vector };
         Ok(Self { vector, scale: parameters.function_or("scale", 1.0)?, follower })

@@ -39,7 +39,7 @@ pub const KIND: ElementKind = ElementKind {
         ),
         Parameter::required("spin", ParameterType::Number, "rad/s", "Rate of spin relative to the body."),
     ],
-    ports: Ports::ONE_NODE,
+    ports: Ports::ONE_FRAME,
     build,
 };
 

@@ -3,7 +3,9 @@
 use lissom_motion::{Matrix6, Motion};
 
 use super::inertia::Gravity;
+use super::kind::Carried;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, NodeMotion, Quantity, indexed_by};
+use crate::number::Written;
 use crate::registry::ParameterError;
 
 /// Initial state of a node.
@@ -37,6 +39,10 @@ indexed_by! {
     CoordinateId: Coordinate;
 }
 
+/// Distance below which a location counts as that of a point mass, relative to 1 m and to its distance from the origin: digits of
+/// a text.
+const COINCIDENT: f64 = 1e-9;
+
 /// The part of a model under construction to which later entries refer.
 #[derive(Clone, Debug)]
 pub struct InitialModel {
@@ -64,6 +70,29 @@ impl InitialModel {
     /// Pose of a node.
     pub fn frame(&self, node: NodeId) -> Motion {
         self.nodes[node].motion.frame
+    }
+
+    /// Checks what an entry requires of the node that `key` names: that it has a rotation, if its `axes` are used, and otherwise
+    /// that a point mass is at the location, `at` in its axes [m].
+    ///
+    /// # Errors
+    /// If the node is a point mass, and its axes are used or the location is elsewhere.
+    pub fn check_carried(&self, key: &str, (node, at): Carried, axes: bool) -> Result<(), ParameterError> {
+        let Node { freedoms, motion, .. } = &self.nodes[node];
+        let distance = at.norm();
+        if !freedoms.is_point() || (!axes && distance <= COINCIDENT * (1.0 + motion.frame.position.norm())) {
+            return Ok(());
+        }
+        let problem = if axes {
+            "is a point mass, which has no rotation: make it a body".to_owned()
+        } else {
+            let distance = Written(distance);
+            format!(
+                "is a point mass {distance:.4} m away from the location, and has no rotation: \
+                 make it a body, or move the location to it"
+            )
+        };
+        Err(ParameterError::new(key, problem))
     }
 
     /// Name of a coordinate.

@@ -79,3 +79,22 @@ pub struct ElementKind {
     /// Its elements, states and coordinates, for the model built so far.
     pub build: fn(&InitialModel, Attached, &Parameters) -> Result<Contribution, ParameterError>,
 }
+
+impl ElementKind {
+    /// Its elements, states and coordinates, for the model built so far.
+    ///
+    /// # Errors
+    /// If a parameter or a port is missing or invalid, or a node is a point mass where a rotation is needed.
+    pub fn contribution(
+        &self,
+        model: &InitialModel,
+        attached: Attached,
+        parameters: &Parameters,
+    ) -> Result<Contribution, ParameterError> {
+        for (k, &carried) in attached.nodes.iter().enumerate() {
+            let (key, axes) = self.ports.node_port(k);
+            model.check_carried(key, carried, axes)?;
+        }
+        (self.build)(model, attached, parameters)
+    }
+}

@@ -17,7 +17,7 @@ pub const KIND: ElementKind = ElementKind {
     summary: "Moment on a node, of fixed direction or rotating with the node, scaled by a function of time.",
     sample: "vector = [0.0, 0.0, 1.0]\nfollower = true",
     parameters: LOAD_PARAMETERS,
-    ports: Ports::ONE_NODE,
+    ports: Ports::ONE_FRAME,
     build,
 };
 

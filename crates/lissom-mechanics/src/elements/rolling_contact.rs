@@ -121,7 +121,7 @@ pub const KIND: ElementKind = ElementKind {
             "Rate ω_s of the law tanh(ω/ω_s) of `rolling_friction`, below which the wheel creeps; default 0.01.",
         ),
     ],
-    ports: Ports::TWO_LOCATIONS,
+    ports: Ports::TWO_FRAMES,
     build,
 };
 

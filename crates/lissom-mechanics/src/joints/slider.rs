@@ -43,8 +43,12 @@ pub const KIND: JointKind = JointKind {
             "beams along which it slides; each starts at the end of the previous one",
         )
         .sample("beams = [\"my_beam\"]"),
-        PortDeclaration::required("tip", PortType::Node { moves: false }, "the node that slides")
-            .sample("tip = \"my_body\""),
+        PortDeclaration::required(
+            "tip",
+            PortType::Node { moves: false, axes: false },
+            "the node that slides",
+        )
+        .sample("tip = \"my_body\""),
         PortDeclaration::optional(
             "at",
             PortType::Location { of: &["tip"], default: &["tip"] },

@@ -42,6 +42,11 @@ impl Freedoms {
             Self::Planar(a, b) => k == a || k == b,
         }
     }
+
+    /// Whether the node is a point mass: it has no rotation, and carries no point away from its own.
+    pub fn is_point(self) -> bool {
+        matches!(self, Self::Translations | Self::Planar(..))
+    }
 }
 
 /// Numbering of all unknowns: node degrees of freedom, algebraic coordinates, then multipliers.

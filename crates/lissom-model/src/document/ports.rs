@@ -28,7 +28,7 @@ pub(super) fn read(
     for port in ports.0 {
         let PortDeclaration { key, required, .. } = *port;
         let read = match port.holds {
-            PortType::Node { moves } => add_node(reader, key, moves, &mut own.nodes),
+            PortType::Node { moves, .. } => add_node(reader, key, moves, &mut own.nodes),
             // With a missing node its own error is enough.
             PortType::Location { .. } if !is_complete => None,
             PortType::Location { of, default } => location(reader, key, (ports, default), &own.nodes, places)

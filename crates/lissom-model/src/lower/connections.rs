@@ -185,7 +185,7 @@ fn element(
         Some((key, formula)) => {
             let subject = Subject::new("load", &component.name.value).component(&format!("`{key}`"));
             let signal = super::signals::add_formula(document, builder, names, &subject, formula)?;
-            let load = (kind.build)(builder.model(), attached, parameters).map_err(fault)?;
+            let load = kind.contribution(builder.model(), attached, parameters).map_err(fault)?;
             builder.add_driven(signal, load)
         }
     };

@@ -173,5 +173,9 @@ fn points(
     if let Some(at) = entry.at {
         offset.position = builder.initial_frame(node).inverse_transform_point(&at);
     }
+    let moments = entry.wrench[3..].iter().any(Option::is_some);
+    builder.model().check_carried("on", (node, offset.position), moments).map_err(|error| {
+        Problem::error(entry.node.span, format!("local load `{}`: {error}", entry.name.value))
+    })?;
     Ok(vec![Point { frame: CarriedFrame { node, offset }, station: 0.0, weight: 1.0 }])
 }

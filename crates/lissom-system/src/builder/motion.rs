@@ -25,10 +25,16 @@ impl Builder {
         let axes = joint_rotation(prescribed_motion::KIND.ports, placement)?;
         let free = if parameters.has("free") { parameters.words("free")? } else { &[] };
         let is_given = |k: usize| parameters.has(COMPONENTS[k].0);
-        let is_free = |k: usize| free.iter().any(|word| word == COMPONENTS[k].0);
+        // A point mass has no rotation to be locked.
+        let is_point = self.freedoms(placement.nodes[1]).is_point();
+        let is_free = |k: usize| (is_point && k >= 3) || free.iter().any(|word| word == COMPONENTS[k].0);
         if !(0..6).any(is_given) {
             let problem = "is missing, as are all others: specify at least one of x, y, z, rx, ry, rz";
             return Err(ParameterError::new("x", problem));
+        }
+        if let Some(k) = (3..6).find(|&k| is_point && is_given(k)) {
+            let problem = "prescribes the rotation of a point mass, which has none: make it a body";
+            return Err(ParameterError::new(COMPONENTS[k].0, problem));
         }
         if let Some(both) = (0..6).find(|&k| is_given(k) && is_free(k)) {
             return Err(ParameterError::new(

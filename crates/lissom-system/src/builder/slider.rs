@@ -59,6 +59,11 @@ impl Builder {
         }
         let own = if is_drawn { place } else { on_line };
         let point = self.model.nodes[tip].motion.frame.inverse_transform_point(&own);
+        self.model.check_carried(
+            "tip",
+            (tip, self.model.frame(tip).inverse_transform_point(&place)),
+            false,
+        )?;
         let alignments = self.alignments((&nodes, &line.at(value)), tip, orientation)?;
         let coordinate = self.model.add_coordinate(Coordinate {
             name: format!("{name}.displacement"),

@@ -1,11 +1,12 @@
 //! Models that once gave a wrong result with exit code 0 and no warning, or were rejected without reason, and models of the same
-//! kinds: against closed forms, independent programs and refined runs. `rows` and `superelements` run the program on every model of
+//! kinds: against closed forms, independent programs and refined runs. `ordinary`, `rows` and `superelements` run the program on every model of
 //! `models/`; the other modules test variations.
 
 mod analyses;
 mod clocks;
 mod jumps;
 mod loops;
+mod ordinary;
 mod results;
 mod rows;
 mod superelements;

@@ -62,7 +62,7 @@ pub(crate) const KIND: ElementKind = ElementKind {
         ),
         AXIS,
     ],
-    ports: Ports::TWO_LOCATIONS,
+    ports: Ports::TWO_FRAMES,
     build,
 };
 

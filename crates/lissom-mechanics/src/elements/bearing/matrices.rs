@@ -46,7 +46,7 @@ pub(crate) const KIND: ElementKind = ElementKind {
         AXIS,
         SECOND_AXIS,
     ],
-    ports: Ports::TWO_LOCATIONS,
+    ports: Ports::TWO_FRAMES,
     build,
 };
 

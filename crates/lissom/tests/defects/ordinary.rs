@@ -1,0 +1,87 @@
+//! Ordinary machines, whose parts act as their words say, or are rejected.
+
+use crate::defects::results::{Results, model, near};
+use crate::support::program::{Folder, lissom};
+
+/// `lissom check` of a model with these options rejects it with these words.
+fn rejected(file: &str, options: &[&str], words: &[&str]) {
+    let folder = Folder::new(&format!("defects-rejected-{file}"));
+    let model = model(file);
+    let ended = lissom(&[&["check", model.as_str()], options].concat(), folder.path());
+    assert_eq!(ended.code, 2, "{file} {options:?}: {}", ended.errors);
+    for word in words {
+        assert!(ended.errors.contains(word), "{file} {options:?} lacks `{word}`: {}", ended.errors);
+    }
+}
+
+// Point masses.
+
+/// What is clamped or linked has the motion of a body of negligible inertia.
+#[test]
+fn point_masses_are_carried() {
+    let results = Results::clean("point-masses-carried.toml", &[]);
+    for name in ["pod", "bob"] {
+        for component in ["u1", "u2", "u3"] {
+            let [point, body] = [1, 2].map(|k| results.column(&format!("{name}{k}.{component}")));
+            assert!(component != "u3" || body.iter().any(|value| value.abs() > 0.2), "{name} moves");
+            for (point, body) in point.iter().zip(&body) {
+                near(&format!("{name}.{component}"), *point, *body, 1e-4);
+            }
+        }
+    }
+    results.assert_last("fixed", &["u1", "u2", "u3"], &[0.0; 3], 1e-12);
+    results.assert_last("towed", &["u1", "u2", "u3"], &[0.016, 0.0, 0.0], 1e-9);
+}
+
+#[test]
+fn point_masses_have_no_rotation() {
+    let file = "point-mass-on-a-joint.toml";
+    let rotation = ["point mass", "no rotation", "make it a body", "`distance`"];
+    let two_axes = ["--set", "joints.pivot.second_axis=\"x\""];
+    for kind in
+        ["revolute", "prismatic", "cylindrical", "screw", "planar", "parallel_axes", "constant_velocity"]
+    {
+        let kind = format!("joints.pivot.kind=\"{kind}\"");
+        let lead = ["--set", "joints.pivot.lead=0.1"];
+        let lead = if kind.contains("screw") { &lead[..] } else { &[] };
+        rejected(file, &[&["--set", kind.as_str()], lead].concat(), &rotation);
+        let at_bob = ["--set", kind.as_str(), "--unset", "joints.pivot.at"];
+        rejected(file, &[&at_bob, lead].concat(), &rotation);
+    }
+    for kind in ["universal", "perpendicular_axes"] {
+        let kind = format!("joints.pivot.kind=\"{kind}\"");
+        rejected(file, &[&["--set", kind.as_str()], &two_axes[..]].concat(), &rotation);
+    }
+    let generic = "joints.pivot={ kind = \"generic\", base = \"ground\", tip = \"bob\", locked = [\"x\", \"y\", \"rx\"] }";
+    rejected(file, &["--set", generic], &rotation);
+    // Away from the location, joints that leave the rotation free also need one.
+    for kind in ["spherical", "point_on_line", "point_in_plane"] {
+        let kind = format!("joints.pivot.kind=\"{kind}\"");
+        let without_axis = ["--unset", "joints.pivot.axis"];
+        let unset = if kind.contains("spherical") { &without_axis[..] } else { &[] };
+        rejected(file, &[&["--set", kind.as_str()], unset].concat(), &["1.0000 m away", "no rotation"]);
+    }
+    // The axes of a base are those of a body.
+    let base =
+        ["--set", "joints.pivot={ kind = \"point_on_line\", base = \"bob\", tip = \"arm\", axis = \"x\" }"];
+    rejected(file, &base, &rotation);
+    let link = "joints.pivot={ kind = \"rigid_link\", base = \"other\", tip = \"bob\" }";
+    rejected(file, &["--set", link], &["1.0000 m away", "`distance`"]);
+    let turned =
+        "joints.pivot={ kind = \"prescribed_motion\", base = \"ground\", tip = \"bob\", rx = \"0.1*t\" }";
+    rejected(file, &["--set", turned], &["rotation of a point mass"]);
+    for entry in [
+        "loads.l={ kind = \"moment\", on = \"bob\", vector = [0, 1, 0] }",
+        "loads.l={ kind = \"gyrostat\", on = \"bob\", axis = \"x\", inertia = 1, spin = 9 }",
+        "loads.l={ kind = \"force\", on = \"bob\", at = [1, 0, 1], vector = [1, 0, 0] }",
+        "loads.l={ kind = \"force\", on = \"bob\", vector = [1, 0, 0], follower = true }",
+        "springs.s={ kind = \"bushing\", base = \"arm\", tip = \"bob\", stiffness = [1, 1, 1, 1, 1, 1] }",
+        "springs.s={ kind = \"point\", base = \"arm\", tip = \"bob\", at_tip = [1, 0, 1], stiffness = 1 }",
+        "springs.s={ kind = \"rope\", along = [{ on = \"ground\" }, { on = \"bob\", at = [1, 1, 1] }], stiffness = 1 }",
+        "local_loads.l={ on = \"bob\", at = [1, 0, 1], force = [\"1\", \"0\", \"0\"] }",
+        "local_loads.l={ on = \"bob\", moment = [\"1\", \"0\", \"0\"] }",
+    ] {
+        let distance = "joints.pivot={ kind = \"distance\", base = \"ground\", tip = \"bob\" }";
+        rejected(file, &["--set", distance, "--set", entry], &["point mass", "no rotation"]);
+    }
+}
