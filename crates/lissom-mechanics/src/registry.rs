@@ -33,6 +33,10 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn first_kink(&self) -> Option<f64> {
         self.breakpoints().first().copied()
     }
+    /// Arguments for which it was specified, if values beyond were not chosen. Default: all.
+    fn domain(&self) -> Option<Interval> {
+        None
+    }
     /// Bounds of the value between two times [s]. Default: none are known.
     fn bounds(&self, _from: f64, _to: f64) -> Option<Interval> {
         None

@@ -18,6 +18,11 @@ pub trait Relation: Send + Sync + Debug {
     /// Value, and first and second derivative along a direction.
     fn jet(&self, at: RelationPoint<'_>, direction: RelationPoint<'_>) -> [f64; 3];
 
+    /// Values of the first coordinate for which it was specified, if what is beyond was not chosen. Default: all.
+    fn domain(&self) -> Option<Interval> {
+        None
+    }
+
     /// Bounds of the value over intervals of time [s] and of the coordinates. Default: none are known, and no features are
     /// searched for.
     fn bounds(&self, _time: Interval, _coordinates: &[Interval]) -> Option<Interval> {

@@ -91,7 +91,15 @@ impl Context<'_> {
     pub(crate) fn force(&self, node: &Node, what: &str, names: &[&str; 2]) -> Option<Force> {
         match &node.value {
             Value::Number(_) => Some(Arc::new(Constant(self.number(node, what)?))),
-            Value::Table(_) => Some(Arc::new(self.read_table(node, what, Extrapolation::Linear)?)),
+            Value::Table(own) => {
+                if let Some(period) = own.get("period") {
+                    let message =
+                        format!("{what} cannot have a `period`: the energy it stores would have a jump");
+                    let help = "write an expression, such as \"0.2*sin(6*rotation)\"";
+                    return self.fail(period.node.span, message, help);
+                }
+                Some(Arc::new(self.read_table(node, what, Extrapolation::Linear)?))
+            }
             Value::Text(text) => {
                 let formula = self.own_formula(node, what)?;
                 let known = || names.iter().copied();

@@ -62,8 +62,11 @@ impl Context<'_> {
                 format!("{what} is a function of `{variable}`, which is the name of a parameter too");
             return self.fail(node.span, message, "give the parameter another name");
         }
-        match node.value {
-            Value::Table(_) => Some(Arc::new(self.read_table(node, what, Extrapolation::Linear)?)),
+        match &node.value {
+            Value::Table(own) => {
+                let table = self.read_table(node, what, Extrapolation::Linear)?;
+                Some(Arc::new(if own.contains_key("extrapolation") { table } else { table.bounded() }))
+            }
             Value::List(_) | Value::Flag(_) | Value::Date => {
                 let wanted = format!(
                     "a number, an expression of {variable}, or {{ table = [[{variable}, value], …] }}"

@@ -21,6 +21,8 @@ pub enum Extrapolation {
     Constant,
     /// Straight lines with the slopes at the ends.
     Linear,
+    /// The rows again and again: the last one is the first of the next period.
+    Periodic,
 }
 
 /// A table that is no function of time.
@@ -35,6 +37,12 @@ pub enum TableError {
     /// A number is not finite in this row.
     #[error("row {} has a number that is not finite", .0 + 1)]
     NotFinite(usize),
+    /// A periodic table ends with another value than it begins with.
+    #[error("after a period it must have the value of its first row")]
+    NotClosed,
+    /// The rows of a periodic table are longer than the period.
+    #[error("its rows are longer than its period")]
+    TooLong,
 }
 
 /// A table of arguments and values.
@@ -44,6 +52,8 @@ pub struct Table {
     values: Vec<f64>,
     between: Between,
     extrapolation: Extrapolation,
+    /// Whether arguments beyond the rows are to be reported.
+    is_bounded: bool,
 }
 
 /// Coefficients of a polynomial between two rows.
@@ -76,23 +86,93 @@ impl Table {
             return Err(TableError::NotAscending(row));
         }
         let (arguments, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
-        let between = match interpolation {
+        let between = |arguments: &[f64], values: &[f64]| match interpolation {
             Interpolation::Linear => Between::Lines,
-            Interpolation::Spline => Between::Curvatures(natural_curvatures(&arguments, &values)),
-            Interpolation::Monotone => Between::Slopes(monotone_slopes(&arguments, &values)),
+            Interpolation::Spline => Between::Curvatures(natural_curvatures(arguments, values)),
+            Interpolation::Monotone => Between::Slopes(monotone_slopes(arguments, values)),
         };
-        Ok(Self { arguments, values, between, extrapolation })
+        let between = if extrapolation == Extrapolation::Periodic {
+            let last = rows.len() - 1;
+            if values[last] != values[0] {
+                return Err(TableError::NotClosed);
+            }
+            // Of rows that are repeated on both sides, the inner ones know nothing of the ends.
+            let beyond = REPEATED.div_ceil(last) as i32;
+            let period = arguments[last] - arguments[0];
+            let repeated = (-beyond..=beyond).flat_map(|turn| {
+                let shifted = rows[..last].iter().map(move |row| (row.0 + f64::from(turn) * period, row.1));
+                shifted.collect::<Vec<_>>()
+            });
+            let (all, repeated): (Vec<f64>, Vec<f64>) = repeated.unzip();
+            let own = beyond as usize * last..=(beyond as usize + 1) * last;
+            match between(&all, &repeated) {
+                Between::Lines => Between::Lines,
+                Between::Curvatures(found) => Between::Curvatures(found[own].to_vec()),
+                Between::Slopes(found) => Between::Slopes(found[own].to_vec()),
+            }
+        } else {
+            between(&arguments, &values)
+        };
+        Ok(Self { arguments, values, between, extrapolation, is_bounded: false })
+    }
+
+    /// A table that repeats itself after `period`: its rows are those of one period, with or without the first one of the next.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and if the rows do not fit the period.
+    pub fn periodic(
+        rows: &[(f64, f64)],
+        interpolation: Interpolation,
+        period: f64,
+    ) -> Result<Self, TableError> {
+        let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return Err(TableError::TooShort) };
+        let (end, mut rows) = ((first.0 + period, first.1), rows.to_vec());
+        if (last.0 - end.0).abs() <= ROUNDED * period {
+            let largest = rows.iter().fold(0.0_f64, |most, row| most.max(row.1.abs()));
+            if (last.1 - end.1).abs() > ROUNDED * largest {
+                return Err(TableError::NotClosed);
+            }
+            rows.pop();
+        } else if last.0 > end.0 {
+            return Err(TableError::TooLong);
+        }
+        rows.push(end);
+        Self::new(&rows, interpolation, Extrapolation::Periodic)
+    }
+
+    /// The same, with arguments beyond the rows to be reported: their values were not chosen.
+    #[must_use]
+    pub fn bounded(self) -> Self {
+        Self { is_bounded: self.extrapolation != Extrapolation::Periodic, ..self }
+    }
+
+    /// First and last argument.
+    fn ends(&self) -> Interval {
+        [self.arguments[0], self.arguments[self.arguments.len() - 1]]
+    }
+
+    /// The interval by whole periods closer to the rows, so that it begins among them; the same one if the table is not periodic.
+    fn reduced(&self, [from, to]: Interval) -> Interval {
+        let [first, last] = self.ends();
+        let turns = match self.extrapolation {
+            Extrapolation::Periodic => ((from - first) / (last - first)).floor() * (last - first),
+            Extrapolation::Constant | Extrapolation::Linear => 0.0,
+        };
+        [from - turns, to - turns]
     }
 
     /// Value, first and second derivative.
     fn evaluate(&self, argument: f64) -> [f64; 3] {
-        let last = self.arguments.len() - 1;
-        let inside = argument.clamp(self.arguments[0], self.arguments[last]);
+        let [argument, _] = self.reduced([argument; 2]);
+        let [first, last] = self.ends();
+        let inside = argument.clamp(first, last);
         if inside != argument {
             let [value, slope, _] = self.inside(inside);
             return match self.extrapolation {
                 Extrapolation::Constant => [value, 0.0, 0.0],
                 Extrapolation::Linear => [value + slope * (argument - inside), slope, 0.0],
+                // By round-off.
+                Extrapolation::Periodic => self.inside(inside),
             };
         }
         self.inside(argument)
@@ -132,6 +212,19 @@ impl Table {
     /// Bounds of the value between two arguments: those at their ends and at the rows between, and by how much cubic
     /// polynomials depart from straight lines, h²/8 times the largest curvature.
     fn bounds(&self, from: f64, to: f64) -> [f64; 2] {
+        let ([from, to], [begin, over]) = (self.reduced([from, to]), self.ends());
+        if self.extrapolation == Extrapolation::Periodic && to > over {
+            let period = over - begin;
+            return if to - from >= period {
+                self.bounds_inside(begin, over)
+            } else {
+                hull(&[self.bounds_inside(from, over), self.bounds_inside(begin, to - period)].concat())
+            };
+        }
+        self.bounds_inside(from, to)
+    }
+
+    fn bounds_inside(&self, from: f64, to: f64) -> [f64; 2] {
         let mut bounds = [f64::INFINITY, f64::NEG_INFINITY];
         let mut include = |value: f64| bounds = [bounds[0].min(value), bounds[1].max(value)];
         for end in [from, to] {
@@ -168,6 +261,7 @@ impl Table {
 
     /// Bounds of the second derivative between two arguments, if no row is between them: it is a straight line there.
     fn curvature(&self, ends: Interval) -> Interval {
+        let ends = self.reduced(ends);
         let [first, last] = ends.map(|end| self.arguments.partition_point(|row| *row <= end));
         if first == last { hull(&ends.map(|end| self.evaluate(end)[2])) } else { EVERYTHING }
     }
@@ -203,6 +297,9 @@ impl TimeFunction for Table {
     fn breakpoints(&self) -> Vec<f64> {
         self.breakpoint_rows()
     }
+    fn domain(&self) -> Option<Interval> {
+        self.is_bounded.then(|| self.ends())
+    }
     fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         Some(self.bounds(from, to))
     }
@@ -228,6 +325,10 @@ impl ForceFunction for Table {
     }
 }
 
+/// Deviation of the last row of a period, relative to the period and to the largest value: digits of a text.
+const ROUNDED: f64 = 1e-6;
+/// Rows after which the end of a spline has no influence: it falls to a quarter with each of them.
+const REPEATED: usize = 30;
 /// Slopes that differ by less than this fraction are the same except for the digits of a text.
 const SAME_SLOPE: f64 = 1e-3;
 
@@ -337,6 +438,35 @@ mod tests {
             assert!((table.first_derivative(t) - first).abs() < 1e-7, "{t}");
             assert!((table.second_derivative(t) - second).abs() < 2e-4, "{t}");
         }
+    }
+
+    #[test]
+    fn periodic_tables_repeat_without_a_jump() {
+        use std::f64::consts::TAU;
+        for (interpolation, error) in [(Interpolation::Spline, 2e-4), (Interpolation::Monotone, 1e-2)] {
+            let mut rows: Vec<_> =
+                (0..=24).map(|k| TAU * f64::from(k) / 24.0).map(|x| (x, x.sin())).collect();
+            rows[24].1 = rows[0].1;
+            let table = Table::new(&rows, interpolation, Extrapolation::Periodic).unwrap();
+            for k in -200..200 {
+                let x = 0.0731 * f64::from(k);
+                assert!((table.value(x) - x.sin()).abs() < error, "{x}");
+                assert!((table.value(x) - table.value(x + 3.0 * TAU)).abs() < 1e-13, "{x}");
+                let [least, most] = Table::bounds(&table, x, x + 1.7);
+                let found = (0..=20).map(|k| table.value(x + 0.085 * f64::from(k)));
+                assert!(found.into_iter().all(|value| (least..=most).contains(&value)), "{x}");
+            }
+            let across = |x: f64| [table.first_derivative(x), table.second_derivative(x)];
+            let [before, after] = [across(TAU - 1e-9), across(TAU + 1e-9)];
+            assert!((before[0] - after[0]).abs() < 1e-6, "{before:?} {after:?}");
+            assert!(interpolation == Interpolation::Monotone || (before[1] - after[1]).abs() < 1e-6);
+            assert_eq!(Table::bounds(&table, 0.0, 100.0), Table::bounds(&table, 0.0, TAU));
+        }
+        let rows = [(0.0, 0.0), (1.0, 2.0), (2.5, 1.0), (6.2831853, 0.0)];
+        let closed = |count| Table::periodic(&rows[..count], Interpolation::Spline, TAU);
+        assert_eq!(closed(4), closed(3));
+        assert_eq!(Table::periodic(&rows, Interpolation::Spline, 3.0), Err(TableError::TooLong));
+        assert_eq!(Table::periodic(&rows[..3], Interpolation::Spline, 2.5), Err(TableError::NotClosed));
     }
 
     #[test]

@@ -36,6 +36,12 @@ pub(crate) fn table_keys() -> Vec<Key> {
             "",
             "beyond the rows; default constant, for forces over an elongation, rotation or rate linear",
         ),
+        optional(
+            "period",
+            Shape::Number,
+            "",
+            "argument after which the rows are repeated, such as `2*pi` for one turn of a cam; with `spline` or `monotone`",
+        ),
     ]
 }
 
@@ -74,6 +80,23 @@ impl Context<'_> {
             Some("linear") => Extrapolation::Linear,
             _ => beyond,
         };
+        let period = match (reader.number("period"), reader.node("extrapolation")) {
+            (Some(period), Some(_)) => {
+                let message = format!("{what} has both `period` and `extrapolation`");
+                return self.fail(period.span, message, "remove one of them");
+            }
+            (Some(period), None) if period.value <= 0.0 || interpolation == Interpolation::Linear => {
+                let message =
+                    format!("{what} has a `period`, but is not smooth, or the period is not positive");
+                let help = "specify `interpolation = \"spline\"` or \"monotone\", and a positive period";
+                return self.fail(period.span, message, help);
+            }
+            (period, _) => period.map(|period| period.value),
+        };
+        let of_rows = |rows: &[(f64, f64)]| match period {
+            Some(period) => Table::periodic(rows, interpolation, period),
+            None => Table::new(rows, interpolation, extrapolation),
+        };
         match (reader.node("table"), reader.node("file")) {
             (Some(table), None) => {
                 if let Some(columns) = reader.node("columns") {
@@ -87,12 +110,12 @@ impl Context<'_> {
                     |row: &Node| self.numbers::<2>(row, &format!("each row of {what}")).map(|[t, v]| (t, v));
                 let read: Vec<Option<(f64, f64)>> = rows.iter().map(row).collect();
                 let read: Vec<(f64, f64)> = read.into_iter().collect::<Option<_>>()?;
-                Table::new(&read, interpolation, extrapolation).map_or_else(
+                of_rows(&read).map_or_else(
                     |error| {
                         let place = match error {
                             TableError::NotAscending(row) => rows.get(row + 1),
                             TableError::NotFinite(row) => rows.get(row),
-                            TableError::TooShort => None,
+                            TableError::TooShort | TableError::NotClosed | TableError::TooLong => None,
                         };
                         let message = format!("{what} is not a function: {error}");
                         let span = place.map_or(table.span, |row| row.span);
@@ -101,7 +124,7 @@ impl Context<'_> {
                     Some,
                 )
             }
-            (None, Some(file)) => self.data_file(file, reader, (interpolation, extrapolation)),
+            (None, Some(file)) => self.data_file(file, reader, of_rows),
             (Some(_), Some(file)) => {
                 self.fail(file.span, format!("{what} has both `table` and `file`"), "remove one of them")
             }
@@ -113,7 +136,7 @@ impl Context<'_> {
         &self,
         file: &Node,
         reader: &Reader<'_, '_>,
-        (interpolation, extrapolation): (Interpolation, Extrapolation),
+        of_rows: impl Fn(&[(f64, f64)]) -> Result<Table, TableError>,
     ) -> Option<Table> {
         let name = reader.text("file")?.value;
         let columns = match reader.node("columns") {
@@ -139,15 +162,15 @@ impl Context<'_> {
                 return None;
             }
         };
-        Table::new(&rows.values, interpolation, extrapolation).map_or_else(
+        of_rows(&rows.values).map_or_else(
             |error| {
                 let error = match error {
                     TableError::NotAscending(row) => {
                         format!("line {}: the first column must ascend strictly", rows.lines[row + 1])
                     }
-                    TableError::NotFinite(_) | TableError::TooShort => error.to_string(),
+                    _ => error.to_string(),
                 };
-                let help = "sort the rows by the first column";
+                let help = "sort the rows by the first column, and end with the last row of a period";
                 self.fail(file.span, format!("{what}: `{name}`: {error}"), help)
             },
             Some,

@@ -370,6 +370,28 @@ diagnostics! {
                 force accelerates them.",
             advice: "Start the parts apart, or leave a solid out of contacts with `touches = false`.",
         }
+        /// A coordinate leaves the table over it.
+        BeyondTable {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of the joint.
+            joint: String,
+            /// The coordinate [m or rad].
+            value: f64,
+            /// First argument of the table.
+            first: f64,
+            /// Last argument of the table.
+            last: f64,
+        } => "beyond-table" {
+            time: *time,
+            subject: Subject::new("joint", joint),
+            cause: ("at t = {time} s the coordinate is {value:.4}, but the table of `{joint}` is from {first:.4} to {last:.4}"),
+            remedy: "specify its `period`, such as `2*pi` for one turn, more rows, or `extrapolation`",
+            meaning: "The coordinate on which a `cam` depends has left the rows of its table, which is continued by straight lines: a cam \
+                given by a table of one turn lifts on the first turn only.",
+            advice: "Specify the `period` of the table, such as `2*pi` for one turn, or more rows. `extrapolation` states that the table is \
+                to be continued, and by what.",
+        }
         /// Two solids in contact are almost within each other.
         ContactTooDeep {
             /// When it was first detected [s].

@@ -23,6 +23,7 @@ mod sampled_steps;
 mod section_forces;
 pub(crate) mod singular_positions;
 pub(crate) mod stability;
+mod table_ranges;
 mod unresolved_forces;
 
 use std::any::Any;
@@ -64,6 +65,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "section-forces", begin: section_forces::begin },
     Kind { name: "unresolved-forces", begin: unresolved_forces::begin },
     Kind { name: "stability", begin: stability::begin },
+    Kind { name: "table-ranges", begin: table_ranges::begin },
 ];
 
 /// The monitors of one simulation.

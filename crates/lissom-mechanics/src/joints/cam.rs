@@ -56,6 +56,10 @@ impl Relation for Cam {
         ]
     }
 
+    fn domain(&self) -> Option<Interval> {
+        self.profile.domain()
+    }
+
     fn bounds(&self, _: Interval, coordinates: &[Interval]) -> Option<Interval> {
         let [from, to] = coordinates[0];
         let profile = self.profile.bounds(from, to)?;

@@ -85,3 +85,40 @@ fn point_masses_have_no_rotation() {
         rejected(file, &["--set", distance, "--set", entry], &["point mass", "no rotation"]);
     }
 }
+
+/// The results of a run that ends well with a warning that has these words.
+fn warned(file: &str, options: &[&str], words: &[&str]) -> Results {
+    let results = Results::of("run", file, &[options, &["--no-plots"]].concat());
+    results.assert_done();
+    for word in words {
+        let errors = &results.ended.errors;
+        assert!(errors.contains(word), "{file} lacks `{word}`: {errors}");
+    }
+    results
+}
+
+// Joints, tables and gears.
+
+/// Per turn the follower rises to 10 mm at half a turn, and rests after 5.3 rad.
+#[test]
+fn cam_by_a_table_of_one_turn() {
+    let file = "cam-by-a-table-of-one-turn.toml";
+    warned(file, &[], &["beyond-table", "`lift`", "period"]);
+    Results::clean(file, &["--set", "joints.lift.profile.extrapolation=\"constant\""]);
+    let step =
+        ["--set", "analysis.output_step=7.853981634e-3", "--set", "joints.lift.profile.period=\"2*pi\""];
+    for more in [&[][..], &["--set", "joints.lift.profile.interpolation=\"spline\""]] {
+        let results = Results::clean(file, &[&step[..], more].concat());
+        let lift = results.column("y.displacement");
+        // Records at eighths of a turn.
+        for (k, lift) in lift.iter().enumerate().take(25) {
+            let expected = [Some(0.0), None, None, None, Some(0.01), None, None, Some(0.0)][k % 8];
+            if let Some(expected) = expected {
+                near(&format!("record {k}"), *lift, expected, 4e-4);
+            }
+        }
+    }
+    let linear = ["--set", "joints.lift.profile.interpolation=\"linear\""];
+    rejected(file, &[&step[2..], &linear].concat(), &["smooth", "spline"]);
+    rejected(file, &["--set", "joints.lift.profile.period=5"], &["longer than its period"]);
+}
