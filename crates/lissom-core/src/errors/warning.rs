@@ -370,6 +370,24 @@ diagnostics! {
                 force accelerates them.",
             advice: "Start the parts apart, or leave a solid out of contacts with `touches = false`.",
         }
+        /// A joint starts beyond its stops.
+        BeyondStop {
+            /// The start [s].
+            time: f64,
+            /// Name of the coordinate.
+            coordinate: String,
+            /// How far it is beyond [m or rad].
+            depth: f64,
+        } => "beyond-stop" {
+            time: *time,
+            subject: Subject::new("coordinate", coordinate),
+            cause: ("at the start `{coordinate}` is {depth:.3e} beyond the range of its stop, which will push it back"),
+            remedy: "start it within the range, or correct the range, which is relative to the position at the start",
+            meaning: "A joint with an `axial_stop` or a `torsional_stop` starts outside the range by more than a load would press it into \
+                the stop. The force of the stop accelerates it.",
+            advice: "Start the joint within the range. Coordinates of joints are zero at the start, unless the joint specifies \
+                another value: the range is relative to the position at the start.",
+        }
         /// A coordinate leaves the table over it.
         BeyondTable {
             /// When it was first detected [s].

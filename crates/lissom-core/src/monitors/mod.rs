@@ -30,7 +30,7 @@ use std::any::Any;
 
 use monitor::Monitor;
 pub(crate) use monitor::{Accepted, Beginning};
-pub(crate) use penetration::overlap;
+pub(crate) use penetration::{beyond_stop, overlap};
 
 use crate::errors::StepError;
 use crate::errors::Warning;

@@ -5,7 +5,7 @@ use crate::errors::{Warning, warn};
 use crate::kinematics::{GROUND, Kinematics};
 use crate::system::System;
 
-/// Share of half of the size of two solids that a penetration at the start exceeds only by mistake.
+/// Share of half of the size of two solids, or of the range of stops, that a penetration at the start exceeds only by mistake.
 const OVERLAP: f64 = 0.1;
 
 /// Reports the first contact that is too deep. Has no state.
@@ -35,6 +35,14 @@ fn too_deep(system: &System, at: &Kinematics) -> Option<Warning> {
 pub(crate) fn overlap(system: &System, at: &Kinematics) -> Option<Warning> {
     let (part, [depth, _]) = beyond(OVERLAP, system, at)?;
     Some(Warning::ContactOverlaps { time: at.time, part, depth })
+}
+
+/// The first joint that starts beyond its stops, as no weight or preload presses it into them.
+pub(crate) fn beyond_stop(system: &System, at: &Kinematics) -> Option<Warning> {
+    let mut stops = system.elements_with(|own| own.spring).filter_map(|spring| spring.beyond_stop(at));
+    let (coordinate, [depth, _]) = stops.find(|(_, [depth, range])| *depth > OVERLAP * range)?;
+    let coordinate = system.layout().coordinate_names[coordinate.index()].clone();
+    Some(Warning::BeyondStop { time: at.time, coordinate, depth })
 }
 
 /// A part with a contact that is deeper than a share of half of the size of its solids, with its depth and that half.

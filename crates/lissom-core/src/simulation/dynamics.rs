@@ -271,6 +271,7 @@ fn begin_motion(
     judge::start::rates(system, representative, (&rates, specified.max(used), negligible))?;
     warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
     warnings.extend(monitors::overlap(system, &state.kinematics));
+    warnings.extend(monitors::beyond_stop(system, &state.kinematics));
     settle(system, state, &mut initial, settings)?;
     let held_values = may_jump(system, state).then_some(initial);
     Ok((velocity_correction, held_values))

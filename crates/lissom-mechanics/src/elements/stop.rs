@@ -96,6 +96,9 @@ pub const AXIAL: ElementKind = ElementKind {
     build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length),
 };
 
+/// Length or angle to which a stop with one end at zero is compared [m or rad].
+const MIN_RANGE: f64 = 0.1;
+
 /// Stops on an algebraic coordinate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
@@ -225,6 +228,15 @@ impl Spring for Stop {
     fn spring_motion(&self, at: &Kinematics) -> [f64; 3] {
         let coordinate = &at.coordinates[self.coordinate[0]];
         [coordinate.value, coordinate.rate, self.response(at).force]
+    }
+
+    fn beyond_stop(&self, at: &Kinematics) -> Option<(CoordinateId, [f64; 2])> {
+        let [low, high] = self.range;
+        let finite = [low, high].map(|end| if end.is_finite() { end.abs() } else { 0.0 });
+        let range =
+            if (high - low).is_finite() { high - low } else { finite[0].max(finite[1]).max(MIN_RANGE) };
+        let depth = self.depths(at).into_iter().fold(0.0, f64::max);
+        (depth > 0.0).then_some((self.coordinate[0], [depth, range]))
     }
 
     fn spring_gradients(&self, at: &Kinematics) -> [Gradient; 3] {

@@ -84,6 +84,12 @@ pub trait Spring: Element {
         None
     }
 
+    /// The coordinate of a stop, how far beyond it is [m or rad], and the length or angle that is small to the stop. Default: it is
+    /// no stop, or not touched.
+    fn beyond_stop(&self, _at: &Kinematics) -> Option<(CoordinateId, [f64; 2])> {
+        None
+    }
+
     /// Name of the contact and penetrations of two sides of a surface, of which its force resists the nearest one only. Default: it
     /// touches no second side.
     fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {

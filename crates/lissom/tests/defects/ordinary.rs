@@ -122,3 +122,12 @@ fn cam_by_a_table_of_one_turn() {
     rejected(file, &[&step[2..], &linear].concat(), &["smooth", "spline"]);
     rejected(file, &["--set", "joints.lift.profile.period=5"], &["longer than its period"]);
 }
+
+#[test]
+fn stop_outside_its_range() {
+    let file = "stop-outside-its-range.toml";
+    warned(file, &[], &["beyond-stop", "`h.angle`"]);
+    warned(file, &["--set", "springs.s.range=[0.5, inf]"], &["beyond-stop", "`h.angle`"]);
+    Results::clean(file, &["--set", "springs.s.range=[-0.5, 1.0]"]);
+    Results::clean(file, &["--set", "springs.s.range=[0.001, 1.0]"]);
+}
