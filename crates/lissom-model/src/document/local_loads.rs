@@ -24,7 +24,7 @@ use crate::table_family::TableFamily;
 use crate::text::{Node, Value};
 
 /// Axes of a load.
-const AXES: [&str; 2] = ["section", "global"];
+const AXES: [&str; 3] = ["section", "global", "part"];
 /// Names of the motion of the point, besides `s` and `t`.
 const MOTION: [(&str, LocalName); 15] = [
     ("x", LocalName::Position(0)),
@@ -135,7 +135,7 @@ pub(super) fn keys() -> Vec<Key> {
             "axes",
             choice(&AXES),
             "",
-            "axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones, in a part those of the part",
+            "axes of `force`, `moment`, velocities and relative flow: those of the section or body (default), global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too",
         ),
         optional(
             "force",
@@ -148,7 +148,7 @@ pub(super) fn keys() -> Vec<Key> {
             "flow",
             Shape::SectionDistribution,
             "m/s",
-            "velocity of the surrounding fluid in global axes, in a part in those of the part: three numbers or expressions of x, y, z, t and inputs",
+            "velocity of the surrounding fluid in global axes, or with `axes = \"part\"` in those of the part: three numbers or expressions of x, y, z, t and inputs",
         ),
         optional(
             "variables",
@@ -203,13 +203,14 @@ pub(super) fn local_loads(context: &Context<'_>) -> Vec<LocalLoadEntry> {
             return context.fail(reader.name, message, "combine some of its `variables`");
         }
         let Laws { functions, states, .. } = laws;
+        let axes = reader.choice("axes").map_or(AXES[0], |word| word.value);
         Some(LocalLoadEntry {
             name: Located::new(name.to_owned(), reader.name),
             node,
             at,
             beam,
-            frame: context.frame(reader.scope)?,
-            is_global: reader.choice("axes").is_some_and(|word| word.value == AXES[1]),
+            frame: if axes == AXES[2] { context.frame(reader.scope)? } else { Motion::identity() },
+            is_global: axes != AXES[0],
             functions,
             flow,
             wrench: [force[0], force[1], force[2], moment[0], moment[1], moment[2]],

@@ -131,3 +131,19 @@ fn stop_outside_its_range() {
     Results::clean(file, &["--set", "springs.s.range=[-0.5, 1.0]"]);
     Results::clean(file, &["--set", "springs.s.range=[0.001, 1.0]"]);
 }
+
+// Parts and ropes.
+
+/// The wind of the model, and with `axes = "part"` that of a part that is upside down.
+#[test]
+fn wind_in_a_part() {
+    let file = "wind-in-a-part.toml";
+    near("global", Results::clean(file, &[]).first("f.f3"), 10.0, 1e-9);
+    let section = ["--set", "parts.p.local_loads.air.axes=\"section\""];
+    near("section", Results::clean(file, &section).first("f.f3"), 10.0, 1e-9);
+    let part = ["--set", "parts.p.local_loads.air.axes=\"part\""];
+    near("part", Results::clean(file, &part).first("f.f3"), -10.0, 1e-9);
+    let height = ["--set", "parts.p.local_loads.air.force=[0, 0, \"z\"]"];
+    near("height", Results::clean(file, &height).first("f.f3"), 100.0, 1e-9);
+    near("own height", Results::clean(file, &[part, height].concat()).first("f.f3"), 0.0, 1e-9);
+}
