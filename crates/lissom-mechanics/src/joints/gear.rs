@@ -21,6 +21,12 @@ pub const KIND: JointKind = JointKind {
         ),
         WHICH_COORDINATE,
         OTHER_COORDINATE,
+        Parameter::optional(
+            "relative",
+            ParameterType::Flag,
+            "",
+            "Whether it is meant to relate rotations relative to parts that turn against each other; default false: warned about.",
+        ),
     ],
     ports: Ports::TWO_COORDINATES,
     build: Build::Coupling(|parameters, start| {

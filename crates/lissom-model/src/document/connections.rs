@@ -6,8 +6,8 @@ use lissom_motion::Vector3;
 
 use super::entries::PARTS;
 use super::{
-    AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, OutputSource, PointMass,
-    Subject, Superelement, interface_name,
+    AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputSource,
+    PointMass, Subject, Superelement, interface_name,
 };
 use crate::context::Context;
 use crate::line::Line;
@@ -58,6 +58,43 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     complete(context, document);
     at_rest(context, document);
     under_sliders(context, document);
+    gears(context, document);
+}
+
+/// Angles of wheels whose bearings turn against each other are relative to different parts: their teeth relate three angles.
+fn gears(context: &Context<'_>, document: &Document) {
+    let mut housings = Groups::default();
+    let locks = |joint: &&Component| {
+        let locked = joint.parameters.words("locked").unwrap_or_default();
+        matches!(joint.kind.value.as_str(), "clamp" | "rigid_link" | "prismatic")
+            || ["rx", "ry", "rz"].iter().all(|word| locked.iter().any(|own| own == word))
+    };
+    for joint in document.joints.iter().filter(locks) {
+        if let [base, tip] = joint.attachment.nodes.as_slice() {
+            housings.join(part_of(&base.node.value), part_of(&tip.node.value));
+        }
+    }
+    for gear in document.joints.iter().filter(|joint| joint.kind.value == "gear") {
+        let parts = |(name, _): &CoordinateName| {
+            let joint = document.joints.iter().find(|joint| joint.name.value == name.value)?;
+            let [base, tip] = joint.attachment.nodes.as_slice() else { return None };
+            Some([base, tip].map(|own| part_of(&own.node.value)))
+        };
+        let [first, second] = gear.attachment.coordinates.as_slice() else { continue };
+        let (Some(one), Some(other)) = (parts(first), parts(second)) else { continue };
+        let [base, tip, other_base, other_tip] =
+            [one[0], one[1], other[0], other[1]].map(|part| housings.root(part));
+        let is_chain = base == other_tip || other_base == tip;
+        if base != other_base && !is_chain && !gear.parameters.flag_or("relative", false).unwrap_or(true) {
+            let message = format!(
+                "gear `{}` relates angles relative to different parts, `{}` and `{}`, which may turn against each other",
+                gear.name.value, one[0], other[0]
+            );
+            let help = "relate the angles of both wheels relative to one housing by an `equation`, or specify `relative = true` \
+                        if this is meant";
+            context.report(Problem::warning(gear.name.span, message).help(help));
+        }
+    }
 }
 
 /// The force of a slider acts on the six nodes around it. Within the elements of these nodes the shear force errs by up to 0.6 of the

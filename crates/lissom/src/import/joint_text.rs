@@ -142,7 +142,7 @@ pub(super) fn write_rotor(text: &mut String, joint: &RobotJoint, place: &Placed,
         "\n# The armature of {name}: a rotor on the ground that goes with the joint.\n\
          [bodies.{own}_rotor]\nmass = {mass:?}\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}]\nposition = {at}\n{moving}\
          \n[joints.{own}_rotor]\nkind = \"{kind}\"\nbase = \"ground\"\ntip = \"{own}_rotor\"\nat = {at}\naxis = {}\n\
-         \n[joints.{own}_armature]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{own}_rotor\"\nratio = 1.0\n{}",
+         \n[joints.{own}_armature]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{own}_rotor\"\nratio = 1.0\nrelative = true\n{}",
         list(&axis),
         place.joint,
         place.coordinate_line("coordinate"),
@@ -160,7 +160,7 @@ fn across(gravity: &Vector3) -> Vector3 {
 pub(super) fn write_follower(text: &mut String, own: &Placed, leader: &Placed, factor: f64) {
     let _ = write!(
         text,
-        "\n[joints.{}_follows]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{}\"\nratio = {factor:?}\n{}{}",
+        "\n[joints.{}_follows]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{}\"\nratio = {factor:?}\nrelative = true\n{}{}",
         own.own,
         leader.joint,
         own.joint,

@@ -124,6 +124,20 @@ fn cam_by_a_table_of_one_turn() {
 }
 
 #[test]
+fn gear_on_two_housings() {
+    let file = "gear-on-two-housings.toml";
+    warned(file, &[], &["`sun_planet`", "`ground`", "`carrier`", "`equation`"]);
+    Results::clean(file, &["--set", "joints.sun_planet.relative=true"]);
+    let mesh =
+        "joints.sun_planet={ kind = \"equation\", equation = \"18*(s.angle - c.angle) + 12*p.angle\" }";
+    near("carrier", Results::clean(file, &["--set", mesh]).last("c.angle"), 3.0, 1e-6);
+    // Housings that are fixed to each other.
+    let fixed = "joints.c={ kind = \"clamp\", base = \"ground\", tip = \"carrier\" }";
+    let unused = ["--unset", "joints.ring", "--unset", "outputs.c"];
+    Results::clean(file, &[&["--set", fixed], &unused[..]].concat());
+}
+
+#[test]
 fn stop_outside_its_range() {
     let file = "stop-outside-its-range.toml";
     warned(file, &[], &["beyond-stop", "`h.angle`"]);
