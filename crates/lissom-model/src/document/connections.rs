@@ -6,8 +6,8 @@ use lissom_motion::Vector3;
 
 use super::entries::PARTS;
 use super::{
-    AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputSource,
-    PointMass, Subject, Superelement, interface_name,
+    AnalysisKind, Attachment, Beam, Body, Component, CoordinateName, Document, NodeReference, OutputKind,
+    OutputSource, PointMass, Subject, Superelement, interface_name,
 };
 use crate::context::Context;
 use crate::line::Line;
@@ -58,7 +58,30 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     complete(context, document);
     at_rest(context, document);
     under_sliders(context, document);
+    drums(context, document);
     gears(context, document);
+}
+
+/// The tension of a rope acts on the drum as a moment, and on the part that has the end of the rope as a force.
+fn drums(context: &Context<'_>, document: &Document) {
+    for output in document.outputs.iter().filter(|output| output.kind == OutputKind::Reaction) {
+        let OutputSource::Joint(joint) = &output.source else { continue };
+        let winds = |spring: &&Component| {
+            let Attachment { nodes, coordinates, .. } = &spring.attachment;
+            !nodes.is_empty() && coordinates.iter().any(|(drum, _)| drum.value == joint.value)
+        };
+        for rope in document.springs.iter().filter(winds) {
+            let message = format!(
+                "the reaction of `{0}` lacks the tension of `{1}`: the rope turns the drum, and pulls at the part on which its end is",
+                joint.value, rope.name.value
+            );
+            let problem = Problem::warning(joint.span, message).also(rope.name.span, "the rope");
+            context.report(
+                problem
+                    .help("add the tension, component `force` of an output of kind `spring`, in the direction of the rope"),
+            );
+        }
+    }
 }
 
 /// Angles of wheels whose bearings turn against each other are relative to different parts: their teeth relate three angles.

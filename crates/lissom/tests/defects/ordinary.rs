@@ -161,3 +161,10 @@ fn wind_in_a_part() {
     near("height", Results::clean(file, &height).first("f.f3"), 100.0, 1e-9);
     near("own height", Results::clean(file, &[part, height].concat()).first("f.f3"), 0.0, 1e-9);
 }
+
+#[test]
+fn drum_and_its_bearing() {
+    let file = "drum-and-its-bearing.toml";
+    warned(file, &[], &["reaction of `axle`", "tension of `rope`"]);
+    Results::clean(file, &["--set", "outputs.bearing.of=\"guide\""]);
+}
