@@ -60,6 +60,7 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     under_sliders(context, document);
     drums(context, document);
     gears(context, document);
+    short_delays(context, document);
 }
 
 /// The tension of a rope acts on the drum as a moment, and on the part that has the end of the rope as a force.
@@ -116,6 +117,28 @@ fn gears(context: &Context<'_>, document: &Document) {
             let help = "relate the angles of both wheels relative to one housing by an `equation`, or specify `relative = true` \
                         if this is meant";
             context.report(Problem::warning(gear.name.span, message).help(help));
+        }
+    }
+}
+
+/// Steps of a delay that count as too many.
+const MAX_STEPS_OF_DELAY: f64 = 1e7;
+
+/// Rejects delays that are far shorter than the analysis: a step is at most as long as a delay.
+fn short_delays(context: &Context<'_>, document: &Document) {
+    let duration = document.analysis.end - document.analysis.start;
+    for delay in document.signals.iter().filter_map(|signal| signal.delay) {
+        let steps = duration / delay.time.value;
+        if steps > MAX_STEPS_OF_DELAY {
+            let message = format!(
+                "a delay of {:e} s requires {steps:.0e} steps, because a step is at most as long as a delay",
+                delay.time.value
+            );
+            context.fail::<()>(
+                delay.time.span,
+                message,
+                "remove the delay, which has no effect on longer motions",
+            );
         }
     }
 }

@@ -168,3 +168,8 @@ fn drum_and_its_bearing() {
     warned(file, &[], &["reaction of `axle`", "tension of `rope`"]);
     Results::clean(file, &["--set", "outputs.bearing.of=\"guide\""]);
 }
+
+#[test]
+fn delay_below_every_step() {
+    rejected("delay-below-every-step.toml", &[], &["1e-9 s requires 1e9 steps"]);
+}
