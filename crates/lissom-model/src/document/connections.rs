@@ -287,7 +287,7 @@ fn part_of(node: &NodeReference) -> &str {
 /// A part without any connection moves freely: possible in dynamics, but seldom meant; singular in statics.
 fn free_parts(context: &Context<'_>, document: &Document) {
     let mut groups = Groups::default();
-    for component in document.joints.iter().chain(&document.springs) {
+    for component in document.joints.iter().chain(&document.springs).chain(&document.loads) {
         let Attachment { nodes, beams, .. } = &component.attachment;
         for pair in nodes.windows(2) {
             groups.join(part_of(&pair[0].node.value), part_of(&pair[1].node.value));
@@ -318,7 +318,11 @@ fn free_parts(context: &Context<'_>, document: &Document) {
     let named: usize = PARTS.iter().map(|table| context.names(table).len()).sum();
     let read = |table, read: &[Component]| context.names(table).len() == read.len();
     // With a part or joint that could not be read, connections are missing that were meant.
-    if parts.len() != named || !read("joints", &document.joints) || !read("springs", &document.springs) {
+    if parts.len() != named
+        || !read("joints", &document.joints)
+        || !read("springs", &document.springs)
+        || !read("loads", &document.loads)
+    {
         return;
     }
     let mut sizes: HashMap<usize, usize> = HashMap::new();

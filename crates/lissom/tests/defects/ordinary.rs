@@ -170,6 +170,11 @@ fn drum_and_its_bearing() {
 }
 
 #[test]
+fn force_between_two_bodies() {
+    Results::clean("force-between-two-bodies.toml", &[]);
+}
+
+#[test]
 fn delay_below_every_step() {
     rejected("delay-below-every-step.toml", &[], &["1e-9 s requires 1e9 steps"]);
 }
