@@ -12,6 +12,9 @@ use crate::kinematics::{CoordinateId, Quantity};
 use crate::system::System;
 use crate::tuning::MAX_ITERATIONS;
 
+/// Added to the squared gradients of a joint, so that dependent equations have a solution too.
+const REGULARIZATION: f64 = 1e-12;
+
 /// A tree of rigid groups.
 pub(super) struct Tree<'a> {
     groups: &'a Groups,
@@ -109,7 +112,9 @@ impl<'a> Tree<'a> {
             tip * relative.inverse() * base.inverse()
         };
         for &group in groups {
-            pose.frames[group] = shift * pose.frames[group];
+            let moved = shift * pose.frames[group];
+            // Over many stages the round-off of rotations would grow exponentially.
+            pose.frames[group] = Motion::new(moved.rotation.normalized(), moved.position);
         }
     }
 }
@@ -132,9 +137,12 @@ fn in_place(joint: &AttachedJoint, start: Motion, own: &JointCoordinates, length
         }
         let gradient = joint.own_gradient(&configuration);
         let rows = DMatrix::from_fn(equations, 6, |i, j| scale(i) * gradient.relative[(i, j)] * unit(j));
-        let step = rows.svd(true, true).solve(&right, 1e-9).ok()?;
+        // The shortest step. A singular value decomposition need not end.
+        let square = &rows * rows.transpose() + DMatrix::identity(equations, equations) * REGULARIZATION;
+        let step = rows.tr_mul(&square.cholesky()?.solve(&right));
         let step = Vector6::from_fn(|k, _| unit(k) * step[k]);
         relative = relative * Motion::exponential(&step);
+        relative.rotation = relative.rotation.normalized();
     }
     relative.position.iter().all(|value| value.is_finite()).then_some(relative)
 }

@@ -178,3 +178,16 @@ fn force_between_two_bodies() {
 fn delay_below_every_step() {
     rejected("delay-below-every-step.toml", &[], &["1e-9 s requires 1e9 steps"]);
 }
+
+/// Against the rotation of the chain beyond each joint.
+#[test]
+fn positions_of_turned_frames() {
+    for (shift, expected) in [
+        ("0", [-0.486989065307, -0.245894121313, -0.481449404179]),
+        ("0.6", [-0.134011221073, -0.730490822720, -0.457518702875]),
+    ] {
+        let shift = format!("joints.j0.displacement={shift}");
+        let results = Results::clean("positions-of-turned-frames.toml", &["--set", &shift]);
+        results.assert_last("p", &["x", "y", "z"], &expected, 1e-9);
+    }
+}
