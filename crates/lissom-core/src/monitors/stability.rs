@@ -3,6 +3,7 @@
 
 use super::monitor::{Accepted, Beginning, Monitor};
 use crate::bytes::{from_bytes, to_bytes};
+use crate::consistent::mobility::mobility;
 use crate::errors::Warning;
 use crate::errors::warn;
 use crate::linearized::LinearModel;
@@ -30,7 +31,9 @@ pub(crate) fn unstable_directions(Problem { system, settings }: Problem<'_>, sta
     if settings.scheme.dynamic {
         return None;
     }
-    LinearModel::of(system, state, settings.solver).ok()?.unstable_directions()
+    let directions = LinearModel::of(system, state, settings.solver).ok()?.unstable_directions()?;
+    // The pivot of a constraint that looks redundant may have the wrong sign: what is fully driven is not unstable.
+    Some(if directions == 0 { 0 } else { directions.min(mobility(system, state).freedoms) })
 }
 
 impl Monitor for Stability {

@@ -191,3 +191,11 @@ fn positions_of_turned_frames() {
         results.assert_last("p", &["x", "y", "z"], &expected, 1e-9);
     }
 }
+
+// False words.
+
+#[test]
+fn driven_chain_statics() {
+    let results = Results::clean("driven-chain-statics.toml", &[]);
+    near("moment", results.last("m.moment"), -19.0145, 1e-3);
+}
