@@ -159,6 +159,8 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
         }
     }
     parts::velocities(document, &names, &system, &mut state.kinematics);
+    // Displacements count from here, also where the motion begins deformed.
+    let undeformed = state.clone();
     if document.starts_in_steady_rotation() {
         match initial_state::steady_rotation(document, &system, &state, &settings) {
             Ok(turning) => state = turning,
@@ -169,7 +171,7 @@ pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, R
     let mut warnings = initial_state::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
     let (channels, accumulated) =
-        output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
+        output_channels::of(document, &system, (&drawn, &undeformed), &names.resolver(), &mut problems);
     system.assign_readings(readings::bind(&names.readings, &channels, accumulated.len(), &mut problems));
     stop_at(document, &mut problems)?;
     system.beams = ExaminedBeams {

@@ -192,6 +192,17 @@ fn positions_of_turned_frames() {
     }
 }
 
+/// Counted from the model file, where the tip is at 10.5 m.
+#[test]
+fn displacement_after_steady_rotation() {
+    let results = Results::clean("displacement-after-steady-rotation.toml", &[]);
+    let [x, y, z] = ["x", "y", "z"].map(|name| results.first(&format!("place.{name}")));
+    assert!(x.hypot(y) > 1e-3, "the tip is bent: {x} {y} {z}");
+    for (name, expected) in [("tip.u1", x), ("tip.u2", y), ("tip.u3", z - 10.5)] {
+        near(name, results.first(name), expected, 1e-12);
+    }
+}
+
 // False words.
 
 #[test]
