@@ -200,6 +200,7 @@ class Gear(Joint):
         ratio: Change of the dependent coordinate per change of the independent one; negative for external gears [1, m/rad or rad/m]; a number.
         coordinate: Number of the coordinate of `joint`, from 1; may be omitted if there is only one; a number > 0, or nothing.
         other_coordinate: Number of the coordinate of `other`, from 1; may be omitted if there is only one; a number > 0, or nothing.
+        relative: Whether it is meant to relate rotations relative to parts that turn against each other; default false: warned about; `true` or `false`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: latch that engages when its only coordinate first reaches the value `at`, and locks it there; `{ at }`, or nothing.
         release: the latch releases when this expression rises through zero; without `latch` it is engaged from the start; an expression of signals, or nothing.
@@ -213,6 +214,7 @@ class Gear(Joint):
     ratio: Number
     coordinate: Number | None = None
     other_coordinate: Number | None = None
+    relative: bool | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None

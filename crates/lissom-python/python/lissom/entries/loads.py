@@ -155,10 +155,10 @@ class LocalLoad(Entry):
         in_: body, point mass or part in whose initial frame positions and directions are expressed; default: the enclosing part; a text, or nothing.
         on: a beam, along which it is distributed, or a node; a node.
         at: where it acts on a node, at the start; default the node [m]; a position, or nothing.
-        axes: axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones, in a part those of the part; `"section"`, `"global"`, or nothing.
+        axes: axes of `force`, `moment`, velocities and relative flow: those of the section or body (default), global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too; `"section"`, `"global"`, `"part"`, or nothing.
         force: per length of a beam, or on a node: three numbers or expressions [N/m, N]; three expressions of `s` and `t`, or nothing.
         moment: the same for the moment [N, N m]; three expressions of `s` and `t`, or nothing.
-        flow: velocity of the surrounding fluid in global axes, in a part in those of the part: three numbers or expressions of x, y, z, t and inputs [m/s]; three expressions of `s` and `t`, or nothing.
+        flow: velocity of the surrounding fluid in global axes, or with `axes = "part"` in those of the part: three numbers or expressions of x, y, z, t and inputs [m/s]; three expressions of `s` and `t`, or nothing.
         variables: named expressions for use in the others; or { of = "…", table = [[…]] }, a table over an expression; a table, or nothing.
         states: first-order states at each point: { derivative = "…", start = 0, magnitude = 1 }; a table, or nothing.
     """
@@ -168,7 +168,7 @@ class LocalLoad(Entry):
     in_: str | None = None
     on: str
     at: Place | None = None
-    axes: Literal["section", "global"] | None = None
+    axes: Literal["section", "global", "part"] | None = None
     force: Vector | None = None
     moment: Vector | None = None
     flow: Vector | None = None

@@ -87,6 +87,8 @@ entry! {
     /// - `other`: joint with the dependent coordinate
     /// - `ratio`: Change of the dependent coordinate per change of the independent one; negative for external gears \[1, m/rad or rad/m\]
     new(joint: JointId = "joint", other: JointId = "other", ratio: f64 = "ratio")
+    /// Whether it is meant to relate rotations relative to parts that turn against each other; default false: warned about.
+    relative: bool = "relative";
 }
 
 entry! {

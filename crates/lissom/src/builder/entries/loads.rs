@@ -90,13 +90,13 @@ entry! {
     new(on: Node = "on")
     /// Where it acts on a node, at the start; default the node \[m\].
     at: [f64; 3] = "at";
-    /// Axes of `force`, `moment`, velocities and flow: those of the section or body (default), or global ones, in a part those of the part.
+    /// Axes of `force`, `moment`, velocities and relative flow: those of the section or body (default), global ones, or those of the part in which the load is, to which x, y, z and `flow` refer then too.
     axes: words::Axes = "axes";
     /// Per length of a beam, or on a node: three numbers or expressions \[N/m, N\].
     force: [Expression; 3] = "force";
     /// The same for the moment \[N, N m\].
     moment: [Expression; 3] = "moment";
-    /// Velocity of the surrounding fluid in global axes, in a part in those of the part: three numbers or expressions of x, y, z, t and inputs \[m/s\].
+    /// Velocity of the surrounding fluid in global axes, or with `axes = "part"` in those of the part: three numbers or expressions of x, y, z, t and inputs \[m/s\].
     flow: [Expression; 3] = "flow";
 }
 

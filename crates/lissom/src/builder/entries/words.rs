@@ -11,10 +11,11 @@ words! {
 }
 
 words! {
-    /// One of `section`, `global`.
+    /// One of `section`, `global`, `part`.
     Axes;
     Section = "section";
     Global = "global";
+    Part = "part";
 }
 
 words! {
