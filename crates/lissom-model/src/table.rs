@@ -97,14 +97,14 @@ impl Table {
                 return Err(TableError::NotClosed);
             }
             // Of rows that are repeated on both sides, the inner ones know nothing of the ends.
-            let beyond = REPEATED.div_ceil(last) as i32;
+            let beyond = REPEATED.div_ceil(last);
             let period = arguments[last] - arguments[0];
-            let repeated = (-beyond..=beyond).flat_map(|turn| {
-                let shifted = rows[..last].iter().map(move |row| (row.0 + f64::from(turn) * period, row.1));
-                shifted.collect::<Vec<_>>()
+            let repeated = (0..=2 * beyond).flat_map(|turn| {
+                let shift = (turn as f64 - beyond as f64) * period;
+                rows[..last].iter().map(move |row| (row.0 + shift, row.1))
             });
             let (all, repeated): (Vec<f64>, Vec<f64>) = repeated.unzip();
-            let own = beyond as usize * last..=(beyond as usize + 1) * last;
+            let own = beyond * last..=(beyond + 1) * last;
             match between(&all, &repeated) {
                 Between::Lines => Between::Lines,
                 Between::Curvatures(found) => Between::Curvatures(found[own].to_vec()),
