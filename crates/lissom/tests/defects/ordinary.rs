@@ -183,8 +183,8 @@ fn delay_below_every_step() {
 #[test]
 fn positions_of_turned_frames() {
     for (shift, expected) in [
-        ("0", [-0.486989065307, -0.245894121313, -0.481449404179]),
-        ("0.6", [-0.134011221073, -0.730490822720, -0.457518702875]),
+        ("0", [-0.486_989_065_307, -0.245_894_121_313, -0.481_449_404_179]),
+        ("0.6", [-0.134_011_221_073, -0.730_490_822_720, -0.457_518_702_875]),
     ] {
         let shift = format!("joints.j0.displacement={shift}");
         let results = Results::clean("positions-of-turned-frames.toml", &["--set", &shift]);
