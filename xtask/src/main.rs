@@ -18,6 +18,7 @@ mod formula;
 mod fuzz;
 mod invariants;
 mod laws;
+mod loops;
 mod mutants;
 mod outcome;
 mod peers;
@@ -88,6 +89,8 @@ enum Chore {
     Laws(laws::LawsArguments),
     /// Try random collisions through springs between points against references that resolve them
     Collisions(collisions::CollisionsArguments),
+    /// Try random driven loops of redundant joints against closed forms
+    Loops(loops::LoopsArguments),
     /// Try random solids in contact, compliant and rigid: none may gain energy or penetrate
     Contacts(contacts::ContactsArguments),
     /// Compare reactions and accelerations of random mechanisms with those of a finer solution
@@ -242,6 +245,7 @@ fn main() -> ExitCode {
         Chore::Forces(arguments) => Ok(forces::forces(&arguments)),
         Chore::Contacts(arguments) => Ok(contacts::contacts(&arguments)),
         Chore::Collisions(arguments) => Ok(collisions::collisions(&arguments)),
+        Chore::Loops(arguments) => Ok(loops::loops(&arguments)),
         Chore::Laws(arguments) => laws::laws(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use crate::elements::inertia::Inertia;
 use crate::joints::evaluation_point::Augmentation;
 use crate::kinematics::step_stages::STAGES;
-use crate::kinematics::{CoordinateMotion, Kinematics, Layout, MotionChange, Quantity};
+use crate::kinematics::{CoordinateMotion, GROUND, Kinematics, Layout, MotionChange, Quantity};
 use crate::node_motion::{IncrementKind, Known, Nodes, StageTable};
 use crate::schemes::{Combination, Parametrization, Scheme, Stage, Tableau, Weights};
 use crate::system::{Blend, Linearization, State, System};
@@ -103,7 +103,7 @@ pub struct Representative {
     pub damping: f64,
     /// k_r [N/m].
     pub stiffness: f64,
-    /// Representative length: root mean square distance between two nodes except the ground's, or the radius of gyration of
+    /// Representative length: root mean square distance between two nodes, the ground's at its joints, or the radius of gyration of
     /// the parts about their nodes if that is longer [m].
     pub length: f64,
 }
@@ -143,9 +143,16 @@ fn unit(quantity: Quantity, radian: f64) -> f64 {
     }
 }
 
-/// Size of a model that does not depend on its distance from the origin, where the ground's node is; 1 for a single point mass.
+/// Size of a model that does not depend on its distance from the origin, where the ground's node is: that counts at the mean location of
+/// its joints, if there are any. 1 for a single point mass.
 fn extent(system: &System, at: &Kinematics) -> f64 {
-    let places = || at.nodes.iter().skip(1).map(|node| node.frame.position);
+    let on_ground =
+        system.joints().iter().flat_map(|joint| &joint.frames).filter(|frame| frame.node == GROUND);
+    let (sum, number) = on_ground.fold((lissom_motion::Vector3::zeros(), 0.0_f64), |(sum, number), frame| {
+        (sum + frame.offset.position, number + 1.0)
+    });
+    let ground = (number > 0.0).then(|| sum / number);
+    let places = || at.nodes.iter().skip(1).map(|node| node.frame.position).chain(ground);
     let count = places().count() as f64;
     let first = places().next().unwrap_or_default();
     let center = places().map(|place| place - first).sum::<lissom_motion::Vector3>() / count;

@@ -462,7 +462,7 @@ mod tests {
             assert!(interpolation == Interpolation::Monotone || (before[1] - after[1]).abs() < 1e-6);
             assert_eq!(Table::bounds(&table, 0.0, 100.0), Table::bounds(&table, 0.0, TAU));
         }
-        let rows = [(0.0, 0.0), (1.0, 2.0), (2.5, 1.0), (6.2831853, 0.0)];
+        let rows = [(0.0, 0.0), (1.0, 2.0), (2.5, 1.0), (TAU - 7e-9, 0.0)];
         let closed = |count| Table::periodic(&rows[..count], Interpolation::Spline, TAU);
         assert_eq!(closed(4), closed(3));
         assert_eq!(Table::periodic(&rows, Interpolation::Spline, 3.0), Err(TableError::TooLong));

@@ -105,7 +105,7 @@ fn forces_that_vibrate_are_accurate_where_they_are_controlled() {
         [&[third, usual][..], &[forces, third, usual], &[forces, third, finer], &[forces, fifth, usual]]
             .map(|settings| error(&record(settings)));
     println!("{usual:.1e} {controlled:.1e} {finer:.1e} {fifth:.1e}");
-    assert!(controlled < 0.015 && controlled < 0.25 * usual, "{controlled:.1e}, usual {usual:.1e}");
+    assert!(controlled < 0.015 && controlled < 0.4 * usual, "{controlled:.1e}, usual {usual:.1e}");
     assert!(finer < 0.15 * controlled, "{finer:.1e} after {controlled:.1e}");
     assert!(fifth < 0.15 * controlled, "{fifth:.1e} after {controlled:.1e}");
 }

@@ -72,7 +72,7 @@ impl<'a> Closing<'a> {
         let kind = sparse.or_else(|| lissom_solver::kind("dense"));
         let saddle = kind.filter(|_| !is_empty).map(|kind| {
             let matrix = Matrix::new((kind.real)(&structure), &structure);
-            SaddlePoint::new(matrix, columns.count[0]).without_compliance()
+            SaddlePoint::new(matrix, columns.count[0]).with_all_equations()
         });
         Self { columns, groups, at: at.clone(), structure, saddle }
     }
@@ -181,7 +181,7 @@ impl<'a> Closing<'a> {
             right.push(-violation);
         }
         saddle.factor(&self.structure, 1.0).ok()?;
-        saddle.solve(&self.structure, &mut right);
+        saddle.solve(&mut right);
         right.iter().all(|value| value.is_finite()).then_some(right)
     }
 

@@ -10,7 +10,7 @@
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, SolverKind};
 
-use super::singular_positions::SingularPositions;
+use super::redundancy::Redundancy;
 use crate::errors::InitialError;
 use crate::errors::step_error::pivot_hint;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
@@ -21,9 +21,6 @@ use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::Representative;
 use crate::system::{Linearization, State, System};
 use crate::tuning::MAX_ITERATIONS;
-
-/// Relative change of multipliers at which their iteration has converged where constraints repeat each other.
-const REDUNDANT_ITERATION: f64 = 1e-6;
 
 /// Inertias that define the metric of a projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +34,7 @@ pub(crate) enum Inertias {
 /// Solves for initial values.
 pub struct ConsistentInitialConditions {
     saddle: SaddlePoint<Matrix<f64>>,
+    redundancy: Redundancy,
     pub(crate) linearization: Linearization,
     scale: f64,
     /// Length that converts radians to lengths [m].
@@ -55,13 +53,12 @@ impl ConsistentInitialConditions {
         let (layout, structure) = (system.layout(), system.structure());
         let matrix = Matrix::new((kind.real)(structure), structure);
         let count = layout.coordinate_count();
-        // Pivots of redundant equations are round-off, which may exceed the threshold of zero pivots.
-        let repeating =
-            SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
+        let redundancy = Redundancy::of_rates(system, &state.kinematics, representative.length);
+        let mut saddle = SaddlePoint::new(matrix, count).equilibrated(layout.size());
+        saddle.omit(redundancy.omitted());
         Self {
-            saddle: SaddlePoint::new(matrix, count)
-                .equilibrated(layout.size())
-                .with_redundancy(structure, repeating.map(|multiplier| count + multiplier)),
+            saddle,
+            redundancy,
             linearization: system.empty_linearization(),
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             radian: representative.length,
@@ -78,6 +75,9 @@ impl ConsistentInitialConditions {
         state: &State,
         inertias: Inertias,
     ) -> Result<(), InitialError> {
+        if self.redundancy.follow(system, &state.kinematics) {
+            self.saddle.omit(self.redundancy.omitted());
+        }
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
         system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
@@ -150,26 +150,27 @@ impl ConsistentInitialConditions {
         }
     }
 
-    /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector, in place.
+    /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector, in place. The multipliers are those of least norm.
     pub(crate) fn solve(&mut self, system: &System, right: &mut [f64]) {
         let layout = system.layout();
         let count = layout.coordinate_count();
+        self.redundancy.remove_misfit(&mut right[count..]);
         let original = right.to_vec();
         let mut solution = vec![0.0; right.len()];
-        // Rows scaled as s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also removes the
-        // error of regularised constraints, while multipliers keep their minimum norm.
-        for _ in 0..if self.saddle.redundant().is_some() { 4 } else { 2 } {
+        // Rows scaled as s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once.
+        for _ in 0..2 {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
             let constraints: Vec<f64> = rest[count..].to_vec();
             self.add_transposed(system, &constraints, &mut rest);
             rest[count..].iter_mut().for_each(|value| *value *= self.scale);
-            self.saddle.solve_with_factors(&mut rest);
+            self.saddle.solve(&mut rest);
             for (row, value) in rest.iter().enumerate() {
                 solution[row] += if row < count { *value } else { self.scale * value };
             }
         }
         right.copy_from_slice(&solution);
+        self.redundancy.reduce_to_least_norm(&mut right[count..]);
     }
 
     /// M x of the last linearisation.
@@ -408,10 +409,7 @@ impl ConsistentInitialConditions {
             seen.iter_mut().zip(found).for_each(|(seen, found)| *seen += relaxation * (found - *seen));
             solution = right;
         }
-        // The shares of constraints that repeat each other are known to the round-off over their compliance.
-        let allowed =
-            if self.saddle.redundant().is_some() { REDUNDANT_ITERATION } else { round_off::ITERATION };
-        if change < allowed { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
+        if change < round_off::ITERATION { Ok(solution) } else { Err(InitialError::NormalForces { change }) }
     }
 
     /// [-f; -(Ḃ v + ∂²c/∂t²)] at a motion without accelerations.

@@ -16,12 +16,21 @@ pub(crate) struct Loop {
     /// Multiplier of every equation.
     pub(crate) multipliers: Vec<usize>,
     /// Rows of the layout that its equations depend on, in ascending order.
-    columns: Vec<usize>,
+    pub(crate) columns: Vec<usize>,
 }
 
 /// The closed loops of a system; loops with a common moving part are merged.
 pub(crate) fn of(system: &System) -> Vec<Loop> {
-    let kept = kept(system);
+    from(system, kept(system, &[Level::Position]))
+}
+
+/// The same with constraints of velocities.
+pub(crate) fn of_all_levels(system: &System) -> Vec<Loop> {
+    from(system, kept(system, &[Level::Position, Level::Velocity]))
+}
+
+/// Loops of constraints, given with their rows of the layout.
+fn from(system: &System, kept: Vec<(usize, Vec<usize>)>) -> Vec<Loop> {
     // By row of the layout: the first row of its loop (union-find).
     let mut parents: Vec<usize> = (0..system.layout().coordinate_count()).collect();
     for (_, columns) in &kept {
@@ -51,11 +60,11 @@ fn holds_nodes(constraint: &dyn Constraint) -> bool {
     !constraint.sides().is_empty()
 }
 
-/// Constraints that are not removed: index among all constraints, and rows of the layout that each depends on.
-fn kept(system: &System) -> Vec<(usize, Vec<usize>)> {
+/// Constraints of these levels that are not removed: index among all constraints, and rows of the layout that each depends on.
+fn kept(system: &System, levels: &[Level]) -> Vec<(usize, Vec<usize>)> {
     let layout = system.layout();
     let columns: Vec<Vec<usize>> = system.constraints().map(|own| columns_of(own, layout)).collect();
-    let has_equations = |own: &dyn Constraint| own.equations() > 0 && own.level() == Level::Position;
+    let has_equations = |own: &dyn Constraint| own.equations() > 0 && levels.contains(&own.level());
     let mut is_kept: Vec<bool> = system.constraints().map(has_equations).collect();
     take_ends(system, &mut is_kept);
     let mut known = vec![0_usize; layout.coordinate_count()];
@@ -174,13 +183,26 @@ impl Loop {
             equation += count;
         }
     }
+
+    /// Its constraints with the first equation of each.
+    pub(crate) fn constraints<'s>(
+        &'s self,
+        system: &'s System,
+    ) -> impl Iterator<Item = (usize, &'s dyn Constraint)> {
+        self.constraints.iter().scan(0, |equation, &index| {
+            let constraint = system.constraint(index);
+            let first = *equation;
+            *equation += constraint.equations();
+            Some((first, constraint))
+        })
+    }
 }
 
 /// Nonzero derivatives of a loop's equations.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gradient {
     /// Entries of every column: equation and derivative. A joint between two points of one part has two entries in a column.
-    columns: Vec<Vec<(usize, f64)>>,
+    pub(crate) columns: Vec<Vec<(usize, f64)>>,
     /// Reciprocal norms of the equations' rows.
     sizes: Vec<f64>,
     /// Derivatives of one constraint, row after row.
@@ -188,6 +210,21 @@ pub(crate) struct Gradient {
 }
 
 impl Gradient {
+    /// Norms of the rows of B, by equation.
+    pub(crate) fn norms(&self, norms: &mut [f64]) {
+        norms.fill(0.0);
+        for column in &self.columns {
+            for (place, &(i, by_i)) in column.iter().enumerate() {
+                // Two entries of the same equation: (a + b)² = a² + 2 a b + b².
+                let others = column[..place].iter().filter(|(j, _)| *j == i);
+                norms[i] += by_i * by_i + others.map(|(_, by_j)| 2.0 * by_i * by_j).sum::<f64>();
+            }
+        }
+        for norm in norms {
+            *norm = norm.max(0.0).sqrt();
+        }
+    }
+
     /// B Bᵀ with a unit diagonal, in the lower triangle. `square` has as many rows as there are equations.
     pub(crate) fn square(&mut self, square: &mut DMatrix<f64>) {
         let Self { columns, sizes, .. } = self;

@@ -5,10 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use lissom_motion::Vector3;
 
 use super::loops;
+use super::redundancy::GEOMETRIC_TOLERANCE;
 use crate::joints::Equations;
+use crate::kinematics::Quantity;
 use crate::round_off;
+use crate::scaling::Representative;
 use crate::system::{State, System};
 
+/// Remainder of a row, relative to its largest entry, below which it depends on others: elimination enlarges what remains of
+/// dependent rows.
+const DEPENDENT: f64 = 10.0 * GEOMETRIC_TOLERANCE;
 /// Smallest pivot, relative to the largest entry of its row.
 const LARGE_ENOUGH: f64 = 0.1;
 
@@ -202,7 +208,8 @@ fn eliminate(
     // The pivot may be any entry that is not small: the joint's own coordinate, otherwise the first, so that elimination along a chain
     // does not return to its beginning.
     let left = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let large = entries.iter().filter(|(_, value)| value.abs() >= LARGE_ENOUGH * left);
+    let is_large = |value: f64| value.abs() >= LARGE_ENOUGH * left && left > DEPENDENT * largest;
+    let large = entries.iter().filter(|(_, value)| is_large(**value));
     let pivot = large.min_by_key(|&(&column, _)| (column < of_nodes, column)).map(|(&column, _)| column);
     match pivot {
         Some(pivot) => Ok(Reduced { pivot, entries, multiplier, used }),
@@ -215,12 +222,17 @@ fn rows(system: &System, state: &State) -> Vec<(usize, BTreeMap<usize, f64>)> {
     let layout = system.layout();
     let linearization = system.linearization_at(&state.kinematics);
     let pattern = system.pattern();
+    let length = Representative::of(system, &state.kinematics, &linearization).length;
+    // Angles as arcs: the geometric tolerance does not depend on units.
+    let unit =
+        |row: usize| if layout.quantities()[row] == Quantity::Angle && length > 0.0 { length } else { 1.0 };
     let row = |multiplier: usize| -> BTreeMap<usize, f64> {
         let column = layout.coordinate_count() + multiplier;
         let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
         range
             .map(|position| (pattern.row_indices()[position], linearization.constraint[position]))
             .filter(|&(row, value)| row < layout.coordinate_count() && value != 0.0)
+            .map(|(row, value)| (row, value / unit(row)))
             .collect()
     };
     let of_positions = (0..layout.multiplier_count).filter(|&own| !layout.is_of_velocities(own));

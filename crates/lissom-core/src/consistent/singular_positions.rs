@@ -91,15 +91,6 @@ impl SingularPositions {
         self.loops.is_empty()
     }
 
-    /// The first multiplier whose equation was redundant at the start of the monitoring.
-    pub(crate) fn first_repeating(&self) -> Option<usize> {
-        let repeating = |(found, known): (&Loop, &Known)| {
-            let equation = known.references.iter().position(|reference| *reference == 0.0)?;
-            Some(found.multipliers[equation])
-        };
-        self.loops.iter().zip(&self.known).filter_map(repeating).min()
-    }
-
     /// The loop closest to a singular position, if one is close: its joints, and the distance [rad].
     pub(crate) fn closest(&mut self, system: &System, at: &Kinematics) -> Option<(Subject, f64)> {
         let mut closest: Option<(Subject, f64)> = None;

@@ -193,21 +193,8 @@ impl Stages {
                 }
             }
         }
-        if let Some(compliance) = work.tangent.compliance() {
-            let [room, violations] = &mut self.scratch;
-            let scale = factor * base.integrator.scaled.scale();
-            for (residual, multipliers) in self.residuals.iter_mut().zip(&lanes.multipliers) {
-                for lane in 0..WIDTH {
-                    let known = room.iter_mut().zip(multipliers);
-                    known.for_each(|(value, block)| *value = block[lane]);
-                    let own = violations.iter_mut().zip(&residual[count..]);
-                    own.for_each(|(value, block)| *value = block[lane]);
-                    let rows = layout.multiplier_rows().len();
-                    compliance.relax(scale, &room[..rows], &mut violations[..rows]);
-                    let back = residual[count..].iter_mut().zip(&*violations);
-                    back.for_each(|(block, value)| block[lane] = *value);
-                }
-            }
+        for residual in &mut self.residuals {
+            work.tangent.omitted().iter().for_each(|&row| residual[row] = NOTHING);
         }
         for residual in &mut self.residuals {
             multiply(residual, &work.units.rows);

@@ -70,6 +70,24 @@ diagnostics! {
             meaning: "The joints and drives prevent a given initial velocity entirely.",
             advice: "Remove the velocity, or free the coordinate.",
         }
+        /// Nothing can move, because constraints that are meant to repeat others are out of line.
+        NoFreedom {
+            /// The joint that is out of line.
+            joint: Subject,
+            /// The joints that it repeats nearly.
+            others: Subject,
+            /// Angle between its direction and theirs [rad].
+            angle: f64,
+        } => "no-freedom" {
+            subject: joint,
+            cause: ("the mechanism has no degree of freedom: {joint} repeats directions of {others}, but is out of line by {angle:.1e} rad, \
+                    so that each holds what the others leave free"),
+            remedy: "give positions and axes with more digits (up to 1e-5 rad count as in line), or replace the joint by a kind that leaves \
+                the direction free",
+            meaning: "Nothing can move: joints that are meant to guide the same motion, such as two hinges of a door, are out of line by more \
+                than the geometric tolerance of 1e-5 rad.",
+            advice: "Give positions and axes with more digits, or replace one of the joints by a kind that leaves the direction free.",
+        }
         /// Drives or joints ask for different velocities.
         RatesContradict {
             /// Names of the constraints.

@@ -140,13 +140,13 @@ diagnostics! {
         } => "constraints-dependent" {
             time: *time,
             subject: unknown,
-            cause: ("from t = {time} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, and \
-                    constraints depend on each other, detected at the {unknown}: in a singular position, such as a dead centre or links in \
-                    line, the smallest violations are large motions"),
+            cause: ("from t = {time} s: steps down to {size:.1e} s have no accurate solution, and constraints depend on each other, \
+                    detected at the {unknown}: in a singular position, such as a dead centre or links in line, the smallest violations \
+                    are large motions"),
             remedy: "start farther from the singular position, or replace joints whose directions are guided twice (in a plane loop \
                 of four bars a spherical and a universal joint instead of two of the revolute joints)",
-            meaning: "Constraints that repeat each other yield by round-off. Beside a singular position that is a considerable motion, which \
-                the error estimate reports.",
+            meaning: "Beside a singular position of redundant constraints the smallest violations are considerable motions, which the error \
+                estimate reports.",
             advice: "Start farther from the singular position, or remove redundant constraints, which `lissom check` lists.",
         }
         /// Something passes through zero again and again.
@@ -200,15 +200,18 @@ diagnostics! {
             time: f64,
             /// Names and violations of the constraints that are violated most.
             violated: Subject,
+            /// The constraints on which they depend.
+            others: String,
+            /// The reason.
+            reason: &'static str,
         } => "constraints-contradict" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time} s constraints contradict each other: violated are {violated}: a drive prescribes a position that \
-                    the joints do not allow, or \
-                    two drives prescribe different ones"),
-            remedy: "remove one, or change the prescribed motion",
-            meaning: "Constraints cannot be satisfied together: two drives of one coordinate, or a drive beyond the reach of its links.",
-            advice: "Remove one of the constraints, or change the prescribed motion.",
+            cause: ("at t = {time} s constraints contradict each other: violated is {violated}, which depends on {others}: {reason}"),
+            remedy: "remove one of them, change the prescribed motion, or give positions and axes with more digits",
+            meaning: "Constraints cannot be satisfied together: two drives of one coordinate, a drive beyond the reach of its links, or \
+                redundant joints that are out of line by more than the geometric tolerance.",
+            advice: "Remove one of the constraints, change the prescribed motion, or give positions and axes with more digits.",
         }
         /// A node turns further than a step resolves.
         TurnsTooFar {

@@ -281,22 +281,44 @@ diagnostics! {
                 the phase drifts with the square of the time.",
             advice: "Use a smaller `relative_tolerance`: a tenth of it reduces the drift to less than a tenth.",
         }
-        /// Redundant constraints are regularised.
-        RegularizedConstraints {
+        /// A constraint is nearly redundant.
+        JointsOutOfLine {
+            /// The start [s].
+            time: f64,
+            /// The joint that is out of line.
+            joint: Subject,
+            /// The joints that it repeats nearly.
+            others: Subject,
+            /// Angle between its direction and theirs [rad].
+            angle: f64,
+        } => "joints-out-of-line" {
+            time: *time,
+            subject: joint,
+            cause: ("{joint} repeats directions of {others}, but is out of line by {angle:.1e} rad, so that each holds what the others leave \
+                    free"),
+            remedy: "give positions and axes with more digits (up to 1e-5 rad count as in line), or replace the joint by a kind that leaves \
+                the direction free",
+            meaning: "Joints that are meant to guide the same motion are out of line by more than the geometric tolerance of 1e-5 rad, and lock \
+                it.",
+            advice: "Give positions and axes with more digits, or replace one of the joints by a kind that leaves the direction free.",
+        }
+        /// The geometry of redundant constraints does not fit the others.
+        RedundantMisfit {
             /// When it was first detected [s].
             time: f64,
-            /// Names of the constraints and their violations.
+            /// Name of the equation and its violation.
             violated: Subject,
-        } => "constraints-yield" {
+            /// The constraints on which it depends.
+            others: Subject,
+        } => "redundant-misfit" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time} s constraints are violated: {violated}; they are redundant and loaded, so results have an error \
-                    of this size"),
-            remedy: "remove redundant constraints, or check the units",
-            meaning: "Constraints are violated by more than 1e-6 of the representative length, or 1e-6 rad, although Newton's method has \
-                converged; from 1e-5 on this is a failure.",
-            advice: "Redundant constraints are regularised and yield in proportion to the force that they carry: remove the redundant \
-                constraint, or check the units.",
+            cause: ("at t = {time} s the geometry does not fit: {violated}; the constraint is redundant beside {others}, which the motion \
+                    follows"),
+            remedy: "give positions and axes with more digits, or remove the redundant constraint",
+            meaning: "A redundant constraint is violated by more than 1e-6 of the representative length, or 1e-6 rad: its axes or lengths differ \
+                from those that the other constraints imply. The motion follows the others; from 1e-4 on this is a failure.",
+            advice: "Give positions and axes with more digits, or replace one of the joints by a kind that leaves the direction free.",
         }
         /// A wheel's point of contact travels faster than steps of planned size resolve.
         ContactRunsRound {

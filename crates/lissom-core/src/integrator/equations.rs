@@ -319,7 +319,12 @@ impl StepEquations<'_> {
     fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
         let factor = self.scaled.multiplier_factor();
         let Workspace {
-            increments, multipliers, evaluation: EvaluationSpace { processor, .. }, units, ..
+            increments,
+            multipliers,
+            evaluation: EvaluationSpace { processor, .. },
+            units,
+            redundancy,
+            ..
         } = &mut *self.work;
         for (stage, corrections) in corrections.iter().enumerate() {
             let (motion, constraints) = corrections.split_at(units.coordinates.len());
@@ -329,6 +334,7 @@ impl StepEquations<'_> {
                 corrections: constraints,
                 values: &mut multipliers[stage],
             });
+            redundancy.reduce_to_least_norm(&mut multipliers[stage]);
         }
     }
 
@@ -413,13 +419,11 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Evaluation);
         self.evaluate();
         self.watch.begin(Phase::Rest);
-        let layout = self.system.layout();
         let work = &mut *self.work;
-        if let Some(compliance) = work.tangent.compliance() {
-            let factor = self.scaled.multiplier_factor() * self.scaled.scale();
-            for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
-                compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
-            }
+        let count = work.units.coordinates.len();
+        for residual in &mut work.residuals {
+            work.redundancy.remove_misfit(&mut residual[count..]);
+            work.tangent.omitted().iter().for_each(|&row| residual[row] = 0.0);
         }
         for values in &mut work.residuals {
             work.evaluation.processor.dispatch(Multiply { values, factors: &work.units.rows });

@@ -61,12 +61,11 @@ pub(crate) struct Integrator {
 }
 
 impl Integrator {
-    /// At the start of a simulation. `repeating` is the first multiplier of a redundant constraint.
+    /// At the start of a simulation.
     pub(crate) fn new(
         Problem { system, settings }: Problem<'_>,
         state: &State,
         representative: Representative,
-        repeating: Option<usize>,
     ) -> Self {
         let scheme = &settings.scheme;
         let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
@@ -75,10 +74,7 @@ impl Integrator {
         (work.options.disabled, work.options.tuning) = (settings.limits.disabled, settings.limits.tuning);
         work.evaluation.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.tangent.matrices.set_threads(settings.threads);
-        let count = system.layout().coordinate_count();
-        let unknown = repeating.map(|multiplier| count + multiplier);
-        work.tangent =
-            work.tangent.with_redundancy(system.structure(), unknown).falling_back(settings.solver.name);
+        work.tangent = work.tangent.falling_back(settings.solver.name);
         let has_constraints = !system.layout().multiplier_rows().is_empty();
         let projection = scheme
             .tableau
@@ -146,6 +142,10 @@ impl Integrator {
     ) -> Result<(), StepError> {
         if size != self.scaled.step_size() {
             self.resize(Problem { system, settings }, size);
+        }
+        if self.work.redundancy.follow(system, &state.kinematics) {
+            self.work.tangent.omit(self.work.redundancy.omitted());
+            self.jacobian_state = JacobianState::default();
         }
         attempt.size = size;
         attempt.is_converted = false;

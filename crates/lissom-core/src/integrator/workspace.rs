@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::anderson::Anderson;
 use super::corrections::processor;
 use super::predictor::Predictor;
+use crate::consistent::redundancy::Redundancy;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Layout, Quantity};
@@ -119,6 +120,8 @@ pub(crate) struct Workspace {
     pub(crate) stiffness: Vec<f64>,
     /// The tangents of the scheme's decoupled systems.
     pub(crate) tangent: SaddlePoint<StageTangents>,
+    /// Redundant equations, which steps omit.
+    pub(crate) redundancy: Redundancy,
     pub(crate) newton: Progress,
     pub(crate) error: EstimatedError,
     pub(crate) round_off: RoundOff,
@@ -145,6 +148,8 @@ impl Workspace {
         if equilibrated {
             tangent = tangent.equilibrated(layout.size());
         }
+        let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
+        tangent.omit(redundancy.omitted());
         Self {
             unit: UnitStepState::new(layout, scheme),
             prediction: Prediction {
@@ -165,6 +170,7 @@ impl Workspace {
             residuals: vec![vec![0.0; layout.size()]; stages],
             stiffness: vec![0.0; layout.size()],
             tangent,
+            redundancy,
             newton: Progress {
                 before: vec![vec![0.0; layout.size()]; stages],
                 backed_off: false,

@@ -10,6 +10,7 @@ pub(crate) mod start;
 
 use std::f64::consts::PI;
 
+use crate::consistent::redundancy::{GEOMETRIC_TOLERANCE, Redundancy};
 use crate::energy_balance::{EnergyBalance, StepWork};
 use crate::errors::{MAX_LISTED, StepError, Warning};
 use crate::kinematics::{GROUND, Kinematics, NodeId, Quantity, Subject};
@@ -18,9 +19,10 @@ use crate::scaling::Representative;
 use crate::settings::Problem;
 use crate::system::{State, System};
 
-/// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions
-/// and redundant constraints that agree leave some 1e-10.
+/// Violation at which a constraint is not satisfied, relative to the representative length, or in radians. Solutions leave some 1e-14.
 const MAX_VIOLATION: f64 = 1e-5;
+/// The same for redundant constraints: ten times the geometric tolerance to which they may depend on others, which may grow in a motion.
+const MAX_MISFIT: f64 = 10.0 * GEOMETRIC_TOLERANCE;
 /// Violation above which a warning is given, relative to the representative length, or in radians. Rates of constraints that remain
 /// at the start above this fraction of the largest one contradict each other.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
@@ -34,6 +36,7 @@ const MAX_RELATIVE_TURN: f64 = 0.9;
 pub(crate) struct Judge<'a> {
     pub(crate) system: &'a System,
     pub(crate) representative: &'a Representative,
+    pub(crate) redundancy: &'a Redundancy,
     /// Whether the problem is a motion, not a sequence of equilibria.
     pub(crate) is_motion: bool,
     /// Whether spurious energy fails the step.
@@ -42,9 +45,13 @@ pub(crate) struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     /// Checks steps of a model.
-    pub(crate) fn new(Problem { system, settings }: Problem<'a>, representative: &'a Representative) -> Self {
+    pub(crate) fn new(
+        Problem { system, settings }: Problem<'a>,
+        representative: &'a Representative,
+        redundancy: &'a Redundancy,
+    ) -> Self {
         let (is_motion, checks_energy) = (settings.scheme.dynamic, settings.energy_check);
-        Self { system, representative, is_motion, checks_energy }
+        Self { system, representative, redundancy, is_motion, checks_energy }
     }
 }
 
@@ -97,26 +104,35 @@ impl Judge<'_> {
         self.system.layout().name_of_node(most).to_owned()
     }
 
-    /// Fails if constraints are violated by more than the error of the solution: they contradict each other, or a
-    /// drive prescribes a motion that the others do not allow. Returns the largest violation.
+    /// Fails if constraints are violated by more than the error of the solution or, where they are redundant, by more than the geometric
+    /// tolerance: they contradict each other. Returns the largest violation.
     fn constraints(&self, end: &State) -> Result<f64, StepError> {
+        let limit = if self.redundancy.omitted().is_empty() { MAX_VIOLATION } else { MAX_MISFIT };
         let worst = self.violations(end).fold(0.0_f64, f64::max);
-        if worst <= MAX_VIOLATION {
+        if worst <= limit {
             return Ok(worst);
         }
-        Err(StepError::Contradiction {
-            time: end.kinematics.time,
-            violated: self.names_of_violated(end, worst),
-        })
+        let (violated, others) = self.names_of_violated(end, worst);
+        Err(self.contradiction(end.kinematics.time, violated, &others))
     }
 
-    /// Reports constraints violated by more than the error of the solution, and by less than the limit of failure.
-    pub(crate) fn regularized(&self, end: &State, worst: f64) -> Option<Warning> {
-        let is_reported = worst > NOTEWORTHY_VIOLATION;
-        is_reported.then(|| Warning::RegularizedConstraints {
-            time: end.kinematics.time,
-            violated: self.names_of_violated(end, worst),
-        })
+    fn contradiction(&self, time: f64, violated: Subject, others: &Subject) -> StepError {
+        let mut drives = self.system.constraints().filter(|own| own.may_depend_on_time());
+        let reason = match (drives.next(), drives.next()) {
+            (None, _) => "their geometry does not fit, so that nothing can move farther",
+            (Some(_), None) => "the drive prescribes a position that the joints do not allow",
+            (Some(_), Some(_)) => {
+                "a drive prescribes a position that the joints do not allow, or two drives prescribe different ones"
+            }
+        };
+        StepError::Contradiction { time, violated, others: others.to_string(), reason }
+    }
+
+    /// Reports redundant constraints that are violated by more than the error of the solution, and by less than the limit of failure.
+    pub(crate) fn misfit(&self, end: &State, worst: f64) -> Option<Warning> {
+        let (violated, others) =
+            (worst > NOTEWORTHY_VIOLATION).then(|| self.names_of_violated(end, worst))?;
+        Some(Warning::RedundantMisfit { time: end.kinematics.time, violated, others })
     }
 
     /// Violations relative to the representative length, or in radians.
@@ -130,8 +146,8 @@ impl Judge<'_> {
         &layout.quantities()[layout.coordinate_count()..]
     }
 
-    /// The most violated constraints, and their violations.
-    fn names_of_violated(&self, end: &State, worst: f64) -> Subject {
+    /// The most violated constraints with their violations, and those on which they depend.
+    fn names_of_violated(&self, end: &State, worst: f64) -> (Subject, Subject) {
         let mut named: Vec<(f64, usize)> =
             self.violations(end).enumerate().map(|(k, size)| (size, k)).collect();
         // Constraints with equal violations are listed in the model's order, not by their last digits.
@@ -139,19 +155,24 @@ impl Judge<'_> {
         named.sort_by(|a, b| rank(b.0).total_cmp(&rank(a.0)));
         let mut violated: Vec<Subject> = Vec::new();
         for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MAX_LISTED) {
-            let (joint, equation) = self.system.layout().constraint_name(k);
-            let unit = match self.quantities()[k] {
-                Quantity::Length => "m",
-                Quantity::Angle => "rad",
-                Quantity::State => "",
-            };
-            let words = format!(
-                "`{joint}` ({equation}) by {:.3e} {unit}",
-                crate::number::Written(end.violations[k].abs())
-            );
-            violated.push(Subject::new("joint", joint).called(words));
+            violated.push(self.name_of_violated(k, end.violations[k]));
         }
-        Subject::list(violated)
+        let others = named.first().map(|&(_, k)| self.redundancy.joints_around(self.system, k));
+        let others = others.filter(|others| others.entry().is_some());
+        (Subject::list(violated), others.unwrap_or_else(|| Subject::nameless("other constraints")))
+    }
+
+    /// A constraint's equation with its violation.
+    fn name_of_violated(&self, k: usize, violation: f64) -> Subject {
+        let (joint, equation) = self.system.layout().constraint_name(k);
+        let unit = match self.quantities()[k] {
+            Quantity::Length => "m",
+            Quantity::Angle => "rad",
+            Quantity::State => "",
+        };
+        let words =
+            format!("`{joint}` ({equation}) by {:.3e} {unit}", crate::number::Written(violation.abs()));
+        Subject::new("joint", joint).called(words)
     }
 
     /// Fails if a slider has left the end of its beam.

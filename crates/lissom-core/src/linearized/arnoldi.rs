@@ -274,7 +274,8 @@ fn find_near<'a, S: Field>(
     }
     let eigenvalues: usize = modes.iter().map(|mode| if mode.eigenvalue.im == 0.0 { 1 } else { 2 }).sum();
     let layout = model.system.layout();
-    let freedoms = layout.coordinate_count().saturating_sub(layout.multiplier_rows().len());
+    let equations = layout.multiplier_rows().len() - model.redundant;
+    let freedoms = layout.coordinate_count().saturating_sub(equations);
     let most = match &spectrum {
         Some(spectrum) => spectrum.values.len(),
         None if freedoms == 0 || solver.has_redundant_constraints() => usize::MAX,

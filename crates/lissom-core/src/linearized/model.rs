@@ -11,6 +11,7 @@ use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use super::velocity_constraints::{move_to_rates, refuse};
 use super::{SLOW_RATE, rolling_axes};
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::redundancy::Redundancy;
 use crate::diagnostics::diagnostics;
 use crate::errors::InitialError;
 use crate::errors::StepError;
@@ -138,6 +139,8 @@ pub struct LinearModel<'a> {
     released: f64,
     unsteadiness: f64,
     multipliers: Vec<f64>,
+    /// Number of redundant equations, which are omitted.
+    pub(super) redundant: usize,
     /// Solver for accelerations.
     pub(super) solver: &'a SolverKind,
     /// The transformation to axes at rest, and the structure of the matrices there; none in the axes of the nodes.
@@ -164,8 +167,10 @@ impl<'a> LinearModel<'a> {
         let mut state = state.clone();
         let is_at_rest = is_at_rest(&state.kinematics);
         let zeros = vec![0.0; system.layout().multiplier_rows().len()];
-        let unloaded = system.linearization_at(&state.kinematics);
+        let mut unloaded = system.linearization_at(&state.kinematics);
         let representative = Representative::of(system, &state.kinematics, &unloaded);
+        let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
+        redundancy.omit_from(system, &mut unloaded.constraint);
         let time = state.kinematics.time;
         let ([mut imbalance, mut released], mut unsteadiness) = ([0.0; 2], 0.0);
         if is_at_rest {
@@ -176,6 +181,7 @@ impl<'a> LinearModel<'a> {
                 coordinate.acceleration = 0.0;
             }
             [imbalance, released] = hold(system, &mut state, &unloaded, &representative, &zeros)?;
+            redundancy.reduce_to_least_norm(&mut state.multipliers);
         } else {
             let mut initial = ConsistentInitialConditions::new(system, &state, &representative, solver);
             initial
@@ -189,6 +195,7 @@ impl<'a> LinearModel<'a> {
         let chart = if is_at_rest { Chart::Body } else { Chart::RelativeToDrift(&state.kinematics.nodes) };
         system.linearize(&point, chart, &mut parts);
         parts.fold_multipliers();
+        redundancy.omit_from(system, &mut parts.constraint);
         if !is_at_rest {
             move_to_rates(system, &mut parts);
             if unsteadiness > round_off::STEADY_MOTION {
@@ -211,6 +218,7 @@ impl<'a> LinearModel<'a> {
             released,
             unsteadiness,
             multipliers: state.multipliers,
+            redundant: redundancy.omitted().len(),
             solver,
             at_rest: None,
         })
@@ -242,6 +250,7 @@ impl<'a> LinearModel<'a> {
             released: self.released,
             unsteadiness: self.unsteadiness,
             multipliers: self.multipliers.clone(),
+            redundant: self.redundant,
             solver: self.solver,
             at_rest: Some((generator, structure)),
         }

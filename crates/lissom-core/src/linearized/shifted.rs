@@ -53,7 +53,6 @@ impl<'a> RealShift<'a> {
                 + blend.constraint * parts.constraint[k];
         }
         let (structure, layout) = (self.system.structure(), self.system.layout());
-        self.saddle.forget_redundancy();
         let report = self.saddle.factor(structure, self.scaled.scale())?;
         let negative = report.negative_pivots.unwrap_or(usize::MAX);
         let forces = layout.size() - layout.coordinate_count();
@@ -64,7 +63,7 @@ impl<'a> RealShift<'a> {
     /// [`multiplier_factor`](Self::multiplier_factor).
     pub(super) fn solve(&mut self, right: &mut [f64]) {
         self.scaled.scale_residual(self.system.layout(), right);
-        self.saddle.solve(self.system.structure(), right);
+        self.saddle.solve(right);
     }
 
     /// Factor from a scaled multiplier to SI.
@@ -143,7 +142,6 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
                     + S::from_real(scale * (parts.stiffness[k] + parts.constraint[k]));
             }
         }
-        self.saddle.forget_redundancy();
         self.saddle.factor(&self.structure, self.scaled.scale()).map(|_| ())
     }
 
@@ -153,7 +151,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         for (value, factor) in right.iter_mut().zip(self.row_factors()) {
             *value = *value * factor;
         }
-        self.saddle.solve_equilibrated(&self.structure, right);
+        self.saddle.solve_equilibrated(right);
         for (value, &factor) in right.iter_mut().zip(self.saddle.row_factors().unwrap_or_default()) {
             *value = *value * factor;
         }

@@ -5,7 +5,6 @@
 
 mod beam_strains;
 pub(crate) mod constraint_rates;
-mod constraints_yield;
 pub(crate) mod contact;
 mod drives;
 mod energy_drift;
@@ -18,6 +17,7 @@ mod linear_range;
 mod monitor;
 mod pairs;
 mod penetration;
+mod redundant_misfit;
 mod resolution;
 mod sampled_steps;
 mod section_forces;
@@ -52,7 +52,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "resolution", begin: resolution::begin },
     Kind { name: "contact", begin: contact::begin },
     Kind { name: "linear-range", begin: linear_range::begin },
-    Kind { name: "constraints-yield", begin: constraints_yield::begin },
+    Kind { name: "redundant-misfit", begin: redundant_misfit::begin },
     Kind { name: "drives", begin: drives::begin },
     Kind { name: "energy-drift", begin: energy_drift::begin },
     Kind { name: "energy-surplus", begin: energy_surplus::begin },

@@ -8,14 +8,14 @@ use lissom_solver::{FactorError, Pattern};
 
 use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
+use crate::consistent::redundancy::Redundancy;
 use crate::errors::StepError;
 use crate::errors::step_error::{NO_STEP_HELPS, pivot_hint};
 use crate::integrator::equations::FAR_FROM_EQUILIBRIUM;
 use crate::integrator::workspace::sizes;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
-use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange};
 use crate::newton::{Correction, Equations, Failure};
-use crate::round_off;
 use crate::saddle_point::{Matrix, SaddlePoint};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
@@ -50,6 +50,7 @@ struct Change {
 pub(super) struct PathWork {
     scaled: Scaled,
     saddle: SaddlePoint<Matrix<f64>>,
+    redundancy: Redundancy,
     /// Whether the last factored tangent is symmetric. Otherwise its negative pivots only determine the sign of its determinant.
     is_symmetric: bool,
     other_values: Vec<f64>,
@@ -93,8 +94,6 @@ struct Norms {
     weights: Vec<f64>,
     /// Scale factor of each row.
     sizes: Vec<f64>,
-    /// Scale factor of each violation.
-    violation_sizes: Vec<f64>,
 }
 
 impl PathWork {
@@ -106,17 +105,17 @@ impl PathWork {
         let linearization = unloaded.linearization_at(&state.kinematics);
         let representative = Representative::of(unloaded, &state.kinematics, &linearization);
         let sizes = sizes(layout, &representative);
-        let violation_size = |quantity: &Quantity| match quantity {
-            Quantity::Length => 1.0 / representative.length,
-            Quantity::Angle | Quantity::State => 1.0,
-        };
         let matrix = Matrix::new((settings.solver.real)(loaded.structure()), loaded.structure());
+        let redundancy = Redundancy::new(loaded, &state.kinematics, representative.length);
+        let mut saddle = SaddlePoint::new(matrix, count).equilibrated(size);
+        saddle.omit(redundancy.omitted());
         let mut noise = 1.0_f64;
         let zeros = vec![0.0; size];
         let nothing = Change { rows: zeros.clone(), load: 0.0 };
         Self {
             scaled: Scaled::new(&settings.scaling, &representative, 1.0),
-            saddle: SaddlePoint::new(matrix, count).equilibrated(size),
+            saddle,
+            redundancy,
             is_symmetric: true,
             other_values: vec![0.0; entries],
             scratch: Scratch::default(),
@@ -138,11 +137,7 @@ impl PathWork {
             last: nothing.clone(),
             before: nothing,
             correction: 0.0,
-            norms: Norms {
-                weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
-                sizes,
-                violation_sizes: layout.quantities()[count..].iter().map(violation_size).collect(),
-            },
+            norms: Norms { weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(), sizes },
             probe: (0..count)
                 .map(|_| {
                     // Pseudo-random numbers [logistic map].
@@ -217,6 +212,9 @@ impl PathEquations<'_> {
     /// Sets the predictor along the tangent.
     pub(super) fn begin(&mut self) {
         let work = &mut *self.work;
+        if work.redundancy.follow(self.systems.any(), &self.start.kinematics) {
+            work.saddle.omit(work.redundancy.omitted());
+        }
         work.iterate.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
         work.iterate.at.coordinates.copy_from_slice(&self.start.kinematics.coordinates);
         (work.iterate.at.time, work.iterate.at.elapsed) = (self.start.kinematics.time, 0.0);
@@ -264,6 +262,7 @@ impl PathEquations<'_> {
         for (multiplier, value) in work.iterate.multipliers.iter_mut().zip(&change.rows[count..]) {
             *multiplier += factor * value;
         }
+        work.redundancy.reduce_to_least_norm(&mut work.iterate.multipliers);
         for (sum, value) in work.iterate.total.iter_mut().zip(&change.rows) {
             *sum += share * value;
         }
@@ -386,7 +385,7 @@ impl PathEquations<'_> {
     fn solve(&mut self, right: &mut [f64]) {
         let work = &mut *self.work;
         work.scaled.scale_residual(self.systems.any().layout(), right);
-        work.saddle.solve(self.systems.any().structure(), right);
+        work.saddle.solve(right);
     }
 
     /// The converged state, and the tangent of the path there.
@@ -507,19 +506,8 @@ impl Equations for PathEquations<'_> {
         rows.copy_from_slice(&self.work.forces.residual);
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
-        if let Some(compliance) = work.saddle.compliance() {
-            // The compliance is included in the factors only, so violations are corrected completely. The part that redundant
-            // constraints cannot correct is round-off, and would accumulate in the multipliers.
-            let factor = work.scaled.multiplier_factor() * work.scaled.scale();
-            let allowances = compliance.allowances(factor, &work.iterate.multipliers);
-            for ((value, unit), allowance) in
-                rows[count..].iter_mut().zip(&work.norms.violation_sizes).zip(allowances)
-            {
-                if (*value * unit).abs() <= round_off::VIOLATION && value.abs() <= allowance {
-                    *value = 0.0;
-                }
-            }
-        }
+        work.redundancy.remove_misfit(&mut rows[count..]);
+        work.saddle.omitted().iter().for_each(|&row| rows[row] = 0.0);
         self.solve(&mut rows);
         for value in &mut rows {
             *value = -*value;

@@ -1,12 +1,10 @@
 //! One saddle-point matrix, with a solver for it.
 
-use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, Structure};
+use lissom_solver::{FactorError, FactorReport, LinearSolver, Scalar, SolverKind, Structure};
 use num_complex::Complex64;
 
 use super::Matrices;
 use super::equilibration::Equilibration;
-use super::refinement::Refinement;
-use super::regularization::Regularization;
 
 /// A scalar of which there are solvers of every kind.
 pub(crate) trait SolverOf: Scalar {
@@ -30,23 +28,12 @@ impl SolverOf for Complex64 {
 pub(crate) struct Matrix<S> {
     pub(crate) solver: Box<dyn LinearSolver<S>>,
     pub(crate) values: Vec<S>,
-    refinement: Refinement<S>,
 }
 
 impl<S: SolverOf> Matrix<S> {
     /// Zeros.
     pub(crate) fn new(solver: Box<dyn LinearSolver<S>>, structure: &Structure) -> Self {
-        Self { solver, values: vec![S::zero(); structure.pattern.entries()], refinement: Refinement::new() }
-    }
-
-    /// Solves in place; without the compliance that is in the factors if `refined`.
-    pub(super) fn solve(&mut self, pattern: &Pattern, refined: bool, right: &mut [S]) {
-        let Self { solver, refinement, .. } = self;
-        if refined {
-            refinement.solve(pattern, right, |right| solver.solve(right));
-        } else {
-            solver.solve(right);
-        }
+        Self { solver, values: vec![S::zero(); structure.pattern.entries()] }
     }
 }
 
@@ -55,14 +42,10 @@ impl<S: SolverOf> Matrices for Matrix<S> {
         equilibration.apply(&structure.pattern, &mut self.values);
     }
 
-    fn relax(
-        &mut self,
-        regularization: &mut Regularization,
-        scale: f64,
-        equilibration: Option<&Equilibration>,
-    ) {
-        self.refinement.start(&self.values);
-        regularization.enter(scale, equilibration, &mut self.values);
+    fn omit(&mut self, structure: &Structure, unknown: usize, by: f64) {
+        if let Some(diagonal) = structure.pattern.position(unknown, unknown) {
+            self.values[diagonal] -= S::from_real(by);
+        }
     }
 
     fn factor(&mut self) -> Result<FactorReport, FactorError> {

@@ -10,7 +10,6 @@ use num_complex::Complex64;
 
 use super::Matrices;
 use super::equilibration::Equilibration;
-use super::regularization::Regularization;
 use super::tangent_numbers::TangentNumbers;
 use super::tangent_values::TangentValues;
 use crate::schemes::{Coupling, StageSystem};
@@ -290,16 +289,12 @@ impl Matrices for StageTangents {
         }
     }
 
-    fn relax(
-        &mut self,
-        regularization: &mut Regularization,
-        scale: f64,
-        equilibration: Option<&Equilibration>,
-    ) {
+    fn omit(&mut self, structure: &Structure, unknown: usize, by: f64) {
+        let Some(diagonal) = structure.pattern.position(unknown, unknown) else { return };
         for system in &mut self.systems {
             match system {
-                FactoredSystem::Real(own) => regularization.enter(scale, equilibration, &mut own.values),
-                FactoredSystem::Complex(own) => regularization.enter(scale, equilibration, &mut own.values),
+                FactoredSystem::Real(own) => own.values[diagonal] -= by,
+                FactoredSystem::Complex(own) => own.values[diagonal] -= by,
             }
         }
     }

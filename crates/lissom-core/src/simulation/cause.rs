@@ -29,6 +29,15 @@ impl Simulation {
         if let Some(cause) = self.monitors.cause(problem, at, time) {
             return cause;
         }
+        if let Some(multiplier) = self.integrator.work.redundancy.singular() {
+            let layout = self.system.layout();
+            let unknown = layout.subject_of(layout.coordinate_count() + multiplier);
+            return StepError::ConstraintsDependent {
+                time,
+                size: self.integrator.scaled.step_size(),
+                unknown,
+            };
+        }
         if !self.settings.scheme.dynamic {
             return error;
         }

@@ -98,13 +98,13 @@ impl TangentValues {
     }
 }
 
-/// Estimate for the matrix as it is: neither equilibrated nor with a compliance, which requires multipliers.
+/// Estimate for the matrix as it is: neither equilibrated nor without equations, which requires multipliers.
 fn estimate<S: SolverOf>(structure: &Structure, values: &[S]) -> f64 {
     let Some(kind) = kind("sparse") else { return f64::INFINITY };
     let mut matrix = Matrix::new(S::solver(kind, structure), structure);
     matrix.values.copy_from_slice(values);
     let mut saddle =
-        SaddlePoint::new(matrix, structure.pattern.size()).without_compliance().falling_back(kind.name);
+        SaddlePoint::new(matrix, structure.pattern.size()).with_all_equations().falling_back(kind.name);
     if saddle.factor(structure, 1.0).is_err() {
         return f64::INFINITY;
     }

@@ -10,7 +10,8 @@ use super::accumulated::Accumulation;
 use super::equilibrium;
 use super::held_values::settle;
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
-use crate::consistent::singular_positions::SingularPositions;
+use crate::consistent::mobility::mobility;
+use crate::consistent::redundancy::{OutOfLine, Redundancy};
 use crate::control;
 use crate::elements::Load;
 use crate::energy_balance::{EnergyBalance, StepWork};
@@ -68,6 +69,7 @@ impl Simulation {
             let at_start = system.linearization_at(&state.kinematics);
             Representative::of(&system, &state.kinematics, &at_start)
         });
+        warnings.extend(out_of_line(&system, &state, &representative)?);
         let mut velocity_correction = 0.0;
         let mut held_values = None;
         let mut released = 0.0;
@@ -82,8 +84,7 @@ impl Simulation {
         let problem = Problem { system: &system, settings: &settings };
         let beginning = Beginning { problem, state: &state, representative: &representative, released };
         let monitors = Monitors::new(&beginning);
-        let repeating = monitors.get::<SingularPositions>().and_then(SingularPositions::first_repeating);
-        let integrator = Integrator::new(problem, &state, representative, repeating);
+        let integrator = Integrator::new(problem, &state, representative);
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
@@ -147,7 +148,8 @@ impl Simulation {
     /// # Errors
     /// If it is invalid.
     pub(crate) fn judge_attempt(&mut self) -> Result<(), StepError> {
-        let judge = Judge::new(self.problem(), &self.integrator.representative);
+        let Integrator { representative, work, .. } = &self.integrator;
+        let judge = Judge::new(self.problem(), representative, &work.redundancy);
         let start = self.attempt.start(&self.state);
         let (scheme, end) = (&self.settings.scheme, &self.attempt.end);
         let Workspace { motions, multipliers, .. } = &*self.integrator.work;
@@ -212,6 +214,20 @@ impl Simulation {
             totals.max_constraint_violation = totals.max_constraint_violation.max(violation.abs());
         }
     }
+}
+
+/// Reports joints that are nearly redundant, and rejects them if nothing can move.
+fn out_of_line(
+    system: &System,
+    state: &State,
+    representative: &Representative,
+) -> Result<Option<Warning>, InitialError> {
+    let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
+    let Some(OutOfLine { joint, others, angle }) = redundancy.out_of_line().cloned() else { return Ok(None) };
+    if mobility(system, state).freedoms == 0 {
+        return Err(InitialError::NoFreedom { joint, others, angle });
+    }
+    Ok(Some(Warning::JointsOutOfLine { time: state.kinematics.time, joint, others, angle }))
 }
 
 /// Detector of events in motions, with adaptive steps also of switches of forces.

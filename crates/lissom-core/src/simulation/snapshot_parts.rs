@@ -3,6 +3,7 @@
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
+use crate::consistent::redundancy::Selection;
 use crate::integrator::anderson::Anderson;
 use crate::integrator::predictor::Predictor;
 use crate::integrator::workspace::{Effort, Workspace};
@@ -17,6 +18,7 @@ pub(crate) struct Learned {
     effort: Effort,
     backed_off: bool,
     tangent: saddle_point::Learned,
+    redundancy: Vec<Selection>,
     force_round_off: f64,
 }
 
@@ -28,6 +30,7 @@ impl Workspace {
             effort: self.newton.effort,
             backed_off: self.newton.backed_off,
             tangent: self.tangent.learned(),
+            redundancy: self.redundancy.selections(),
             force_round_off: self.round_off.force,
         }
     }
@@ -44,6 +47,7 @@ impl Workspace {
         self.newton.effort = from.effort;
         self.newton.backed_off = from.backed_off;
         self.round_off.force = from.force_round_off;
+        self.redundancy.restore(&from.redundancy);
         self.tangent.restore(system.structure(), &from.tangent)
     }
 }

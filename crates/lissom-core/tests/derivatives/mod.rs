@@ -27,6 +27,7 @@ use lissom_core::joints::evaluation_point::Chart;
 use lissom_core::joints::starts::JointStarts;
 use lissom_core::joints::{self, Build};
 use lissom_core::kinematics::{Freedoms, Kinematics, NodeId};
+use lissom_core::ports::PortType;
 use lissom_core::registry::Value;
 use lissom_core::system::{
     Blend, Builder, Linearization, Placement, Scratch, State, Sum, System, TangentAssembler,
@@ -227,10 +228,23 @@ fn all_joints() {
                 axis: Some(axis),
                 second_axis: Some(random.vector()),
             };
+            let needs_rotation = |port: &lissom_core::ports::PortDeclaration| {
+                matches!(
+                    port.holds,
+                    PortType::Coordinate(_) | PortType::OnlyCoordinate(_) | PortType::NamedCoordinates
+                )
+            };
+            if planar && kind.ports.0.iter().any(needs_rotation) {
+                continue;
+            }
             let parameters = sample_parameters(kind.parameters, true, &mut random);
             let attachment = ports::joint_attachment(&mut builder, kind, &placement, &mut random);
             let added = builder.add_joint_of_kind("constraint", kind, attachment, &parameters);
-            if planar && added.as_ref().is_err_and(|error| error.problem.contains("no rotation")) {
+            if planar
+                && added.as_ref().is_err_and(|error| {
+                    ["no rotation", "no length", "has none"].iter().any(|words| error.problem.contains(words))
+                })
+            {
                 continue;
             }
             added.expect("valid");

@@ -72,7 +72,7 @@ pub const KIND: ElementKind = ElementKind {
             "Displacement and rotation in the axes of the base (\"base_axes\", default), or as a screw, which is the same from both sides.",
         ),
     ],
-    ports: Ports::TWO_FRAMES,
+    ports: Ports::TWO_LOCATIONS,
     build,
 };
 
@@ -111,6 +111,16 @@ fn build(
     let axes = axes(parameters)?;
     let [a, b] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
     let is_screw = parameters.word("form")? == Some(FORMS[1]);
+    let [stiffness, damping] =
+        [parameters.matrix_or_zero("stiffness")?, parameters.matrix_or_zero("damping")?];
+    // Forces along the axes of the base do not depend on the rotation of the tip.
+    let turns = |matrix: &Matrix6| {
+        matrix.fixed_rows::<3>(3).iter().chain(matrix.fixed_columns::<3>(3).iter()).any(|own| *own != 0.0)
+    };
+    let needs_rotation = is_screw || turns(&stiffness) || turns(&damping);
+    for (side, key) in ["base", "tip"].into_iter().enumerate() {
+        model.check_carried(key, (nodes[side], points[side]), needs_rotation)?;
+    }
     let middle = 0.5 * (a + b);
     let positions = if is_screw { [middle; 2] } else { [a, b] };
     let frames = [0, 1].map(|side| CarriedFrame {
@@ -118,15 +128,7 @@ fn build(
         offset: Motion::new(axes, positions[side]).relative_to(&model.frame(nodes[side])),
     });
     let form = if is_screw { Form::Screw } else { Form::BaseAxes(axes.apply_inverse(&(b - a))) };
-    Ok(Contribution::of(
-        model,
-        Bushing {
-            frames: FramePair::new(frames),
-            stiffness: parameters.matrix_or_zero("stiffness")?,
-            damping: parameters.matrix_or_zero("damping")?,
-            form,
-        },
-    ))
+    Ok(Contribution::of(model, Bushing { frames: FramePair::new(frames), stiffness, damping, form }))
 }
 
 /// The relative motion and derived quantities.

@@ -6,6 +6,7 @@ mod joint_axes;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use lissom_core::ports::Ports;
 use lissom_core::registry::ParameterType;
 use lissom_core::simulation::Simulation;
 use lissom_model::document::OutputKind;
@@ -351,7 +352,10 @@ fn scenes_cover_every_key_that_is_expressed_in_model_axes() {
         assert!(is_there || !must_be_there, "add an entry of [{table}] of the kind `{kind}` to a scene");
         for key in keys {
             // Where joints lie on tips that are placed approximately needs [assembly]: see the test below.
+            // A moment is the same at every location.
+            let is_moment = own.is_some_and(|own| own.ports == Ports::ONE_FRAME);
             if key.is_empty()
+                || (is_moment && key == "at")
                 || key.ends_with("_at_tip")
                 || (table == "joints"
                     && key == "at_tip"

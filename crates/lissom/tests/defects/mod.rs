@@ -7,6 +7,7 @@ mod clocks;
 mod jumps;
 mod loops;
 mod ordinary;
+mod redundant_loops;
 mod results;
 mod rows;
 mod superelements;

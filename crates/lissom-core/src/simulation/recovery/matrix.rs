@@ -10,7 +10,7 @@
 
 use lissom_solver::{Pattern, SolverKind};
 
-use crate::consistent::singular_positions::SingularPositions;
+use crate::consistent::redundancy::Redundancy;
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{Kinematics, Layout, MotionChange};
@@ -33,8 +33,7 @@ struct Run {
 /// The matrix, its factors, and the data of the residuals.
 pub(super) struct RecoveryMatrix {
     saddle: SaddlePoint<Matrix<f64>>,
-    is_equilibrated: bool,
-    kind: &'static SolverKind,
+    redundancy: Redundancy,
     /// Derivatives of the forces of elements that may be stiff, if there are any.
     stiff: Option<Linearization>,
     has_damping: bool,
@@ -70,10 +69,18 @@ impl RecoveryMatrix {
         let mut is_of_rates = vec![false; layout.size()];
         layout.states().for_each(|(row, ..)| is_of_rates[row] = true);
         let is_motion = |row: usize| row < count && !is_of_rates[row];
-        let mut made = Self {
-            saddle: Self::saddle(system, kind),
-            is_equilibrated: false,
-            kind,
+        let structure = system.structure();
+        let matrix = Matrix::new((kind.real)(structure), structure);
+        let mut saddle = SaddlePoint::new(matrix, count);
+        let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
+        saddle.omit(redundancy.omitted());
+        // Elimination without row exchanges does not need it unless constraints are redundant.
+        if !redundancy.is_empty() || saddle.matrices.solver.exchanges_rows() {
+            saddle = saddle.equilibrated(structure.pattern.size());
+        }
+        Self {
+            saddle,
+            redundancy,
             stiff: system.has_stiff_elements().then(|| system.empty_linearization()),
             has_damping: false,
             scratch: None,
@@ -92,32 +99,15 @@ impl RecoveryMatrix {
             between_motions: runs(pattern, (0..count).filter(|&column| is_motion(column)), is_motion),
             of_constraints: runs(pattern, count..pattern.size(), |row| row < count),
             is_of_rates,
-        };
-        // Pivots of redundant equations are round-off, which may exceed the threshold of zero pivots.
-        let repeating =
-            SingularPositions::new(system, &state.kinematics, representative.length).first_repeating();
-        if repeating.is_some() || made.saddle.matrices.solver.exchanges_rows() {
-            made.equilibrate(system, repeating.map(|multiplier| count + multiplier));
         }
-        made
-    }
-
-    fn saddle(system: &System, kind: &'static SolverKind) -> SaddlePoint<Matrix<f64>> {
-        let structure = system.structure();
-        SaddlePoint::new(Matrix::new((kind.real)(structure), structure), system.layout().coordinate_count())
-    }
-
-    /// Equilibrates rows and columns from now on. Elimination without row exchanges does not need it unless constraints are redundant.
-    fn equilibrate(&mut self, system: &System, repeating: Option<usize>) {
-        let structure = system.structure();
-        let saddle = Self::saddle(system, self.kind).equilibrated(structure.pattern.size());
-        self.saddle = saddle.with_redundancy(structure, repeating);
-        self.is_equilibrated = true;
     }
 
     /// Assembles and factors the matrix at these positions; none if it is singular.
     pub(super) fn factor(&mut self, system: &System, at: &Kinematics, time: f64) -> Option<()> {
         system.begin_step(at, &mut self.starts);
+        if self.redundancy.follow(system, at) {
+            self.saddle.omit(self.redundancy.omitted());
+        }
         if let Some(stiff) = &mut self.stiff {
             // The remaining derivatives are not used.
             for values in [&mut stiff.mass, &mut stiff.damping, &mut stiff.stiffness] {
@@ -129,11 +119,6 @@ impl RecoveryMatrix {
         }
         self.assemble(system, at, time);
         self.saddle.factor(system.structure(), self.scale).ok()?;
-        if self.is_redundant() && !self.is_equilibrated {
-            self.equilibrate(system, self.saddle.redundant());
-            self.assemble(system, at, time);
-            self.saddle.factor(system.structure(), self.scale).ok()?;
-        }
         Some(())
     }
 
@@ -176,8 +161,9 @@ impl RecoveryMatrix {
     }
 
     /// Solves in place for motions and multipliers.
-    pub(super) fn solve(&mut self, system: &System, right: &mut [f64]) {
-        let count = system.layout().coordinate_count();
+    pub(super) fn solve(&mut self, right: &mut [f64]) {
+        let count = right.len() - self.zero.len();
+        self.redundancy.remove_misfit(&mut right[count..]);
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
         self.saddle.scale(right);
         let (motions, constraints) = right.split_at_mut(count);
@@ -192,7 +178,7 @@ impl RecoveryMatrix {
                 *value += entry * weighted;
             }
         }
-        self.saddle.solve_equilibrated(system.structure(), right);
+        self.saddle.solve_equilibrated(right);
         self.saddle.scale(right);
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
     }
@@ -202,9 +188,9 @@ impl RecoveryMatrix {
         self.stiff.is_some()
     }
 
-    /// Whether constraints are redundant.
-    pub(super) fn is_redundant(&self) -> bool {
-        self.saddle.redundant().is_some()
+    /// Replaces multipliers by those of least norm that are in equilibrium with the same loads.
+    pub(super) fn reduce_to_least_norm(&self, multipliers: &mut [f64]) {
+        self.redundancy.reduce_to_least_norm(multipliers);
     }
 
     /// Whether a solution is accurate to round-off of a correction: the matrix contains no damping, which is not part of the equations

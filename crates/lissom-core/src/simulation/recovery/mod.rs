@@ -200,7 +200,7 @@ impl Recovery {
     fn recover_velocities(&mut self, system: &System) -> Option<()> {
         let Self { matrix, found: Recovered { rates, .. }, work, .. } = self;
         work.right.clone_from(&work.lacking);
-        matrix.solve(system, &mut work.right);
+        matrix.solve(&mut work.right);
         add_rates(system.layout(), &work.right, &mut rates.kinematics);
         work.right.iter().all(|value| value.is_finite()).then_some(())
     }
@@ -214,11 +214,11 @@ impl Recovery {
         let square = time * time;
         work.stiff.clone_from(&work.lacking);
         matrix.add_stiffness_product(-square, &work.speeds, &mut work.stiff);
-        matrix.solve(system, &mut work.stiff);
+        matrix.solve(&mut work.stiff);
         for _ in 1..(*stages).max(2) {
             work.right.clone_from(&work.lacking);
             matrix.add_stiffness_product(square, &work.stiff, &mut work.right);
-            matrix.solve(system, &mut work.right);
+            matrix.solve(&mut work.right);
             std::mem::swap(&mut work.stiff, &mut work.right);
         }
         add_rates(system.layout(), &work.stiff, &mut forces.kinematics);
@@ -229,16 +229,8 @@ impl Recovery {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let square = time * time;
-        let is_redundant = self.matrix.is_redundant();
         self.find_lacking_accelerations(system);
-        if is_redundant {
-            self.find_stiff_accelerations(system, time);
-            // Solved for completely, multipliers of redundant constraints have minimum norm.
-            self.found.forces.multipliers.fill(0.0);
-            self.find_unbalanced(system);
-        } else {
-            self.find_stiff_accelerations(system, time);
-        }
+        self.find_stiff_accelerations(system, time);
         let Self { matrix, found: Recovered { forces, .. }, work, .. } = self;
         // Solve for y: resolved vibrations are not filtered.
         work.change.fill(0.0);
@@ -264,7 +256,7 @@ impl Recovery {
                     matrix.add_stiffness_product(-square, change, right);
                 }
             }
-            matrix.solve(system, right);
+            matrix.solve(right);
             layout.states().for_each(|(row, ..)| right[row] = 0.0);
             let (motions, multipliers) = right.split_at(count);
             change.iter_mut().zip(motions).for_each(|(change, further)| *change += further);
@@ -275,6 +267,7 @@ impl Recovery {
                 further = further.max(change.abs());
                 largest = largest.max(force.abs());
             }
+            matrix.reduce_to_least_norm(&mut forces.multipliers);
             forces.kinematics.show_multipliers(&forces.multipliers);
             for (total, (own, change)) in right.iter_mut().zip(accelerations.iter().zip(&*change)) {
                 *total = own + change;
@@ -286,7 +279,7 @@ impl Recovery {
                 return Some(());
             }
             if !system.sees_multipliers() {
-                let is_small = relative <= SMALL_CHANGE && !is_redundant && matrix.is_exact();
+                let is_small = relative <= SMALL_CHANGE && matrix.is_exact();
                 let is_next_small = last.is_finite() && relative * relative <= NEGLIGIBLE * last;
                 if is_small || is_next_small || repetition == 3 || relative >= last {
                     return Some(());
@@ -333,13 +326,13 @@ impl Recovery {
             *stiff += lacking - unbalanced;
         }
         matrix.add_stiffness_product(-square, accelerations, stiff);
-        matrix.solve(system, stiff);
+        matrix.solve(stiff);
         for _ in 2..*stages {
             for (right, (lacking, unbalanced)) in right.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
                 *right = lacking - unbalanced;
             }
             matrix.add_stiffness_product(square, stiff, right);
-            matrix.solve(system, right);
+            matrix.solve(right);
             std::mem::swap(stiff, right);
         }
     }
