@@ -547,8 +547,8 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
     let [remade, kept] = [remade, kept].map(|document| {
         document.superelements[0].matrices.geometric.as_ref().expect("of second order").stacked()
     });
-    // Modes have no sign.
-    let difference = (remade.abs() - kept.abs()).amax() / kept.amax();
+    // Modes have no sign, and those of one frequency no direction.
+    let difference = (remade.norm() / kept.norm() - 1.0).abs();
     assert!(difference < 1e-6, "{difference:e}");
     let (wrong, most) = rod_error(&exact, &model, &[]);
     assert!(most > 4e-6 && wrong < 0.04, "{wrong:e} of {most:e}");
