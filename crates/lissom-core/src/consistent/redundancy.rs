@@ -42,6 +42,8 @@ const FREE: f64 = 1e-6;
 const WORSE: f64 = 0.1;
 /// Pivot below which a position is close to a singular one.
 const CLOSE: f64 = 1e-2;
+/// Pivot of the kept equations above which self-stresses are determined.
+const DETERMINED: f64 = 1e-4;
 /// Smallest coefficient of an equation in a self-stress at which its joint is named.
 const MIN_PARTICIPATION: f64 = 1e-3;
 
@@ -217,7 +219,10 @@ impl Redundancy {
                 group.select_like(&present, work);
                 has_changed |= present.omitted != group.selection.omitted;
             }
-            group.find_stresses(work);
+            // Close to a singular position self-stresses are not determined: those of before are kept.
+            if smallest > DETERMINED {
+                group.find_stresses(work);
+            }
         }
         if has_changed {
             self.collect();
@@ -423,7 +428,10 @@ impl Group {
     fn select_like(&mut self, before: &Selection, work: &mut Work) {
         let smallest = self.keep_independent(work, before.kept.len());
         let own = &mut self.selection;
-        if work.factor.kept.len() == before.kept.len() && smallest * WORSE > before.smallest {
+        if work.factor.kept.len() == before.kept.len()
+            && smallest * WORSE > before.smallest
+            && smallest > CLOSE
+        {
             own.kept.clone_from(&work.factor.kept);
             own.omitted = (0..own.acting.len()).filter(|equation| !own.kept.contains(equation)).collect();
             own.omitted.sort_by_key(|&equation| !self.is_of_positions[own.acting[equation]]);

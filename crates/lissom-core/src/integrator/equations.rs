@@ -425,6 +425,12 @@ impl Equations for StepEquations<'_> {
             work.redundancy.remove_misfit(&mut residual[count..]);
             work.tangent.omitted().iter().for_each(|&row| residual[row] = 0.0);
         }
+        let factor = self.scaled.multiplier_factor() * self.scaled.scale();
+        for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
+            for (row, compliance) in work.tangent.compliances() {
+                residual[row] -= compliance * multipliers[row - count] / factor;
+            }
+        }
         for values in &mut work.residuals {
             work.evaluation.processor.dispatch(Multiply { values, factors: &work.units.rows });
         }

@@ -10,7 +10,7 @@
 //! numbers and assembly have this sequence in common. Knows no mechanics.
 //!
 //! An omitted equation has -1 on the diagonal of the equilibrated matrix. The others imply it, so that the solution satisfies it with
-//! a multiplier of zero.
+//! a multiplier of zero. One that is dependent in this position only has a small compliance.
 //!
 //! Only steps and condition numbers fall back on exchanges of rows; assembly begins with them. Paths and the search for modes count negative pivots, which
 //! exchanges hide; and initial values and linear models report a coordinate whose pivot vanishes as one that nothing
@@ -33,6 +33,10 @@ pub use tangent_values::TangentValues;
 
 /// The pivot of a redundant constraint's multiplier is this fraction of the terms it is made of, or less.
 const REDUNDANT: f64 = 1e-12;
+
+/// Of the equation of a multiplier whose pivot vanishes, as in a singular position: it stays one of the equations of a step, which it
+/// must determine.
+const COMPLIANCE: f64 = 1e-9;
 
 /// What is factored: one matrix, or those of the decoupled systems of a scheme's stages.
 pub(crate) trait Matrices {
@@ -145,7 +149,7 @@ impl<M: Matrices> SaddlePoint<M> {
             && !self.dependent.contains(&unknown)
         {
             self.dependent.push(unknown);
-            self.matrices.omit(structure, unknown, diagonal);
+            self.matrices.omit(structure, unknown, COMPLIANCE * diagonal);
             result = self.matrices.factor();
         }
         if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
@@ -193,6 +197,15 @@ impl<M: Matrices> SaddlePoint<M> {
     /// Unknowns whose equations are omitted as redundant.
     pub(crate) fn omitted(&self) -> &[usize] {
         &self.omitted
+    }
+
+    /// Compliance of the equations that were dependent in the last factorisation, by unknown, of the matrix itself.
+    pub(crate) fn compliances(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let factors = self.row_factors();
+        let of = move |&unknown: &usize| {
+            (unknown, COMPLIANCE / factors.map_or(1.0, |factors| factors[unknown].powi(2)))
+        };
+        self.dependent.iter().map(of)
     }
 
     /// The first multiplier whose equation was omitted from the last factorisation, if there is one.
