@@ -6,6 +6,33 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
+/// Which random cases are tried.
+#[derive(clap::Args)]
+pub(crate) struct CaseArguments {
+    /// Cases to try
+    #[arg(long, default_value_t = 100)]
+    pub(crate) count: u64,
+    /// Seed of all
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Number of the first case
+    #[arg(long, default_value_t = 0)]
+    pub(crate) first: u64,
+    /// Cases that run at the same time
+    #[arg(long, default_value_t = 2)]
+    pub(crate) threads: usize,
+    /// Print the model of the first case, and try nothing
+    #[arg(long)]
+    pub(crate) text: bool,
+}
+
+impl CaseArguments {
+    /// Numbers of the cases.
+    pub(crate) fn range(&self) -> Range<u64> {
+        self.first..self.first.saturating_add(self.count)
+    }
+}
+
 /// Results of the cases of a range by number, from so many `threads`; none of those that would begin after `deadline`.
 pub(crate) fn results<T: Send>(
     range: Range<u64>,

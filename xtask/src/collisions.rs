@@ -4,7 +4,7 @@
 
 use lissom::Model;
 
-use crate::cases::results;
+use crate::cases::{CaseArguments, results};
 use crate::random::draw::Draw;
 
 /// Position, and its rate.
@@ -17,26 +17,6 @@ const ALLOWED: f64 = 3e-4;
 const CHANGE: f64 = 1e-5;
 /// Steps of a reference in the period of the spring.
 const STEPS_PER_PERIOD: f64 = 4000.0;
-
-/// What is tried.
-#[derive(clap::Args)]
-pub(crate) struct CollisionsArguments {
-    /// Collisions to try
-    #[arg(long, default_value_t = 100)]
-    count: u64,
-    /// Seed of all
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Number of the first case
-    #[arg(long, default_value_t = 0)]
-    first: u64,
-    /// Cases that run at the same time
-    #[arg(long, default_value_t = 2)]
-    threads: usize,
-    /// Print the model of the first case, and try nothing
-    #[arg(long)]
-    text: bool,
-}
 
 /// A random collision.
 #[derive(Clone, Copy, Debug)]
@@ -168,13 +148,13 @@ enum Outcome {
 }
 
 /// Tries collisions; whether none ended well with a wrong result.
-pub(crate) fn collisions(arguments: &CollisionsArguments) -> bool {
+pub(crate) fn collisions(arguments: &CaseArguments) -> bool {
     let case = |index| Case::new(arguments.seed, index);
     if arguments.text {
         print!("{}", case(arguments.first).text());
         return true;
     }
-    let range = arguments.first..arguments.first.saturating_add(arguments.count);
+    let range = arguments.range();
     let found = results(range, arguments.threads, None, |index| trial(case(index)));
     let (mut errors, mut reported, mut wrong) = (Vec::new(), 0, 0);
     for (index, outcome) in &found {

@@ -3,7 +3,7 @@
 
 use lissom::Model;
 
-use crate::cases::results;
+use crate::cases::{CaseArguments, results};
 use crate::random::draw::Draw;
 
 /// Gains of energy that are errors, relative to the largest energy of the motion.
@@ -18,24 +18,11 @@ const GRAVITY: f64 = 9.81;
 /// What is tried.
 #[derive(clap::Args)]
 pub(crate) struct ContactsArguments {
-    /// Scenes to try
-    #[arg(long, default_value_t = 100)]
-    count: u64,
-    /// Seed of all
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Number of the first case
-    #[arg(long, default_value_t = 0)]
-    first: u64,
-    /// Cases that run at the same time
-    #[arg(long, default_value_t = 2)]
-    threads: usize,
+    #[command(flatten)]
+    cases: CaseArguments,
     /// Share of scenes that may end with an error or a warning
     #[arg(long, default_value_t = 0.05)]
     reported: f64,
-    /// Print the model of the first case, and try nothing
-    #[arg(long)]
-    text: bool,
 }
 
 /// A random scene.
@@ -140,13 +127,13 @@ enum Outcome {
 
 /// Tries scenes; whether none ended well with a wrong result, and few were reported.
 pub(crate) fn contacts(arguments: &ContactsArguments) -> bool {
-    let scene = |index| Scene::new(arguments.seed, index);
-    if arguments.text {
-        print!("{}", scene(arguments.first).text);
+    let scene = |index| Scene::new(arguments.cases.seed, index);
+    if arguments.cases.text {
+        print!("{}", scene(arguments.cases.first).text);
         return true;
     }
-    let range = arguments.first..arguments.first.saturating_add(arguments.count);
-    let found = results(range, arguments.threads, None, |index| trial(&scene(index)));
+    let range = arguments.cases.range();
+    let found = results(range, arguments.cases.threads, None, |index| trial(&scene(index)));
     let (mut good, mut reported, mut wrong) = (0, 0, 0);
     for (index, outcome) in &found {
         match outcome {
@@ -164,7 +151,7 @@ pub(crate) fn contacts(arguments: &ContactsArguments) -> bool {
     println!(
         "{} scenes of seed {}: {good} good, {reported} reported, {wrong} wrong",
         found.len(),
-        arguments.seed
+        arguments.cases.seed
     );
     wrong == 0 && f64::from(reported) <= arguments.reported * found.len() as f64
 }

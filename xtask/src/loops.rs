@@ -8,7 +8,7 @@ use std::fmt::Write;
 use lissom::Model;
 use lissom_motion::{Rotation, Vector3};
 
-use crate::cases::results;
+use crate::cases::{CaseArguments, results};
 use crate::random::draw::Draw;
 
 /// Errors of angles [rad] and displacements, relative to the largest one, that are accurate at the default tolerance of 1e-5.
@@ -17,26 +17,6 @@ const ALLOWED: f64 = 1e-4;
 const ALLOWED_MOMENT: f64 = 2e-3;
 /// Largest angle by which axes are out of line [rad].
 const OUT_OF_LINE: f64 = 3e-6;
-
-/// What is tried.
-#[derive(clap::Args)]
-pub(crate) struct LoopsArguments {
-    /// Mechanisms to try
-    #[arg(long, default_value_t = 100)]
-    count: u64,
-    /// Seed of all
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Number of the first case
-    #[arg(long, default_value_t = 0)]
-    first: u64,
-    /// Cases that run at the same time
-    #[arg(long, default_value_t = 2)]
-    threads: usize,
-    /// Print the model of the first case, and try nothing
-    #[arg(long)]
-    text: bool,
-}
 
 /// A crank with a coupler to a rocker or to a slider, in lengths of the crank.
 #[derive(Clone, Debug)]
@@ -229,13 +209,13 @@ enum Outcome {
 }
 
 /// Tries mechanisms; whether none ended well with a wrong result.
-pub(crate) fn loops(arguments: &LoopsArguments) -> bool {
+pub(crate) fn loops(arguments: &CaseArguments) -> bool {
     let case = |index| Case::new(arguments.seed, index);
     if arguments.text {
         print!("{}", case(arguments.first).text());
         return true;
     }
-    let range = arguments.first..arguments.first.saturating_add(arguments.count);
+    let range = arguments.range();
     let found = results(range, arguments.threads, None, |index| trial(&case(index)));
     let (mut errors, mut reported, mut wrong) = ([Vec::new(), Vec::new()], 0, 0);
     for (index, outcome) in &found {

@@ -88,9 +88,9 @@ enum Chore {
     /// Try random laws with narrow features, jumps and kinks against references that resolve them
     Laws(laws::LawsArguments),
     /// Try random collisions through springs between points against references that resolve them
-    Collisions(collisions::CollisionsArguments),
+    Collisions(cases::CaseArguments),
     /// Try random driven loops of redundant joints against closed forms
-    Loops(loops::LoopsArguments),
+    Loops(cases::CaseArguments),
     /// Try random solids in contact, compliant and rigid: none may gain energy or penetrate
     Contacts(contacts::ContactsArguments),
     /// Compare reactions and accelerations of random mechanisms with those of a finer solution
