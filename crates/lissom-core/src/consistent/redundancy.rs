@@ -20,9 +20,11 @@ use serde::{Deserialize, Serialize};
 
 use super::initial_conditions::scatter_rates;
 use super::loops::{self, Gradient, Loop};
+use super::singular_positions::MIN_PARTICIPATION;
 use crate::joints::MAX_EQUATIONS;
 use crate::joints::constraint::Level;
 use crate::kinematics::{Kinematics, Quantity, Subject};
+use crate::round_off;
 use crate::system::System;
 
 /// Sine of the angle to the others below which an equation depends on them: the geometric tolerance.
@@ -31,21 +33,16 @@ pub(crate) const GEOMETRIC_TOLERANCE: f64 = 1e-5;
 const PIVOTS: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, GEOMETRIC_TOLERANCE * GEOMETRIC_TOLERANCE];
 /// Curvature of a violation along a velocity, relative to that of a rotation, above which equations are dependent at one position only.
 const CURVED: f64 = 1e-3;
-/// Pivot below which an equation may be meant to depend on others, and the curvature below which no singular position is nearby.
-const OUT_OF_LINE: (f64, f64) = (1e-3, 1e-1);
-/// Largest angle that is taken for an inaccuracy of the geometry [rad], and number of joints among which it is looked for.
+/// The same for equations that are out of line, which curves violations by as much.
+const CURVED_OUT_OF_LINE: f64 = 1e-1;
+/// Largest angle that is taken for an inaccuracy of the geometry [rad], and number of joints among which it is looked for: the motion of a
+/// large mechanism is small at each of its joints.
 const MAX_OUT_OF_LINE: f64 = 1e-2;
 const MAX_JOINTS: usize = 6;
-/// Smallest part of a velocity that satisfies the constraints.
-const FREE: f64 = 1e-6;
 /// A selection is repeated if its smallest pivot falls below this fraction of that at its selection.
 const WORSE: f64 = 0.1;
 /// Pivot below which a position is close to a singular one.
 const CLOSE: f64 = 1e-2;
-/// Pivot of the kept equations above which self-stresses are determined.
-const DETERMINED: f64 = 1e-4;
-/// Smallest coefficient of an equation in a self-stress at which its joint is named.
-const MIN_PARTICIPATION: f64 = 1e-3;
 
 /// Redundant equations of a system, which it follows along the motion.
 #[derive(Clone, Debug, Default)]
@@ -220,7 +217,7 @@ impl Redundancy {
                 has_changed |= present.omitted != group.selection.omitted;
             }
             // Close to a singular position self-stresses are not determined: those of before are kept.
-            if smallest > DETERMINED {
+            if smallest > MAX_OUT_OF_LINE * MAX_OUT_OF_LINE {
                 group.find_stresses(work);
             }
         }
@@ -378,7 +375,9 @@ impl Group {
             let is_kept = |own: &&usize| !omitted.contains(own);
             let singular = self.selection.omitted.iter().find(is_kept);
             self.singular = singular.map(|&own| self.found.multipliers[work.acting[own]]);
-            let kept = &mut self.selection.kept;
+            // Those that are dependent here only are kept, last.
+            let Selection { kept, omitted: dependent, .. } = &mut self.selection;
+            kept.append(dependent);
             kept.retain(|own| !omitted.contains(own));
             self.selection.omitted = omitted;
             self.store(work, &lasting);
@@ -395,7 +394,7 @@ impl Group {
         length: f64,
         work: &mut Work,
     ) -> Option<OutOfLine> {
-        let (small, curved) = OUT_OF_LINE;
+        let small = MAX_OUT_OF_LINE * MAX_OUT_OF_LINE;
         if self.selection.smallest >= small {
             return None;
         }
@@ -406,7 +405,7 @@ impl Group {
         work.keep(&strong);
         let others: Vec<usize> = (0..work.acting.len()).filter(|own| !strong.contains(own)).collect();
         let stresses = work.stresses(&others);
-        let lasting = self.lasting((system, at, length), work, &stresses, curved);
+        let lasting = self.lasting((system, at, length), work, &stresses, CURVED_OUT_OF_LINE);
         let is_lasting = lasting.as_ref().map_or(others.len(), DMatrix::ncols) > self.selection.omitted.len();
         let own = others.iter().position(|own| *own == weakest).filter(|_| is_lasting)?;
         let multiplier = |own: usize| self.found.multipliers[work.acting[own]];
@@ -416,7 +415,6 @@ impl Group {
         let among: Vec<usize> = among.map(|(own, _)| multiplier(own)).collect();
         let (joint, _) = system.layout().constraint_name(multiplier(weakest));
         let others = joints_of(system, &among, multiplier(weakest));
-        // The motion of a large mechanism is small at each of its joints.
         (angle < MAX_OUT_OF_LINE && others.len() < MAX_JOINTS).then(|| OutOfLine {
             joint: Subject::new("joint", joint),
             others: Subject::list(others),
@@ -544,7 +542,7 @@ impl Group {
                     .sum::<f64>();
             }
         }
-        (norm(&velocity) > FREE * given).then_some(velocity)
+        (norm(&velocity) > round_off::NEGLIGIBLE * given).then_some(velocity)
     }
 
     /// Accelerations of the violations at these rates, by row of the layout, without those of the parts.

@@ -35,7 +35,7 @@ const BETWEEN_LOOKS: f64 = 0.25;
 /// Maximum number of equations of a monitored loop: the check of larger ones would be more expensive than a step.
 const MAX_EQUATIONS: usize = 100;
 /// Smallest coefficient of an equation in a linear dependence at which its joint is named.
-const MIN_PARTICIPATION: f64 = 1e-3;
+pub(super) const MIN_PARTICIPATION: f64 = 1e-3;
 
 /// Monitor of singular positions.
 #[derive(Clone, Debug, Default)]

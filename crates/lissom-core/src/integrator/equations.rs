@@ -427,7 +427,7 @@ impl Equations for StepEquations<'_> {
         }
         let factor = self.scaled.multiplier_factor() * self.scaled.scale();
         for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
-            for (row, compliance) in work.tangent.compliances() {
+            for (row, compliance) in work.tangent.compliances(self.scaled.scale()) {
                 residual[row] -= compliance * multipliers[row - count] / factor;
             }
         }
@@ -460,7 +460,7 @@ impl Equations for StepEquations<'_> {
         self.linearize();
         self.work.round_off.force = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
-        self.work.tangent.factor(self.system.structure(), self.scaled.scale())?;
+        self.work.tangent.renew(self.system.structure(), self.scaled.scale())?;
         self.note_scales();
         self.watch.begin(Phase::Rest);
         Ok(())

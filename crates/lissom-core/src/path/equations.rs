@@ -370,7 +370,7 @@ impl PathEquations<'_> {
         }
         (work.saddle.matrices.values, work.other_values, work.scratch) = (values, other, scratch);
         let structure = system.structure();
-        work.saddle.factor(structure, work.scaled.scale())?;
+        work.saddle.renew(structure, work.scaled.scale())?;
         work.is_symmetric = is_symmetric(&structure.pattern, &work.saddle.matrices.values, count);
         let mut response = std::mem::take(&mut work.forces.response);
         for (value, load) in response.iter_mut().zip(&work.forces.load) {

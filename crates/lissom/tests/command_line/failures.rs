@@ -79,11 +79,11 @@ fn wraps_nothing(error: &str) -> bool {
 
 /// Errors for which there is no model here, with the reason.
 const WITHOUT_MODEL: [(&str, &str); 12] = [
-    ("StepError::ConstraintsDependent", "no model found since redundant equations are omitted"),
     ("StepError::NoTime", "a session is asked for it, no model can"),
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
     ("StepError::TooInaccurate", "no model found since steps end at jumps"),
+    ("StepError::LoopIsSingular", "no model found: contradictions are reported before"),
     ("StepError::NegativeKineticEnergy", "its matrices are too large for a file here: tests/superelements"),
     ("InitialError::ZeroPivot", "the reader rejects parts without mass"),
     ("InitialError::DelayInStatics", "the reader rejects delays there"),
