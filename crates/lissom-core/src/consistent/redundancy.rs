@@ -76,6 +76,8 @@ struct Group {
     is_of_positions: Vec<bool>,
     selection: Selection,
     stresses: Vec<Stress>,
+    /// The self-stresses by column, as scratch memory.
+    columns: DMatrix<f64>,
     /// Multiplier of an equation that was dependent at the first position only, if there was one.
     singular: Option<usize>,
     /// Smallest pivot where the kept equations were examined last.
@@ -117,6 +119,7 @@ struct Work {
     compact: Vec<usize>,
     square: Vec<f64>,
     factor: Factor,
+    shares: Vec<f64>,
 }
 
 /// Rows of L, without their leading zeros.
@@ -154,6 +157,7 @@ impl Redundancy {
                 is_of_positions,
                 selection: Selection::default(),
                 stresses: Vec::new(),
+                columns: DMatrix::zeros(0, 0),
                 singular: None,
                 latest: 0.0,
             };
@@ -408,8 +412,8 @@ impl Group {
         let lasting = self.lasting((system, at, length), work, &stresses, CURVED_OUT_OF_LINE);
         let is_lasting = lasting.as_ref().map_or(others.len(), DMatrix::ncols) > self.selection.omitted.len();
         let own = others.iter().position(|own| *own == weakest).filter(|_| is_lasting)?;
-        let multiplier = |own: usize| self.found.multipliers[work.acting[own]];
         let column = work.stresses(&others[own..=own]);
+        let multiplier = |own: usize| self.found.multipliers[work.acting[own]];
         let angle = work.angle_of_motion(&column, weakest);
         let among = column.iter().enumerate().filter(|(_, value)| value.abs() > MIN_PARTICIPATION);
         let among: Vec<usize> = among.map(|(own, _)| multiplier(own)).collect();
@@ -557,9 +561,11 @@ impl Group {
     }
 
     /// Finds the self-stresses from the factor of the kept equations.
-    fn find_stresses(&mut self, work: &Work) {
-        let stresses = work.stresses(&self.selection.omitted);
-        self.store(work, &stresses);
+    fn find_stresses(&mut self, work: &mut Work) {
+        let mut columns = std::mem::replace(&mut self.columns, DMatrix::zeros(0, 0));
+        work.find_stresses(&self.selection.omitted, &mut columns);
+        self.store(work, &columns);
+        self.columns = columns;
     }
 
     fn store(&mut self, work: &Work, stresses: &DMatrix<f64>) {
@@ -607,36 +613,47 @@ impl Work {
     }
 
     /// Self-stresses of which each contains one of the omitted equations, made orthonormal.
-    fn stresses(&self, omitted: &[usize]) -> DMatrix<f64> {
-        let count = self.acting.len();
-        let mut stresses = DMatrix::zeros(count, omitted.len());
+    fn stresses(&mut self, omitted: &[usize]) -> DMatrix<f64> {
+        let mut stresses = DMatrix::zeros(0, 0);
+        self.find_stresses(omitted, &mut stresses);
+        stresses
+    }
+
+    /// The same in memory of before.
+    fn find_stresses(&mut self, omitted: &[usize], stresses: &mut DMatrix<f64>) {
+        let Self { norms, units, acting, square, factor, shares, .. } = self;
+        let count = acting.len();
+        if stresses.shape() == (count, omitted.len()) {
+            stresses.fill(0.0);
+        } else {
+            *stresses = DMatrix::zeros(count, omitted.len());
+        }
         for (k, &equation) in omitted.iter().enumerate() {
-            let row = &self.square[equation * count..(equation + 1) * count];
-            let mut shares: Vec<f64> = self.factor.kept.iter().map(|&kept| row[kept]).collect();
-            self.factor.substitute(&mut shares);
-            self.factor.substitute_back(&mut shares);
+            let row = &square[equation * count..(equation + 1) * count];
+            shares.clear();
+            shares.extend(factor.kept.iter().map(|&kept| row[kept]));
+            factor.substitute(shares);
+            factor.substitute_back(shares);
             // From multipliers of rows of unit norm to forces.
-            let unit = |own: usize| self.units[self.acting[own]] / self.norms[self.acting[own]];
+            let unit = |own: usize| units[acting[own]] / norms[acting[own]];
             stresses[(equation, k)] = unit(equation);
-            for (&kept, share) in self.factor.kept.iter().zip(&shares) {
+            for (&kept, share) in factor.kept.iter().zip(&*shares) {
                 stresses[(kept, k)] = -share * unit(kept);
             }
         }
         // Modified Gram-Schmidt orthogonalisation, repeated against round-off.
         for _ in 0..2 {
             for k in 0..stresses.ncols() {
-                for j in 0..k {
-                    let earlier = stresses.column(j).clone_owned();
-                    let share = earlier.dot(&stresses.column(k));
-                    stresses.column_mut(k).axpy(-share, &earlier, 1.0);
+                let (earlier, mut own) = stresses.columns_range_pair_mut(..k, k);
+                for earlier in earlier.column_iter() {
+                    own.axpy(-earlier.dot(&own), &earlier, 1.0);
                 }
-                let norm = stresses.column(k).norm();
+                let norm = own.norm();
                 if norm > 0.0 {
-                    stresses.column_mut(k).scale_mut(1.0 / norm);
+                    own.scale_mut(1.0 / norm);
                 }
             }
         }
-        stresses
     }
 }
 
