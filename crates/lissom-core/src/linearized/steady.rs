@@ -32,6 +32,9 @@ use crate::tuning::MAX_ITERATIONS;
 const TURN: f64 = 0.7;
 /// The shift of this check, relative to the eigenvalue.
 const RELATIVE_SHIFT: f64 = 0.9;
+/// Largest correction at once, in angles and fractions of the model's length: forces of constraints from a longer one are so wrong
+/// that their geometric stiffness makes the next tangent singular.
+const MAX_CORRECTION: f64 = 0.05;
 /// Number of samples of the effect of round-off on a mode.
 const SAMPLES: usize = 3;
 
@@ -139,9 +142,11 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
             *value = Complex64::from(-residual);
         }
         shifted.solve(&mut right);
-        let size = correct(system, &mut state, &right, &fields, representative.length);
+        let size = size_of(system, &right, representative.length);
+        let part = (MAX_CORRECTION / size).min(1.0);
+        correct(system, &mut state, (part, &right), &fields);
         for (multiplier, change) in state.multipliers.iter_mut().zip(&right[count..]) {
-            *multiplier += shifted.multiplier_factor() * change.re;
+            *multiplier += part * shifted.multiplier_factor() * change.re;
         }
         if size <= round_off::CORRECTION || (size <= round_off::STEADY_MOTION && size >= last) {
             return Ok(state);
@@ -163,31 +168,31 @@ fn rate_of(state: &State) -> f64 {
     state.kinematics.nodes.iter().map(|node| rotation_part(&node.twist).norm()).fold(0.0, f64::max)
 }
 
-/// Moves the state; returns the magnitude of the correction in angles and fractions of `length`.
-fn correct(system: &System, state: &mut State, change: &[Complex64], fields: &[Vector6], length: f64) -> f64 {
-    let layout = system.layout();
-    let mut size = 0.0_f64;
+/// Magnitude of a correction in angles and fractions of `length`; infinite if an entry is not finite.
+fn size_of(system: &System, change: &[Complex64], length: f64) -> f64 {
     let unit = |quantity: Quantity| match quantity {
         Quantity::Length => 1.0 / length,
         Quantity::Angle | Quantity::State => 1.0,
     };
-    for (value, &quantity) in change[..layout.coordinate_count()].iter().zip(layout.quantities()) {
-        let own = value.re.abs() * unit(quantity);
-        size = if own.is_finite() { size.max(own) } else { f64::NAN };
-        if size.is_nan() {
-            return size;
-        }
-    }
+    let layout = system.layout();
+    let sizes = change.iter().zip(&layout.quantities()[..layout.coordinate_count()]);
+    let sizes = sizes.map(|(value, &quantity)| value.re.abs() * unit(quantity));
+    sizes.fold(0.0, |most, size| if size.is_finite() { most.max(size) } else { f64::INFINITY })
+}
+
+/// Moves the state by a part of a correction.
+fn correct(system: &System, state: &mut State, (part, change): (f64, &[Complex64]), fields: &[Vector6]) {
+    let layout = system.layout();
     for (node, (motion, field)) in NodeId::enumerate(state.kinematics.nodes.iter_mut().zip(fields)) {
         let rows = layout.rows_of_node(node);
-        let psi = Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { change[rows[k] as usize].re });
+        let by = |row: u32| if row == LOCKED { 0.0 } else { part * change[row as usize].re };
+        let psi = Vector6::from_fn(|k, _| by(rows[k]));
         motion.frame = motion.frame * Motion::exponential(&psi);
         motion.twist = motion.frame.adjoint_inverse_times(field);
     }
     for (coordinate, motion) in CoordinateId::enumerate(&mut state.kinematics.coordinates) {
-        motion.value += change[layout.row_of_coordinate(coordinate)].re;
+        motion.value += part * change[layout.row_of_coordinate(coordinate)].re;
     }
-    size
 }
 
 impl<'a> LinearModel<'a> {
