@@ -432,6 +432,25 @@ diagnostics! {
             advice: "Specify the `period` of the table, such as `2*pi` for one turn, or more rows. `extrapolation` states that the table is \
                 to be continued, and by what.",
         }
+        /// A spring between two points reverses its direction within a step.
+        SpringThroughZero {
+            /// When it was first detected [s].
+            time: f64,
+            /// Name of the node of its base.
+            base: String,
+            /// Name of the node of its tip.
+            tip: String,
+        } => "spring-through-zero" {
+            time: *time,
+            subject: Subject::new("node", tip),
+            cause: ("at t = {time} s the spring from `{base}` to `{tip}` passes zero length, where its force reverses within a step: the \
+                motion from there on is less accurate than the tolerance"),
+            remedy: "use an `axial` spring on the coordinate of a joint, which has no such jump, a free length of zero, or smaller steps",
+            meaning: "The ends of a spring of kind `point` have passed each other within one step. Its force is along the line through \
+                them, so that one that does not vanish at zero length reverses there. The instant is not located.",
+            advice: "On a straight guide use an `axial` spring on the joint, whose elongation may be negative. Otherwise keep the ends \
+                apart, or compare results of smaller steps.",
+        }
         /// Two solids in contact are almost within each other.
         ContactTooDeep {
             /// When it was first detected [s].

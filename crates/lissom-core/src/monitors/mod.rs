@@ -25,6 +25,7 @@ pub(crate) mod singular_positions;
 pub(crate) mod stability;
 mod table_ranges;
 mod unresolved_forces;
+mod zero_lengths;
 
 use std::any::Any;
 
@@ -66,6 +67,7 @@ const KINDS: &[Kind] = &[
     Kind { name: "unresolved-forces", begin: unresolved_forces::begin },
     Kind { name: "stability", begin: stability::begin },
     Kind { name: "table-ranges", begin: table_ranges::begin },
+    Kind { name: "zero-lengths", begin: zero_lengths::begin },
 ];
 
 /// The monitors of one simulation.

@@ -278,6 +278,12 @@ impl Load for PointSpring {
 }
 
 impl Spring for PointSpring {
+    fn span(&self, at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
+        let [a, b] = self.points(at);
+        let at_zero = self.law.evaluate(-self.length, 0.0, self.switch_states.of(at)).force;
+        (at_zero != 0.0).then(|| (self.nodes, b.position - a.position))
+    }
+
     fn dissipates(&self) -> bool {
         self.law.depends_on_rate()
     }

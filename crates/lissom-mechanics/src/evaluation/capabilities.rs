@@ -90,6 +90,12 @@ pub trait Spring: Element {
         None
     }
 
+    /// Its two nodes and the vector between its ends, if its force would have a direction at zero length, where that reverses.
+    /// Default: it has none.
+    fn span(&self, _at: &Kinematics) -> Option<([NodeId; 2], Vector3)> {
+        None
+    }
+
     /// Name of the contact and penetrations of two sides of a surface, of which its force resists the nearest one only. Default: it
     /// touches no second side.
     fn hollow(&self, _at: &Kinematics) -> Option<(&str, Hollow)> {

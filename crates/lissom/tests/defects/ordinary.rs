@@ -146,6 +146,15 @@ fn stop_outside_its_range() {
     Results::clean(file, &["--set", "springs.s.range=[0.001, 1.0]"]);
 }
 
+/// The force of a spring reverses where its ends meet, unless it vanishes there.
+#[test]
+fn point_spring_through_zero() {
+    let file = "point-spring-through-zero.toml";
+    warned(file, &[], &["spring-through-zero", "`ground`", "`m`", "`axial`"]);
+    Results::clean(file, &["--set", "springs.s.length=0"]);
+    Results::clean(file, &["--set", "joints.rail.axis=\"y\""]);
+}
+
 // Parts and ropes.
 
 /// The wind of the model, and with `axes = "part"` that of a part that is upside down.
