@@ -39,6 +39,8 @@ const CURVED_OUT_OF_LINE: f64 = 1e-1;
 /// large mechanism is small at each of its joints.
 const MAX_OUT_OF_LINE: f64 = 1e-2;
 const MAX_JOINTS: usize = 6;
+/// Velocities along which the curvature is examined first.
+const FEW_SAMPLES: usize = 2;
 /// A selection is repeated if its smallest pivot falls below this fraction of that at its selection.
 const WORSE: f64 = 0.1;
 /// Pivot below which a position is close to a singular one.
@@ -477,42 +479,61 @@ impl Group {
         stresses: &DMatrix<f64>,
         curved: f64,
     ) -> Option<DMatrix<f64>> {
-        let samples = stresses.ncols() + 2;
-        let mut curvatures = DMatrix::zeros(work.acting.len(), samples);
         let mut explicit = vec![0.0; self.is_of_positions.len()];
         let still = vec![0.0; system.layout().size()];
         let mut moved = at.clone();
         self.accelerations(system, &mut moved, &still, &mut explicit);
-        for sample in 0..samples {
-            let velocity = self.free_velocity(work, sample)?;
-            let square: f64 = velocity.iter().map(|value| value * value).sum();
-            let mut found = explicit.clone();
-            // The part that is quadratic in the velocity.
-            let mut rates = still.clone();
-            let mut curvature = vec![0.0; explicit.len()];
-            for sign in [1.0, -1.0] {
-                for (value, &row) in velocity.iter().zip(&self.found.columns) {
-                    let is_turn = system.layout().quantities()[row] == Quantity::Angle;
-                    rates[row] = sign * value / if is_turn { length } else { 1.0 };
-                }
-                self.accelerations(system, &mut moved, &rates, &mut found);
-                for ((sum, found), explicit) in curvature.iter_mut().zip(&found).zip(&explicit) {
-                    *sum += 0.5 * (found - explicit);
+        let mut curvatures = DMatrix::zeros(work.acting.len(), 0);
+        loop {
+            // Two more than the dimension that they have shown: further ones would add nothing.
+            let (known, most) = (curvatures.ncols(), stresses.ncols() + 2);
+            let samples = (2 * known).clamp(FEW_SAMPLES, most.max(FEW_SAMPLES));
+            curvatures = curvatures.resize_horizontally(samples, 0.0);
+            for sample in known..samples {
+                let velocity = self.free_velocity(work, sample)?;
+                let curvature = self.curvature(system, (&mut moved, length), &velocity, &explicit);
+                let square: f64 = velocity.iter().map(|value| value * value).sum();
+                for (own, &equation) in work.acting.iter().enumerate() {
+                    let unit = work.units[equation] * square;
+                    curvatures[(own, sample)] = curvature[equation] * length / unit;
                 }
             }
-            for (own, &equation) in work.acting.iter().enumerate() {
-                curvatures[(own, sample)] = curvature[equation] * length / (work.units[equation] * square);
+            let of_stresses = stresses.transpose() * &curvatures;
+            if of_stresses.amax() < curved {
+                return None;
+            }
+            let found = (&of_stresses * of_stresses.transpose()).symmetric_eigen();
+            let flat = (0..stresses.ncols()).filter(|&k| found.eigenvalues[k] < curved * curved);
+            let flat: Vec<usize> = flat.collect();
+            if stresses.ncols() - flat.len() + FEW_SAMPLES > samples && samples < most {
+                continue;
+            }
+            return Some(stresses * found.eigenvectors.select_columns(&flat));
+        }
+    }
+
+    /// Accelerations of the violations at a velocity, by column with arcs for angles: the part that is quadratic in it, beside the
+    /// `explicit` ones at rest.
+    fn curvature(
+        &self,
+        system: &System,
+        (moved, length): (&mut Kinematics, f64),
+        velocity: &[f64],
+        explicit: &[f64],
+    ) -> Vec<f64> {
+        let mut rates = vec![0.0; system.layout().size()];
+        let (mut found, mut curvature) = (explicit.to_vec(), vec![0.0; explicit.len()]);
+        for sign in [1.0, -1.0] {
+            for (value, &row) in velocity.iter().zip(&self.found.columns) {
+                let is_turn = system.layout().quantities()[row] == Quantity::Angle;
+                rates[row] = sign * value / if is_turn { length } else { 1.0 };
+            }
+            self.accelerations(system, moved, &rates, &mut found);
+            for ((sum, found), explicit) in curvature.iter_mut().zip(&found).zip(explicit) {
+                *sum += 0.5 * (found - explicit);
             }
         }
-        let of_stresses = stresses.transpose() * curvatures;
-        if of_stresses.amax() < curved {
-            return None;
-        }
-        let found = of_stresses.svd(true, false);
-        let directions = found.u?;
-        let is_flat = |k: &usize| found.singular_values.get(*k).is_none_or(|value| *value < curved);
-        let flat: Vec<usize> = (0..directions.ncols()).filter(is_flat).collect();
-        Some(stresses * directions.select_columns(&flat))
+        curvature
     }
 
     /// A velocity that satisfies the acting equations, by column, with arcs for angles; none if there is no motion.

@@ -19,6 +19,7 @@ pub(crate) use history::IntegratorHistory;
 
 use lissom_solver::{FactorError, SolverKind};
 
+use crate::consistent::redundancy::Redundancy;
 use crate::errors::StepError;
 use crate::errors::step_error::describe;
 use crate::integrator::dense::{DenseOutput, SolvedStages};
@@ -65,12 +66,17 @@ impl Integrator {
     pub(crate) fn new(
         Problem { system, settings }: Problem<'_>,
         state: &State,
-        representative: Representative,
+        (representative, redundancy): (Representative, Redundancy),
     ) -> Self {
         let scheme = &settings.scheme;
         let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
         let equilibrated = settings.scaling.equilibrates();
-        let mut work = Workspace::new(system, state, scheme, &representative, settings.solver, equilibrated);
+        let mut work = Workspace::new(
+            (system, state),
+            scheme,
+            (&representative, redundancy),
+            (settings.solver, equilibrated),
+        );
         (work.options.disabled, work.options.tuning) = (settings.limits.disabled, settings.limits.tuning);
         work.evaluation.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.tangent.matrices.set_threads(settings.threads);

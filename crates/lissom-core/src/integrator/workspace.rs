@@ -132,12 +132,10 @@ pub(crate) struct Workspace {
 
 impl Workspace {
     pub(crate) fn new(
-        system: &System,
-        state: &State,
+        (system, state): (&System, &State),
         scheme: &Scheme,
-        representative: &Representative,
-        solver: &lissom_solver::SolverKind,
-        equilibrated: bool,
+        (representative, redundancy): (&Representative, Redundancy),
+        (solver, equilibrated): (&lissom_solver::SolverKind, bool),
     ) -> Self {
         let layout = system.layout();
         let stages = scheme.stages.len();
@@ -148,7 +146,6 @@ impl Workspace {
         if equilibrated {
             tangent = tangent.equilibrated(layout.size());
         }
-        let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
         tangent.omit(redundancy.omitted());
         Self {
             unit: UnitStepState::new(layout, scheme),

@@ -69,7 +69,8 @@ impl Simulation {
             let at_start = system.linearization_at(&state.kinematics);
             Representative::of(&system, &state.kinematics, &at_start)
         });
-        warnings.extend(out_of_line(&system, &state, &representative)?);
+        let redundancy = Redundancy::new(&system, &state.kinematics, representative.length);
+        warnings.extend(out_of_line(&system, &state, &redundancy)?);
         let mut velocity_correction = 0.0;
         let mut held_values = None;
         let mut released = 0.0;
@@ -84,7 +85,7 @@ impl Simulation {
         let problem = Problem { system: &system, settings: &settings };
         let beginning = Beginning { problem, state: &state, representative: &representative, released };
         let monitors = Monitors::new(&beginning);
-        let integrator = Integrator::new(problem, &state, representative);
+        let integrator = Integrator::new(problem, &state, (representative, redundancy));
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
@@ -220,9 +221,8 @@ impl Simulation {
 fn out_of_line(
     system: &System,
     state: &State,
-    representative: &Representative,
+    redundancy: &Redundancy,
 ) -> Result<Option<Warning>, InitialError> {
-    let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
     let Some(OutOfLine { joint, others, angle }) = redundancy.out_of_line().cloned() else { return Ok(None) };
     if mobility(system, state).freedoms == 0 {
         return Err(InitialError::NoFreedom { joint, others, angle });

@@ -36,6 +36,7 @@ use lissom_solver::FactorReport;
 
 use super::settings::Settings;
 use crate::consistent::initial_conditions::ConsistentInitialConditions;
+use crate::consistent::redundancy::Redundancy;
 use crate::control::Control;
 use crate::energy_balance::EnergyBalance;
 use crate::errors::Warning;
@@ -181,6 +182,11 @@ impl Simulation {
     /// Representative mass, damping, stiffness and length.
     pub fn representative(&self) -> &Representative {
         &self.integrator.representative
+    }
+
+    /// Redundant constraints at the present state.
+    pub(crate) fn redundancy(&self) -> &Redundancy {
+        &self.integrator.work.redundancy
     }
 
     /// The present scaling.

@@ -108,7 +108,12 @@ fn examine(
     let representative = simulation.representative();
     let layout = system.layout();
     let equilibrated = choice.equilibrates();
-    let mut work = Workspace::new(system, state, &settings.scheme, representative, kind, equilibrated);
+    let mut work = Workspace::new(
+        (system, state),
+        &settings.scheme,
+        (representative, simulation.redundancy().clone()),
+        (kind, equilibrated),
+    );
     let scaled = Scaled::new(choice, representative, settings.step_size);
     scaled.to_unit_step(layout, &settings.scheme, state, &mut work.unit);
     system.begin_step(&state.kinematics, &mut work.evaluation.joint_starts);

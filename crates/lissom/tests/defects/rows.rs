@@ -649,7 +649,7 @@ fn steady_rotation_false_refusal() {
     }
 }
 
-/// Newton's method without a limit of its corrections went astray at 6, 8, 9 and 11 rad/s.
+/// Newton's method without a limit of its corrections led to a wrong result at 6, 8, 9 and 11 rad/s.
 #[test]
 fn modes_about_rotation_with_a_load() {
     let frequencies: Vec<f64> = (5..12)

@@ -58,9 +58,8 @@ pub(super) struct RecoveryMatrix {
 impl RecoveryMatrix {
     /// Storage for the matrices of `system`.
     pub(super) fn new(
-        system: &System,
-        state: &State,
-        representative: &Representative,
+        (system, state): (&System, &State),
+        (representative, redundancy): (&Representative, Redundancy),
         kind: &'static SolverKind,
     ) -> Self {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
@@ -72,7 +71,6 @@ impl RecoveryMatrix {
         let structure = system.structure();
         let matrix = Matrix::new((kind.real)(structure), structure);
         let mut saddle = SaddlePoint::new(matrix, count);
-        let redundancy = Redundancy::new(system, &state.kinematics, representative.length);
         saddle.omit(redundancy.omitted());
         // Elimination without row exchanges does not need it unless constraints are redundant.
         if !redundancy.is_empty() || saddle.matrices.solver.exchanges_rows() {

@@ -99,7 +99,11 @@ impl Recovery {
         let by_row = || vec![0.0; system.layout().size()];
         let by_multiplier = || vec![0.0; system.layout().multiplier_count];
         Some(Box::new(Self {
-            matrix: RecoveryMatrix::new(system, state, simulation.representative(), kind),
+            matrix: RecoveryMatrix::new(
+                (system, state),
+                (simulation.representative(), simulation.redundancy().clone()),
+                kind,
+            ),
             stages: settings.scheme.stages.len(),
             found: Recovered { rates: state.clone(), forces: state.clone() },
             work: Workspace {
