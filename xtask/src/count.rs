@@ -1,4 +1,4 @@
-//! `cargo xtask count`: instructions of the inner loops, counted by valgrind's callgrind and compared with those
+//! `cargo xtask count`: instructions of inner loops and of whole examples, counted by valgrind's callgrind and compared with those
 //! kept in benches/instructions.toml. A slow-down is detected without timing noise. Independent of mechanics.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use lissom::{Model, Session};
 use lissom_model::lower::lower;
 use serde::{Deserialize, Serialize};
 
-use crate::scenes;
+use crate::{scenes, verify};
 
 /// Scenes whose steps are counted, each with other kernels in front.
 const COUNTED: &[&str] =
@@ -43,6 +43,44 @@ const ADAPTIVE: &str = "+adaptive";
 /// Scenes of those, with the end of the run [s].
 const DRIVEN: &[&str] = &["chain-r-7"];
 const WHOLE: &[(&str, &str)] = &[("andrews", "0.03"), ("chain-r-2", "0.1")];
+/// Examples whose runs are counted with all records, from reading the model on, with the end of the run [s].
+const EXAMPLES: &[(&str, &str)] = &[
+    ("bouncing-mass", "2"),
+    ("bridge-crossing", "0.12"),
+    ("cam-follower", "0.05"),
+    ("computed-torque", "2"),
+    ("controlled-arm", "1"),
+    ("crane-slack-cable", "1.2"),
+    ("delta-robot", "0.5"),
+    ("double-wishbone", "0.5"),
+    ("drive-train", "0.4"),
+    ("energy", "0.06"),
+    ("excavator-arm", "4"),
+    ("four-bar", "0.4"),
+    ("gearbox-backlash", "0.5"),
+    ("geneva-drive", "0.5"),
+    ("mecanum-platform", "0.8"),
+    ("newtons-cradle", "0.1"),
+    ("oil-whirl", "0.006"),
+    ("pendulum", "1"),
+    ("rattleback", "0.1"),
+    ("rolling-disc", "1"),
+    ("rotor-lag-damper", "1"),
+    ("satellite-latching-booms", "8"),
+    ("shaking-table", "0.8"),
+    ("slider-crank-3500rpm", "0.03"),
+    ("slider-crank-elastic", "0.005"),
+    ("tip-crank", "0.04"),
+    ("tip-crank-2016", "0.02"),
+    ("top", "0.7"),
+    ("turbine-rotor", "0.4"),
+    ("turning-chatter", "0.3"),
+    ("walking-linkage", "0.05"),
+    ("wheelset", "0.1"),
+    ("wing-flutter", "0.02"),
+];
+/// Marks an example, before its name.
+const EXAMPLE: &str = "example ";
 /// Steps before the count begins, and steps counted.
 const STEPS: [usize; 2] = [20, 50];
 /// Counts may differ by this share.
@@ -80,7 +118,7 @@ pub(crate) enum CountError {
 struct Kept {
     /// The compiler the counts were made with.
     compiler: String,
-    /// Instructions by scene.
+    /// Instructions by scene or example.
     instructions: BTreeMap<String, u64>,
 }
 
@@ -106,7 +144,7 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
     let found = Kept { compiler, instructions };
     if update {
         let text = toml::to_string(&found).map_err(|error| fail(&error))?;
-        let heading = "# Instructions of 50 steps of each scene, of a record or of inputs at each, or of a whole adaptive run; `cargo xtask count --update` writes this file.\n";
+        let heading = "# Instructions of 50 steps of each scene, of a record or of inputs at each, of a whole adaptive run, or of an example's first part with its records; `cargo xtask count --update` writes this file.\n";
         std::fs::write(&path, format!("{heading}{text}")).map_err(|error| fail(&error))?;
         return Ok(true);
     }
@@ -126,7 +164,8 @@ fn names() -> Vec<String> {
     let records = RECORDED.iter().map(|(name, _)| format!("{name}{RECORDS}"));
     let inputs = DRIVEN.iter().map(|name| format!("{name}{INPUTS}"));
     let runs = WHOLE.iter().map(|(name, _)| format!("{name}{ADAPTIVE}"));
-    steps.chain(records).chain(inputs).chain(runs).collect()
+    let examples = EXAMPLES.iter().map(|(name, _)| format!("{EXAMPLE}{name}"));
+    steps.chain(records).chain(inputs).chain(runs).chain(examples).collect()
 }
 
 /// Prints the table; whether all counts are as kept.
@@ -186,6 +225,9 @@ pub(crate) fn steps(name: &str) -> Result<(), CountError> {
     }
     if let Some(name) = name.strip_suffix(ADAPTIVE) {
         return adaptive(name);
+    }
+    if let Some(name) = name.strip_prefix(EXAMPLE) {
+        return example(name);
     }
     let lowered = lower(&document(&model(name, "")?)?).map_err(of_report)?;
     let mut simulation = Simulation::new(lowered.system, lowered.state, lowered.settings).map_err(failed)?;
@@ -255,6 +297,20 @@ fn adaptive(name: &str) -> Result<(), CountError> {
         let set = [("analysis.end".to_owned(), (*end).to_owned())];
         let mut session = Session::new(&model.document(&set).map_err(of_report)?).map_err(failed)?;
         let report = session.run(&mut [], &mut |_| std::ops::ControlFlow::Continue(()));
+        report.error().map_or(Ok(()), |error| Err(CountError::Failed(error.to_string())))
+    })
+}
+
+/// Counts the run of an example with what it records.
+fn example(name: &str) -> Result<(), CountError> {
+    let found = EXAMPLES.iter().find(|(own, _)| *own == name);
+    let (_, end) = found.ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    let path = verify::root().join(format!("examples/{name}.toml"));
+    counted_work(|| {
+        let model = Model::read(&path).map_err(failed)?;
+        let set = [("analysis.end".to_owned(), (*end).to_owned())];
+        let mut session = Session::new(&model.document(&set).map_err(of_report)?).map_err(failed)?;
+        let (_, report) = session.record();
         report.error().map_or(Ok(()), |error| Err(CountError::Failed(error.to_string())))
     })
 }
