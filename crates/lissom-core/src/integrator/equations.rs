@@ -12,8 +12,9 @@ use crate::kinematics::step_stages::StepStages;
 use crate::kinematics::{Kinematics, LOCKED, Quantity, Subject};
 use crate::newton::{Correction, Equations, Failure};
 use crate::round_off;
+use crate::saddle_point::TangentValues;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
-use crate::schemes::{Parametrization, Scheme, Stage, Tableau};
+use crate::schemes::{MAX_STAGES, Parametrization, Scheme, Stage, Tableau};
 use crate::settings::{Phase, Stopwatch};
 use crate::solver_features::SolverFeature;
 use crate::system::{State, StepPoint, System, TangentAssembler};
@@ -22,6 +23,9 @@ use crate::system::{State, StepPoint, System, TangentAssembler};
 pub(crate) const FAR_FROM_EQUILIBRIUM: f64 = 1e-3;
 /// Smallest reference of increments, relative to the drift, for the convergence of first-order states [-].
 const MIN_DEPARTURE: f64 = 1e-5;
+
+/// Largest number of decoupled systems: pairs of stages, and one real system.
+const MAX_SYSTEMS: usize = MAX_STAGES.div_ceil(2);
 
 /// One step from `start`.
 pub(crate) struct StepEquations<'a> {
@@ -173,10 +177,25 @@ impl StepEquations<'_> {
     /// Linearises at the last stage: stores the tangent values of all decoupled systems, before equilibration.
     pub(crate) fn linearize(&mut self) {
         let mut stiffness = std::mem::take(&mut self.work.stiffness);
-        for (index, system) in self.scheme.coupling.systems.iter().enumerate() {
-            let mut values = self.work.tangent.matrices.take_values(index);
-            self.assemble_tangent(&mut values.receiver(&self.scaled, system, &mut stiffness));
-            self.work.tangent.matrices.set_values(index, values);
+        let scheme = self.scheme;
+        let systems = &scheme.coupling.systems;
+        let take = |index: usize| match systems.get(index) {
+            Some(_) => self.work.tangent.matrices.take_values(index),
+            None => TangentValues::Real(Vec::new()),
+        };
+        let mut values: [TangentValues; MAX_SYSTEMS] = std::array::from_fn(take);
+        let scaled = self.scaled;
+        let mut pairs = values.iter_mut().zip(systems);
+        // The first one receives the stiffness, too.
+        let mut stiffness_once = &mut stiffness[..];
+        let mut receivers: [TangentAssembler<'_>; MAX_SYSTEMS] =
+            std::array::from_fn(|_| match pairs.next() {
+                Some((own, system)) => own.receiver(&scaled, system, std::mem::take(&mut stiffness_once)),
+                None => TangentAssembler::Each(&mut []),
+            });
+        self.assemble_tangent(&mut TangentAssembler::Each(&mut receivers));
+        for (index, own) in values.into_iter().enumerate().take(systems.len()) {
+            self.work.tangent.matrices.set_values(index, own);
         }
         self.work.stiffness = stiffness;
     }

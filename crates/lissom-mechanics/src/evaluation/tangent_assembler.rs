@@ -48,6 +48,8 @@ pub enum TangentAssembler<'a> {
     Real(Sum<'a, f64>),
     /// Their sum with complex factors.
     Complex(Sum<'a, Complex64>),
+    /// Several of them, from one evaluation of the derivatives.
+    Each(&'a mut [TangentAssembler<'a>]),
 }
 
 /// An element's or joint's position in the system.
@@ -66,6 +68,7 @@ impl TangentAssembler<'_> {
             Self::Separate(linearization) => linearization.clear(),
             Self::Real(sum) => sum.clear(),
             Self::Complex(sum) => sum.clear(),
+            Self::Each(all) => all.iter_mut().for_each(Self::clear),
         }
     }
 
@@ -86,6 +89,7 @@ impl TangentAssembler<'_> {
             }
             Self::Real(sum) => sum.add_element(place, local),
             Self::Complex(sum) => sum.add_element(place, local),
+            Self::Each(all) => all.iter_mut().for_each(|own| own.add_element(place, local)),
         }
     }
 
@@ -103,6 +107,7 @@ impl TangentAssembler<'_> {
             }
             Self::Real(sum) => sum.add_joint(place, joint),
             Self::Complex(sum) => sum.add_joint(place, joint),
+            Self::Each(all) => all.iter_mut().for_each(|own| own.add_joint(place, joint)),
         }
     }
 
@@ -115,6 +120,9 @@ impl TangentAssembler<'_> {
             }
             Self::Real(sum) => sum.add_slip_entry(position, [gradient, turning]),
             Self::Complex(sum) => sum.add_slip_entry(position, [gradient, turning]),
+            Self::Each(all) => {
+                all.iter_mut().for_each(|own| own.add_slip_entry(position, [gradient, turning]))
+            }
         }
     }
 
@@ -128,6 +136,10 @@ impl TangentAssembler<'_> {
             }
             Self::Real(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
             Self::Complex(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
+            Self::Each(all) => {
+                all.iter_mut()
+                    .for_each(|own| own.add_constraint_entry(position, [place, augmented, constraint]));
+            }
         }
     }
 }
