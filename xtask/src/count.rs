@@ -290,8 +290,10 @@ fn adaptive(name: &str) -> Result<(), CountError> {
     let found = WHOLE.iter().find(|(whole, _)| *whole == name);
     let (_, end) = found.ok_or_else(|| CountError::Unknown(name.to_owned()))?;
     let scene = scenes::scene(name).ok_or_else(|| CountError::Unknown(name.to_owned()))?;
-    let fixed = "scheme = \"generalized-alpha\"\nspectral_radius = 0.8";
-    let text = scene.text.replace(fixed, "relative_tolerance = 1e-6");
+    let begin = scene.text.find("[analysis]").ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    let (before, own) = scene.text.split_at(begin);
+    let after = own.find("\n[").map_or("", |next| &own[next..]);
+    let text = format!("{before}[analysis]\nkind = \"dynamics\"\nrelative_tolerance = 1e-6\n{after}");
     counted_work(|| {
         let model = Model::from_text(&scene.name, &text);
         let set = [("analysis.end".to_owned(), (*end).to_owned())];
