@@ -121,7 +121,7 @@ impl TangentAssembler<'_> {
             Self::Real(sum) => sum.add_slip_entry(position, [gradient, turning]),
             Self::Complex(sum) => sum.add_slip_entry(position, [gradient, turning]),
             Self::Each(all) => {
-                all.iter_mut().for_each(|own| own.add_slip_entry(position, [gradient, turning]))
+                all.iter_mut().for_each(|own| own.add_slip_entry(position, [gradient, turning]));
             }
         }
     }
