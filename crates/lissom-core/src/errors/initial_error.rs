@@ -75,7 +75,7 @@ diagnostics! {
             /// The joint that is out of line.
             joint: Subject,
             /// The joints that it repeats nearly.
-            others: Subject,
+            others: String,
             /// Angle between its direction and theirs [rad].
             angle: f64,
         } => "no-freedom" {

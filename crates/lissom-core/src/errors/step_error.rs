@@ -200,14 +200,12 @@ diagnostics! {
             time: f64,
             /// Names and violations of the constraints that are violated most.
             violated: Subject,
-            /// The constraints on which they depend.
-            others: String,
-            /// The reason.
-            reason: &'static str,
+            /// The constraints on which they depend, and the reason.
+            reason: String,
         } => "constraints-contradict" {
             time: *time,
             subject: violated,
-            cause: ("at t = {time} s constraints contradict each other: violated is {violated}, which depends on {others}: {reason}"),
+            cause: ("at t = {time} s constraints contradict each other: violated is {violated}, which depends on {reason}"),
             remedy: "remove one of them, change the prescribed motion, or give positions and axes with more digits",
             meaning: "Constraints cannot be satisfied together: two drives of one coordinate, a drive beyond the reach of its links, or \
                 redundant joints that are out of line by more than the geometric tolerance.",

@@ -125,7 +125,7 @@ impl Judge<'_> {
                 "a drive prescribes a position that the joints do not allow, or two drives prescribe different ones"
             }
         };
-        StepError::Contradiction { time, violated, others: others.to_string(), reason }
+        StepError::Contradiction { time, violated, reason: format!("{others}: {reason}") }
     }
 
     /// Reports redundant constraints that are violated by more than the error of the solution, and by less than the limit of failure.

@@ -225,7 +225,7 @@ fn out_of_line(
 ) -> Result<Option<Warning>, InitialError> {
     let Some(OutOfLine { joint, others, angle }) = redundancy.out_of_line().cloned() else { return Ok(None) };
     if mobility(system, state).freedoms == 0 {
-        return Err(InitialError::NoFreedom { joint, others, angle });
+        return Err(InitialError::NoFreedom { joint, others: others.to_string(), angle });
     }
     Ok(Some(Warning::JointsOutOfLine { time: state.kinematics.time, joint, others, angle }))
 }
