@@ -10,7 +10,7 @@ use lissom::{Model, Session};
 use lissom_model::lower::lower;
 use serde::{Deserialize, Serialize};
 
-use crate::{scenes, verify};
+use crate::{cases, scenes, verify};
 
 /// Scenes whose steps are counted, each with other kernels in front.
 const COUNTED: &[&str] =
@@ -47,6 +47,7 @@ const WHOLE: &[(&str, &str)] = &[("andrews", "0.03"), ("chain-r-2", "0.1")];
 const EXAMPLES: &[(&str, &str)] = &[
     ("bouncing-mass", "2"),
     ("bridge-crossing", "0.12"),
+    ("cam-follower", "0.05"),
     ("computed-torque", "2"),
     ("controlled-arm", "1"),
     ("crane-slack-cable", "1.2"),
@@ -56,11 +57,13 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("energy", "0.06"),
     ("excavator-arm", "4"),
     ("four-bar", "0.4"),
+    ("gearbox-backlash", "0.5"),
     ("geneva-drive", "0.5"),
     ("mecanum-platform", "0.8"),
     ("newtons-cradle", "0.1"),
     ("oil-whirl", "0.006"),
     ("pendulum", "1"),
+    ("rattleback", "0.1"),
     ("rolling-disc", "1"),
     ("rotor-lag-damper", "1"),
     ("satellite-latching-booms", "8"),
@@ -68,8 +71,11 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("slider-crank-3500rpm", "0.03"),
     ("slider-crank-elastic", "0.005"),
     ("tip-crank", "0.04"),
+    ("tip-crank-2016", "0.02"),
     ("top", "0.7"),
     ("turbine-rotor", "0.4"),
+    ("turning-chatter", "0.3"),
+    ("walking-linkage", "0.05"),
     ("wheelset", "0.1"),
     ("wing-flutter", "0.02"),
 ];
@@ -77,6 +83,8 @@ const EXAMPLES: &[(&str, &str)] = &[
 const EXAMPLE: &str = "example ";
 /// Steps before the count begins, and steps counted.
 const STEPS: [usize; 2] = [20, 50];
+/// Counts at the same time, which does not affect them.
+const THREADS: usize = 2;
 /// Counts may differ by this share.
 const TOLERANCE: f64 = 0.02;
 
@@ -127,11 +135,12 @@ pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
         return Ok(true);
     }
     let compiler = version("rustc").unwrap_or_default();
-    let mut instructions = BTreeMap::new();
-    for name in names() {
-        let counted = instructions_of(&name)?;
-        instructions.insert(name, counted);
-    }
+    let names = names();
+    let counted =
+        cases::results(0..names.len() as u64, THREADS, None, |k| instructions_of(&names[k as usize]));
+    let instructions = names.iter().cloned().zip(counted.into_values());
+    let instructions = instructions.map(|(name, counted)| Ok((name, counted?)));
+    let instructions: BTreeMap<String, u64> = instructions.collect::<Result<_, CountError>>()?;
     let path = root.join("benches/instructions.toml");
     let fail =
         |error: &dyn std::error::Error| CountError::File { path: path.clone(), message: error.to_string() };
