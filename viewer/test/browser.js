@@ -1,5 +1,5 @@
 // Pages as a browser shows them: `node test/browser.js PROGRAM [WORDS]`, with the program lissom; with words those tests alone whose names
-// hold them. Needs chromium.
+// hold them, and with `not` before them the others. Needs chromium.
 
 import assert from "node:assert/strict";
 import { execFileSync, spawn, spawnSync } from "node:child_process";
@@ -17,6 +17,8 @@ import { plots } from "./plots.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
+const isExcluded = (process.argv[3] ?? "").startsWith("not ");
+const words = (process.argv[3] ?? "").replace(/^not /, "");
 const folder = mkdtempSync(join(tmpdir(), "lissom-viewer-"));
 
 /** Makes the page of a model, with changes to it. */
@@ -524,7 +526,7 @@ frames_per_second = 1000
 const browser = await launch();
 let failures = 0;
 for (const [name, test] of Object.entries(tests)) {
-  if (!name.includes(process.argv[3] ?? "")) continue;
+  if (name.includes(words) === isExcluded) continue;
   // A browser that draws in software on a busy machine may be late for once: what fails twice is wrong.
   for (const isLast of [false, true]) {
     const began = Date.now();
