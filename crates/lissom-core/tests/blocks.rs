@@ -90,8 +90,8 @@ fn compare<E: Element>(elements: &[E], at: &Kinematics) {
     }
 }
 
-/// The same of their derivatives by positions; none where something is damped.
-fn compare_stiffness<E: Deformable>(
+/// The same of their derivatives with respect to positions and, where something is damped, to twists.
+fn compare_derivatives<E: Deformable>(
     elements: &[E],
     (at, stressed): (&Kinematics, &Kinematics),
     damped: bool,
@@ -100,23 +100,28 @@ fn compare_stiffness<E: Deformable>(
     let blocks = E::blocks(elements).expect("a kind that is evaluated several at a time");
     let count = elements.len().div_ceil(WIDTH);
     for processor in processors() {
-        let mut seen = 0;
-        let done = blocks.stiffness(processor, (at, stressed), 0..count, &mut |block, entries| {
-            assert_eq!((block * WIDTH, entries.len()), (seen, size * size));
+        let (mut seen, mut are_damped) = (0, false);
+        let done = blocks.linearize(processor, (at, stressed), 0..count, &mut |block, entries| {
+            assert_eq!((block * WIDTH, entries[0].len()), (seen, size * size));
+            assert!([0, size * size].contains(&entries[1].len()));
+            are_damped |= !entries[1].is_empty();
             for (lane, element) in elements[seen..].iter().take(WIDTH).enumerate() {
                 let mut single = Tangents::new(size);
                 element.linearize_stressed(at, stressed, &mut single);
-                assert!(single.damping.iter().chain(&single.mass).all(|&value| value == 0.0));
+                assert!(single.mass.iter().all(|&value| value == 0.0));
                 let largest = single.stiffness.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
                 assert!(largest > 0.0);
-                for (i, (entry, single)) in entries.iter().zip(&single.stiffness).enumerate() {
-                    let error = (entry[lane] - single).abs();
-                    assert!(error < 1e-13 * largest, "{processor:?}, {i}: {error:e} of {largest:e}");
+                for (entries, single) in entries.iter().zip([&single.stiffness, &single.damping]) {
+                    assert!(!entries.is_empty() || single.iter().all(|&value| value == 0.0));
+                    for (i, (entry, single)) in entries.iter().zip(single).enumerate() {
+                        let error = (entry[lane] - single).abs();
+                        assert!(error < 1e-13 * largest, "{processor:?}, {i}: {error:e} of {largest:e}");
+                    }
                 }
             }
             seen += WIDTH;
         });
-        assert_eq!((done, seen), (!damped, if damped { 0 } else { count * WIDTH }));
+        assert_eq!((done, seen, are_damped), (true, count * WIDTH, damped));
     }
 }
 
@@ -160,7 +165,7 @@ fn beams<const N: usize>() {
                     .collect();
                 compare(&elements, &at);
                 let stressed = kinematics(&mut numbers, count * (N - 1) + 1, turn);
-                compare_stiffness(&elements, (&at, &stressed), (0..count).any(damped));
+                compare_derivatives(&elements, (&at, &stressed), (0..count).any(damped));
             }
         }
     }

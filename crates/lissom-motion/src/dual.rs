@@ -140,6 +140,12 @@ impl<R: Real> DualMatrix<R> {
         Self::skew(DualVector::from_wrench(w))
     }
 
+    /// The twist matrix `ad_V` of the twist `v`.
+    #[inline(always)]
+    pub fn lie_bracket(v: Screw<R>) -> Self {
+        Self::skew(DualVector::from_twist(v))
+    }
+
     /// `self factor`.
     #[inline(always)]
     pub fn scaled_by(self, factor: R) -> Self {

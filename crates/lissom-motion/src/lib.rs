@@ -52,8 +52,8 @@ pub use tangent::{
     ScrewTangent, inverse_tangent, inverse_tangent_derivative, inverse_tangent_derivative_transpose_times,
     inverse_tangent_hessian, inverse_tangent_times, inverse_tangent_transpose_derivative,
     inverse_tangent_transpose_times, rotation_inverse_tangent, rotation_tangent, tangent, tangent_derivative,
-    tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_times,
-    tangent_transpose_derivative, tangent_transpose_times,
+    tangent_derivative_rate, tangent_derivative_transpose_times, tangent_hessian, tangent_rate,
+    tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
 };
 pub use triple::Triple;
 pub use versor::Versor;

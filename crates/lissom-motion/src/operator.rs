@@ -147,6 +147,51 @@ pub(crate) fn derivative_times<R: Real>(
     (p_rate * value.linear).plus_scaled(r_rate, value.quadratic).plus_scaled(along, d.dot(rate).scaled(2.0))
 }
 
+/// The rate of [`matrix`] as `d` changes at `rate`, with `q̇ = 2 d·ḋ`, `β̇ = β' q̇`, `γ̇ = γ' q̇`:
+/// `-(γ̇ q + γ q̇) I + (β ḋ + β̇ d)~ + γ (ḋ dᵀ + d ḋᵀ) + γ̇ d dᵀ`.
+#[inline(always)]
+pub(crate) fn matrix_rate<R: Real>(
+    d: DualVector<R>,
+    value: Pair<R>,
+    slope: Pair<R>,
+    rate: DualVector<R>,
+) -> DualMatrix<R> {
+    let q_rate = d.dot(rate).scaled(2.0);
+    let (linear, quadratic) = (slope.linear * q_rate, slope.quadratic * q_rate);
+    let diagonal = quadratic * d.dot(d) + value.quadratic * q_rate;
+    let along = (rate * value.quadratic).plus_scaled(d, quadratic);
+    DualMatrix::skew((rate * value.linear).plus_scaled(d, linear)) - DualMatrix::diagonal(diagonal)
+        + DualMatrix::outer(along, d)
+        + DualMatrix::outer(d * value.quadratic, rate)
+}
+
+/// The rate of [`derivative`] as `d` changes at `rate` and `a` does not change:
+/// `-(β̇ a)~ + (γ̇ d·a + γ ḋ·a) I + (γ ḋ + γ̇ d) aᵀ + 2 (ċ dᵀ + c ḋᵀ)`, `c = β' p + γ' r - γ a`.
+#[inline(always)]
+pub(crate) fn derivative_rate<R: Real>(
+    d: DualVector<R>,
+    [value, slope, bend]: [Pair<R>; 3],
+    a: DualVector<R>,
+    rate: DualVector<R>,
+) -> DualMatrix<R> {
+    let q_rate = d.dot(rate).scaled(2.0);
+    let (linear, quadratic) = (slope.linear * q_rate, slope.quadratic * q_rate);
+    let p = d.cross(a);
+    let r = d.cross(p);
+    let p_rate = rate.cross(a);
+    let r_rate = rate.cross(p) + d.cross(p_rate);
+    let column = p * slope.linear + r * slope.quadratic - a * value.quadratic;
+    let column_rate = (p_rate * slope.linear)
+        .plus_scaled(p, bend.linear * q_rate)
+        .plus_scaled(r_rate, slope.quadratic)
+        .plus_scaled(r, bend.quadratic * q_rate)
+        - a * quadratic;
+    DualMatrix::diagonal(quadratic * d.dot(a) + value.quadratic * rate.dot(a)) - DualMatrix::skew(a * linear)
+        + DualMatrix::outer((rate * value.quadratic).plus_scaled(d, quadratic), a)
+        + DualMatrix::outer(column_rate.scaled(2.0), d)
+        + DualMatrix::outer(column.scaled(2.0), rate)
+}
+
 /// The gradient of `w·(a + β p + γ r)` by `d`:
 /// `β a × w + γ [w (d·a) + a (d·w) - 2 d (a·w)] + 2 d (β' w·p + γ' w·r)`.
 #[inline(always)]

@@ -243,6 +243,22 @@ impl<R: Real> CurvedTangent<R> {
         let (a, w) = (DualVector::from_twist(a), DualVector::from_wrench(w));
         operator::hessian(d, [value, slope, self.bend], a, w)
     }
+
+    /// The twist matrix `Ṫ` as `d` changes at `d_rate`.
+    #[inline(always)]
+    pub fn rate(&self, d_rate: Screw<R>) -> DualMatrix<R> {
+        let TangentOperator { d, value, slope } = self.operator;
+        operator::matrix_rate(d, value, slope, DualVector::from_twist(d_rate))
+    }
+
+    /// The rate of the twist matrix `∂(T a)/∂d` as `d` and `a` change at `d_rate` and `a_rate`.
+    #[inline(always)]
+    pub fn derivative_rate(&self, (a, a_rate): (Screw<R>, Screw<R>), d_rate: Screw<R>) -> DualMatrix<R> {
+        let TangentOperator { d, value, slope } = self.operator;
+        let (fixed, rate) = (DualVector::from_twist(a), DualVector::from_twist(d_rate));
+        operator::derivative_rate(d, [value, slope, self.bend], fixed, rate)
+            + self.operator.derivative(a_rate)
+    }
 }
 
 /// `T(d)⁻¹` at one twist, `|θ| < 2π`, for products only.

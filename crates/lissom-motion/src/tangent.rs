@@ -167,6 +167,18 @@ pub fn tangent_rate_times(d: &Vector6, d_rate: &Vector6, a: &Vector6) -> Vector6
     ScrewTangent::new(d).rate_times(d_rate, a)
 }
 
+/// `Ṫ` as `d` changes at `d_rate`.
+#[inline]
+pub fn tangent_rate(d: &Vector6, d_rate: &Vector6) -> Matrix6 {
+    CurvedTangent::new(d.into()).rate(d_rate.into()).to_twist_matrix()
+}
+
+/// The rate of `∂(T(d) a)/∂d` as `d` and `a` change at `d_rate` and `a_rate`.
+#[inline]
+pub fn tangent_derivative_rate(d: &Vector6, (a, a_rate): (&Vector6, &Vector6), d_rate: &Vector6) -> Matrix6 {
+    CurvedTangent::new(d.into()).derivative_rate((a.into(), a_rate.into()), d_rate.into()).to_twist_matrix()
+}
+
 /// `∂(T(d)⁻¹ a)/∂d`, `|θ| < 2π`.
 #[inline]
 pub fn inverse_tangent_derivative(d: &Vector6, a: &Vector6) -> Matrix6 {

@@ -334,11 +334,17 @@ impl<E: Element> AnyBatch for Batch<E> {
     ) {
         if let Some(blocks) = &self.blocks {
             let range = 0..self.items.len().div_ceil(WIDTH);
-            let done = blocks.stiffness(self.processor, (at, stressed), range, &mut |block, entries| {
+            let done = blocks.linearize(self.processor, (at, stressed), range, &mut |block, entries| {
                 for (lane, item) in self.block_items(block).enumerate() {
+                    if matches!(chart, Chart::Body) {
+                        out.add_lane(self.place(item), entries, lane);
+                        continue;
+                    }
                     scratch.clear(self.rows.of(item).len());
-                    for (value, entry) in scratch.stiffness.iter_mut().zip(entries) {
-                        *value = entry[lane];
+                    for (values, entries) in
+                        [&mut scratch.stiffness, &mut scratch.damping].into_iter().zip(entries)
+                    {
+                        values.iter_mut().zip(entries).for_each(|(value, entry)| *value = entry[lane]);
                     }
                     self.receive(item, chart, scratch, out);
                 }

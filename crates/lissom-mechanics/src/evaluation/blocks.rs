@@ -22,15 +22,15 @@ pub trait Blocks: Send + Sync {
         add: &mut dyn FnMut(usize, &[Block]),
     );
 
-    /// Passes the derivatives of the forces with respect to positions to `add` in the same way, row by row of the
-    /// local matrices, with the stresses of another configuration in the geometric stiffness. Returns `false` and
-    /// computes nothing by default, and if forces depend on more than positions.
-    fn stiffness(
+    /// Passes the derivatives of the forces with respect to positions and to twists to `add` in the same way, row by row of the
+    /// local matrices; those with respect to twists are empty if they are zero. The geometric stiffness has the stresses of another
+    /// configuration. Returns `false` and computes nothing by default.
+    fn linearize(
         &self,
         _processor: pulp::Arch,
         _at_stressed: (&Kinematics, &Kinematics),
         _blocks: Range<usize>,
-        _add: &mut dyn FnMut(usize, &[Block]),
+        _add: &mut dyn FnMut(usize, [&[Block]; 2]),
     ) -> bool {
         false
     }

@@ -1,6 +1,7 @@
 //! Assembles the derivatives of elements and joints: each kind of derivative separately, or their weighted sum, the
 //! tangent. Independent of the scheme, which supplies the weights.
 
+use lissom_motion::Block;
 use lissom_solver::Scalar;
 use num_complex::Complex64;
 
@@ -93,6 +94,31 @@ impl TangentAssembler<'_> {
         }
     }
 
+    /// Adds derivatives of one element of a block with respect to positions and to twists, row after row; the latter may be empty.
+    pub fn add_lane(&mut self, place: Slot<'_>, entries: [&[Block]; 2], lane: usize) {
+        match self {
+            Self::Separate(out) => {
+                let size = place.rows.len();
+                for (values, entries) in [&mut out.stiffness, &mut out.damping].into_iter().zip(entries) {
+                    if entries.is_empty() {
+                        continue;
+                    }
+                    for run in place.segments {
+                        let column = entries[usize::from(run.row) * size + usize::from(run.column)..]
+                            .iter()
+                            .step_by(size);
+                        for (value, entry) in values[run.positions()].iter_mut().zip(column) {
+                            *value += entry[lane];
+                        }
+                    }
+                }
+            }
+            Self::Real(sum) => sum.add_lane(place, entries, lane),
+            Self::Complex(sum) => sum.add_lane(place, entries, lane),
+            Self::Each(all) => all.iter_mut().for_each(|own| own.add_lane(place, entries, lane)),
+        }
+    }
+
     /// Adds a joint's derivatives.
     pub fn add_joint(&mut self, place: Slot<'_>, joint: &mut Derivatives) {
         match self {
@@ -173,6 +199,30 @@ impl<T: Scalar> Sum<'_, T> {
             // Locked rows are out of range.
             if let Some(sum) = self.stiffness.get_mut(row as usize) {
                 *sum += local.stiffness[i * size + i];
+            }
+        }
+    }
+
+    fn add_lane(&mut self, place: Slot<'_>, [stiffness, damping]: [&[Block]; 2], lane: usize) {
+        let Slot { rows, segments } = place;
+        let size = rows.len();
+        let factors = [T::from_real(self.blend.place), self.blend.rate];
+        for (factor, entries) in factors.into_iter().zip([stiffness, damping]) {
+            if entries.is_empty() {
+                continue;
+            }
+            for run in segments {
+                let column =
+                    entries[usize::from(run.row) * size + usize::from(run.column)..].iter().step_by(size);
+                for (value, entry) in self.values[run.positions()].iter_mut().zip(column) {
+                    *value += factor * T::from_real(entry[lane]);
+                }
+            }
+        }
+        for (i, &row) in rows.iter().enumerate() {
+            // Locked rows are out of range.
+            if let Some(sum) = self.stiffness.get_mut(row as usize) {
+                *sum += stiffness[i * size + i][lane];
             }
         }
     }

@@ -6,8 +6,9 @@ use lissom_motion::{
     CurvedTangent, DualMatrix, Matrix6, Motion, Pose, Rotation, Screw, ScrewTangent, Vector3, Vector6,
     coadjoint_matrix, inverse_tangent, inverse_tangent_times, inverse_tangent_transpose_times, lie_bracket,
     lie_bracket_matrix, rotation_part, rotation_tangent, screw, tangent, tangent_derivative,
-    tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_times,
-    tangent_transpose_derivative, tangent_transpose_times, translation_part,
+    tangent_derivative_rate, tangent_derivative_transpose_times, tangent_hessian, tangent_rate,
+    tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
+    translation_part,
 };
 use proptest::prelude::*;
 
@@ -112,6 +113,12 @@ proptest! {
         let r = Vector6::from_fn(|i, _| a[5 - i] - w[i]);
         let (left, right) = (w.dot(&tangent_rate_times(&d, &r, &a)), a.dot(&(tangent_transpose_derivative(&d, &w) * r)));
         prop_assert!((left - right).abs() < 4e-15 * size);
+        let rate = tangent_rate(&d, &r) * a;
+        prop_assert!(error(&rate, &tangent_rate_times(&d, &r, &a), size) < 4e-15);
+        // wᵀ (∂²(T a)/∂d∂d r) is the Hessian's product with r, and ∂(T a)/∂d is linear in a.
+        let row = tangent_derivative_rate(&d, (&a, &w), &r).transpose() * w;
+        let expected = hessian * r + tangent_derivative(&d, &w).transpose() * w;
+        prop_assert!(error(&row, &expected, size) < 1e-14);
     }
 
     #[test]

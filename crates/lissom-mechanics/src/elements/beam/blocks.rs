@@ -9,7 +9,7 @@ use pulp::{Simd, WithSimd};
 
 use super::Beam;
 use super::forces::{Constants, forces};
-use super::stiffness::{stiffness, times_from_right, transpose_times_rows};
+use super::linearize::{Matrices, Viscous, linearize, through_offsets};
 use crate::evaluation::blocks::{Blocks, block_of, nodes_of};
 use crate::kinematics::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
 use crate::kinematics::{Kinematics, MAX_NODES, NodeId};
@@ -112,18 +112,15 @@ impl<const N: usize> Blocks for BeamBlocks<N> {
         });
     }
 
-    fn stiffness(
+    fn linearize(
         &self,
         processor: pulp::Arch,
-        (at, stressed): (&Kinematics, &Kinematics),
+        at_stressed: (&Kinematics, &Kinematics),
         blocks: Range<usize>,
-        add: &mut dyn FnMut(usize, &[Block]),
+        add: &mut dyn FnMut(usize, [&[Block]; 2]),
     ) -> bool {
-        let undamped = !self.blocks.iter().any(|block| block.damped);
-        if undamped {
-            processor.dispatch(Linearization { beams: self, at, stressed, blocks, add });
-        }
-        undamped
+        processor.dispatch(Linearization { beams: self, at_stressed, blocks, add });
+        true
     }
 }
 
@@ -149,29 +146,44 @@ impl<const N: usize> WithSimd for Evaluation<'_, N> {
 
 struct Linearization<'a, const N: usize> {
     beams: &'a BeamBlocks<N>,
-    at: &'a Kinematics,
-    stressed: &'a Kinematics,
+    at_stressed: (&'a Kinematics, &'a Kinematics),
     blocks: Range<usize>,
-    add: &'a mut dyn FnMut(usize, &[Block]),
+    add: &'a mut dyn FnMut(usize, [&[Block]; 2]),
 }
+
+/// Motions of two configurations of one block.
+struct Gathered<const N: usize> {
+    frames: [[Frames; N]; 2],
+    twists: [[Screws; N]; 2],
+}
+
+/// Derivatives of the forces of one block, by node and component of the force, then of the variation.
+type Local<const N: usize> = [[[Screws; N]; 6]; N];
 
 impl<const N: usize> WithSimd for Linearization<'_, N> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut frames = [[[[0.0; WIDTH]; 7]; N]; 2];
-        // By node and component of the force, then of the variation.
-        let mut results = [[[[[0.0; WIDTH]; 6]; N]; 6]; N];
+        let (at, stressed) = self.at_stressed;
+        let mut gathered =
+            Gathered { frames: [[[[0.0; WIDTH]; 7]; N]; 2], twists: [[[[0.0; WIDTH]; 6]; N]; 2] };
+        let mut results = [[[[[[0.0; WIDTH]; 6]; N]; 6]; N]; 2];
         for index in self.blocks {
             let block = &self.beams.blocks[index];
             for i in 0..N {
                 let nodes = &block.nodes[i][..block.count];
-                gather_frames(self.at, nodes, WIDTH, &mut frames[0][i]);
-                gather_frames(self.stressed, nodes, WIDTH, &mut frames[1][i]);
+                for (j, motion) in [at, stressed].into_iter().enumerate() {
+                    gather_frames(motion, nodes, WIDTH, &mut gathered.frames[j][i]);
+                    if block.damped {
+                        gather_twists(motion, nodes, WIDTH, &mut gathered.twists[j][i]);
+                    }
+                }
             }
-            block.stiffness(simd, &frames, &self.beams.shapes, &mut results);
-            (self.add)(index, results.as_flattened().as_flattened().as_flattened());
+            block.linearize(simd, &gathered, &self.beams.shapes, &mut results);
+            let [stiffness, damping] =
+                [0, 1].map(|k| results[k].as_flattened().as_flattened().as_flattened());
+            (self.add)(index, [stiffness, if block.damped { damping } else { &[] }]);
         }
     }
 }
@@ -257,36 +269,61 @@ impl<const N: usize> BeamBlock<N> {
     }
 
     #[inline(always)]
-    fn stiffness<S: Simd>(
+    fn linearize<S: Simd>(
         &self,
         simd: S,
-        frames: &[[Frames; N]; 2],
+        gathered: &Gathered<N>,
         shapes: &[[f64; N]],
-        results: &mut [[[Screws; N]; 6]; N],
+        results: &mut [Local<N>; 2],
     ) {
         for index in 0..parts::<S>(self.count).0 {
             let part = Part { simd, index };
-            let mut sections = [[part.frame(&frames[0][0]); N]; 2];
+            let mut frames = [[part.frame(&gathered.frames[0][0]); N]; 2];
+            let zero = Screw::zero(frames[0][0].position.x);
+            let mut twists = [[zero; N]; 2];
+            let mut offsets = frames[0];
             for i in 0..N {
+                if let Some(own) = &self.offsets {
+                    offsets[i] = part.frame(&own[i]);
+                }
                 for j in 0..2 {
-                    sections[j][i] = part.frame(&frames[j][i]);
-                    if let Some(offsets) = &self.offsets {
-                        sections[j][i] = sections[j][i] * part.frame(&offsets[i]);
+                    frames[j][i] = part.frame(&gathered.frames[j][i]);
+                    twists[j][i] = part.screw(&gathered.twists[j][i]);
+                    if self.offsets.is_some() {
+                        frames[j][i] = frames[j][i] * offsets[i];
+                        twists[j][i] = offsets[i].adjoint_inverse_times(twists[j][i]);
                     }
                 }
             }
             let here = Here { part, stations: &self.stations, shapes };
-            let mut matrices = stiffness(&here, &sections[0], &sections[1]);
-            for i in 0..N {
-                for m in 0..N {
-                    if let Some(offsets) = &self.offsets {
-                        let (own, other) = (part.frame(&offsets[i]), part.frame(&offsets[m]));
-                        let seen = times_from_right(other.adjoint_inverse(), &matrices[i][m]);
-                        matrices[i][m] = transpose_times_rows(own.adjoint_inverse(), &seen);
-                    }
-                    for row in 0..6 {
-                        part.store(matrices[i][m][row], &mut results[i][row][m]);
-                    }
+            let mut stiffness = [[[zero; 6]; N]; N];
+            if self.damped {
+                let mut damping = [[[zero; 6]; N]; N];
+                let viscous = Viscous { twists: [&twists[0], &twists[1]], damping: &mut damping };
+                linearize(&here, &frames[0], &frames[1], &mut stiffness, Some(viscous));
+                self.store(part, damping, &offsets, &mut results[1]);
+            } else {
+                linearize(&here, &frames[0], &frames[1], &mut stiffness, None);
+            }
+            self.store(part, stiffness, &offsets, &mut results[0]);
+        }
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(
+        &self,
+        part: Part<S>,
+        mut matrices: Matrices<Lanes<S>, N>,
+        offsets: &[Pose<Lanes<S>>; N],
+        results: &mut Local<N>,
+    ) {
+        if self.offsets.is_some() {
+            through_offsets(&mut matrices, offsets);
+        }
+        for i in 0..N {
+            for m in 0..N {
+                for row in 0..6 {
+                    part.store(matrices[i][m][row], &mut results[i][row][m]);
                 }
             }
         }

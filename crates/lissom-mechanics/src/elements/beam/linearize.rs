@@ -1,205 +1,404 @@
-//! Exact derivatives of a beam's forces, in three layers: relative coordinates d, relative
-//! variations η_i = δh_i - Ad(exp(-d_i)) δh_r, nodes.
+//! Derivatives of a beam's forces with respect to positions and twists, for one element or for several side by side, in three layers:
+//! relative coordinates d, relative variations η_i = δh_i - Ad(exp(-d_i)) δh_r, nodes.
+//!
+//! Legend: B_i = N_i' T + N_i ∂(T d')/∂d strains by coordinates, S = C (ε + θ ε̇), w_i = V_i - Ad(exp(-d_i)) V_r, D_ik = ∂g_i/∂ḋ_k.
+//!
+//! ```text
+//! ∂g_i/∂d_k = Σ [B_iᵀ C (B_k + θ Ḃ_k) + geometric] + D_ik ∂ḋ_k/∂d_k,      D_ik = Σ θ B_iᵀ C B_k
+//! ∂ḋ_k/∂d_k = ∂(T(d_k)⁻¹ w_k)/∂d_k - T(d_k)⁻¹ ad(Ad(exp(-d_k)) V_r) T(d_k)
+//! ```
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::{
-    Beam, Kinematics, Matrix6, Motion, Relative, Station, Tangents, Vector6, add_block, coadjoint_matrix,
-    combine, inverse_tangent, inverse_tangent_derivative, inverse_tangent_transpose_derivative,
-    inverse_tangent_transpose_times, lie_bracket_matrix, tangent, tangent_derivative,
-    tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_transpose_derivative,
-    tangent_transpose_times,
-};
+use lissom_motion::{CurvedTangent, DualMatrix, Pose, Real, Screw, TangentOperator};
 
-type Blocks<const N: usize> = [[Matrix6; N]; N];
+use super::Beam;
+use super::forces::{Constants, combine_shapes, combine_slopes};
 
-pub(in crate::elements) struct Linearization<const N: usize> {
-    relative: Relative<N>,
-    /// ∂g_i/∂d_k and ∂g_i/∂ḋ_k.
-    stiffness: Blocks<N>,
-    damping: Blocks<N>,
-    conjugate: [Vector6; N],
-    damped: bool,
+/// A 6 x 6 matrix.
+type Rows<R> = [Screw<R>; 6];
+
+/// By node of the force, then by node of the variation.
+pub(super) type Matrices<R, const N: usize> = [[Rows<R>; N]; N];
+
+/// The motion of the section frames of a damped beam.
+pub(super) struct Viscous<'a, R, const N: usize> {
+    /// Twists, and those of the configuration whose stresses are used.
+    pub(super) twists: [&'a [Screw<R>; N]; 2],
+    /// Receives the derivatives with respect to the twists.
+    pub(super) damping: &'a mut Matrices<R, N>,
 }
 
-/// ∂ε̇/∂d at constant node twists, from derivatives of the strains and of the rates ḋ.
-pub(super) fn rate_by_coordinates<const N: usize>(
-    station: &Station<N>,
-    (d, d_slope): (&Vector6, &Vector6),
-    strains: &[Matrix6; N],
-    rates: &Relative<N>,
-    changes: &[Matrix6; N],
-) -> [Matrix6; N] {
-    let (shape, slope) = (&station.shape, &station.slope);
-    let rate = combine(shape, rates);
-    let rate_slope = combine(slope, rates);
-    // ∂ε̇/∂d = ∂(T ḋ')/∂d + ∂²(T d')/∂d² ḋ, and ∂ε̇/∂d' = Ṫ.
-    let by_d = tangent_derivative(d, &rate_slope) + second_derivative_times(d, d_slope, &rate);
-    let by_slope = tangent_rate(d, &rate);
-    std::array::from_fn(|k| shape[k] * by_d + slope[k] * by_slope + product(&strains[k], &changes[k]))
+/// Positions and rates of the nodes relative to the reference node.
+struct Relative<R, const N: usize> {
+    /// d_i.
+    coordinates: [Screw<R>; N],
+    /// Ad(exp(-d_i)): from twists and variations of the reference node to the frames of the others.
+    adjoints: [DualMatrix<R>; N],
+    /// T(d_i)⁻¹.
+    inverse: [TangentOperator<R>; N],
+    /// Ad(exp(-d_i)) V_r, w_i and ḋ_i of a damped beam.
+    seen: [Screw<R>; N],
+    apart: [Screw<R>; N],
+    rates: [Screw<R>; N],
 }
 
-impl<const N: usize> Linearization<N> {
-    pub(super) fn new(beam: &Beam<N>, at: &Kinematics, stressed: &Kinematics) -> Self {
-        let relative = beam.relative(at);
-        let rates = beam.rates(at, &relative);
-        let relative_stressed = beam.relative(stressed);
-        let rates_stressed = beam.rates(stressed, &relative_stressed);
-        let zeros = [[Matrix6::zeros(); N]; N];
-        let mut result = Self {
-            relative,
-            stiffness: zeros,
-            damping: zeros,
-            conjugate: [Vector6::zeros(); N],
-            damped: rates.is_some(),
+impl<R: Real, const N: usize> Relative<R, N> {
+    #[inline(always)]
+    fn new(frames: &[Pose<R>; N], twists: Option<&[Screw<R>; N]>) -> Self {
+        let reference = Beam::<N>::REFERENCE;
+        let next = reference + 1;
+        let zero = Screw::zero(frames[0].position.x);
+        let first = logarithm(frames[next].relative_to(frames[reference]));
+        let mut relative = Self {
+            coordinates: [zero; N],
+            adjoints: [frames[0].adjoint_inverse(); N],
+            inverse: [inverse_tangent(first); N],
+            seen: [zero; N],
+            apart: [zero; N],
+            rates: [zero; N],
         };
-        let rate_changes = rates.as_ref().map(|_| rate_changes(beam, at, &relative));
-        for station in &beam.stations {
-            let stress = station.weight * station.stress(&relative_stressed, rates_stressed.as_ref());
-            result.add_station(station, &stress, rates.as_ref(), rate_changes.as_ref());
-        }
-        result
-    }
-
-    fn add_station(
-        &mut self,
-        station: &Station<N>,
-        stress: &Vector6,
-        rates: Option<&Relative<N>>,
-        rate_changes: Option<&[Matrix6; N]>,
-    ) {
-        let (shape, slope, weight) = (&station.shape, &station.slope, station.weight);
-        let d = combine(shape, &self.relative);
-        let d_slope = combine(slope, &self.relative);
-        let along = tangent_transpose_times(&d, stress);
-        let across = tangent_derivative_transpose_times(&d, &d_slope, stress);
-        let (t, turned) = (tangent(&d), tangent_derivative(&d, &d_slope));
-        let turn = tangent_transpose_derivative(&d, stress);
-        let bend = tangent_hessian(&d, &d_slope, stress);
-        let strains: [Matrix6; N] = std::array::from_fn(|i| slope[i] * t + shape[i] * turned);
-        let viscous = rates
-            .zip(rate_changes)
-            .map(|(rates, changes)| rate_by_coordinates(station, (&d, &d_slope), &strains, rates, changes));
-        // The reference node has no coordinates of its own.
-        for i in (0..N).filter(|&i| i != Beam::<N>::REFERENCE) {
-            self.conjugate[i] += slope[i] * along + shape[i] * across;
-            let left = product(&(weight * strains[i].transpose()), &station.law.stiffness);
-            for k in (0..N).filter(|&k| k != Beam::<N>::REFERENCE) {
-                let stiffness = &mut self.stiffness[i][k];
-                *stiffness += product(&left, &strains[k])
-                    + slope[i] * shape[k] * turn
-                    + shape[i] * slope[k] * turn.transpose()
-                    + shape[i] * shape[k] * bend;
-                if let Some(viscous) = &viscous {
-                    *stiffness += product(&(station.law.damping * left), &viscous[k]);
-                    self.damping[i][k] += product(&(station.law.damping * left), &strains[k]);
+        for i in 0..N {
+            if i != reference {
+                let motion = frames[i].relative_to(frames[reference]);
+                relative.adjoints[i] = motion.adjoint_inverse();
+                relative.coordinates[i] = first;
+                if i != next {
+                    relative.coordinates[i] = logarithm(motion);
+                    relative.inverse[i] = inverse_tangent(relative.coordinates[i]);
+                }
+                if let Some(twists) = twists {
+                    relative.seen[i] = motion.adjoint_inverse_times(twists[reference]);
+                    relative.apart[i] = twists[i] - relative.seen[i];
+                    relative.rates[i] = relative.inverse[i].times(relative.apart[i]);
                 }
             }
         }
-    }
-
-    pub(in crate::elements) fn assemble(&self, beam: &Beam<N>, out: &mut Tangents) {
-        let inverse: [Matrix6; N] = std::array::from_fn(|i| inverse_tangent(&self.relative[i]));
-        let mut stiffness = [[Matrix6::zeros(); N]; N];
-        let mut damping = [[Matrix6::zeros(); N]; N];
-        let mut geometric = [Matrix6::zeros(); N];
-        for i in (0..N).filter(|&i| i != Beam::<N>::REFERENCE) {
-            let force = inverse_tangent_transpose_times(&self.relative[i], &self.conjugate[i]);
-            geometric[i] = coadjoint_matrix(&force);
-            for k in (0..N).filter(|&k| k != Beam::<N>::REFERENCE) {
-                let mut change = product(&inverse[i].transpose(), &self.stiffness[i][k]);
-                if i == k {
-                    change += inverse_tangent_transpose_derivative(&self.relative[i], &self.conjugate[i]);
-                }
-                stiffness[i][k] = product(&change, &inverse[k]);
-                if self.damped {
-                    let change = product(&inverse[i].transpose(), &self.damping[i][k]);
-                    damping[i][k] = product(&change, &inverse[k]);
-                }
-            }
-        }
-        let adjoints: [Matrix6; N] =
-            std::array::from_fn(|i| Motion::exponential(&self.relative[i]).inverse().adjoint());
-        spread(beam, &adjoints, &mut stiffness, &geometric, &mut out.stiffness);
-        if self.damped {
-            spread(beam, &adjoints, &mut damping, &[Matrix6::zeros(); N], &mut out.damping);
-        }
+        relative
     }
 }
 
-/// From ∂F_i/∂η_k of the relative nodes to all nodes: η_k = δh_k - A_k δh_r,
-/// F_r = - Σ A_iᵀ F_i and δ(A_iᵀ) F_i = - A_iᵀ X(F_i) η_i.
-fn spread<const N: usize>(
-    beam: &Beam<N>,
-    adjoints: &[Matrix6; N],
-    blocks: &mut Blocks<N>,
-    geometric: &[Matrix6; N],
-    out: &mut [f64],
+/// Derivatives with respect to the body variations of the section frames and to their twists, with the stresses of the frames
+/// `stressed`. Adds to `stiffness`, which is zero.
+#[inline(always)]
+pub(super) fn linearize<R: Real, const N: usize>(
+    constants: &impl Constants<R>,
+    frames: &[Pose<R>; N],
+    stressed: &[Pose<R>; N],
+    stiffness: &mut Matrices<R, N>,
+    viscous: Option<Viscous<'_, R, N>>,
 ) {
-    let r = Beam::<N>::REFERENCE;
-    for k in (0..N).filter(|&k| k != r) {
-        let mut sum = Matrix6::zeros();
-        for i in (0..N).filter(|&i| i != r) {
-            let change = if i == k { blocks[i][k] - geometric[i] } else { blocks[i][k] };
-            sum -= product(&adjoints[i].transpose(), &change);
+    let Some(Viscous { twists: [twists, stressed_twists], damping }) = viscous else {
+        let relative = Relative::new(frames, None);
+        let conjugate = by_coordinates(constants, &relative, &coordinates(stressed), None, stiffness, None);
+        by_relative_variations(stiffness, &relative, Some(&conjugate));
+        spread(stiffness, &relative, Some(&conjugate));
+        return;
+    };
+    let relative = Relative::new(frames, Some(twists));
+    let from = Relative::new(stressed, Some(stressed_twists));
+    let rates = Some(&from.rates);
+    let conjugate =
+        by_coordinates(constants, &relative, &from.coordinates, rates, stiffness, Some(&mut *damping));
+    for i in 0..N {
+        for m in 0..N {
+            if i != Beam::<N>::REFERENCE && m != Beam::<N>::REFERENCE {
+                let turned = relative.inverse[m].derivative(relative.apart[m]);
+                add_rows(&mut stiffness[i][m], &times_from_right(turned, &damping[i][m]));
+            }
         }
-        blocks[r][k] = sum;
+    }
+    by_relative_variations(stiffness, &relative, Some(&conjugate));
+    by_relative_variations(damping, &relative, None);
+    for i in 0..N {
+        for m in 0..N {
+            if i != Beam::<N>::REFERENCE && m != Beam::<N>::REFERENCE {
+                let turning = DualMatrix::lie_bracket(relative.seen[m]);
+                subtract_rows(&mut stiffness[i][m], &times_from_right(turning, &damping[i][m]));
+            }
+        }
+    }
+    spread(stiffness, &relative, Some(&conjugate));
+    spread(damping, &relative, None);
+}
+
+/// d_i.
+#[inline(always)]
+fn coordinates<R: Real, const N: usize>(frames: &[Pose<R>; N]) -> [Screw<R>; N] {
+    let mut coordinates = [Screw::zero(frames[0].position.x); N];
+    for i in 0..N {
+        if i != Beam::<N>::REFERENCE {
+            coordinates[i] = logarithm(frames[i].relative_to(frames[Beam::<N>::REFERENCE]));
+        }
+    }
+    coordinates
+}
+
+/// Adds ∂g_i/∂d_k at constant ḋ and, with rates, ∂g_i/∂ḋ_k; returns the forces g_i conjugate to the relative coordinates.
+#[inline(always)]
+fn by_coordinates<R: Real, const N: usize>(
+    constants: &impl Constants<R>,
+    relative: &Relative<R, N>,
+    stressed: &[Screw<R>; N],
+    stressed_rates: Option<&[Screw<R>; N]>,
+    stiffness: &mut Matrices<R, N>,
+    mut damping: Option<&mut Matrices<R, N>>,
+) -> [Screw<R>; N] {
+    let reference = Beam::<N>::REFERENCE;
+    let zero = Screw::zero(relative.coordinates[0].rotation.x);
+    let mut conjugate = [zero; N];
+    for k in 0..N - 1 {
+        let (d, d_slope) = (
+            combine_shapes(constants, k, &relative.coordinates),
+            combine_slopes(constants, k, &relative.coordinates),
+        );
+        let stressed_shape = combine_shapes(constants, k, stressed);
+        let stressed_slope = combine_slopes(constants, k, stressed);
+        let mut strain = strain(stressed_shape, stressed_slope) - constants.natural(k);
+        if let Some(rates) = stressed_rates {
+            let (rate, slope) = (combine_shapes(constants, k, rates), combine_slopes(constants, k, rates));
+            let rate = strain_rate((stressed_shape, stressed_slope), (rate, slope));
+            strain = strain.plus_scaled(rate, constants.damping(k));
+        }
+        let stress = constants.stress(k, strain);
+        let AtStation { along, across, turn, bend, by_slope, by_shape } = at_station(d, d_slope, stress);
+        let law = constants.law(k);
+        let mut strains = [by_slope; N];
+        let mut stresses = [law; N];
+        for i in 0..N {
+            if i != reference {
+                let (slope, shape) = (constants.slope(k, i), zero.rotation.x.like(constants.shape(k, i)));
+                conjugate[i] = conjugate[i].plus_scaled(along, slope).plus_scaled(across, shape);
+                strains[i] = by_slope.scaled_by(slope).plus_scaled(by_shape, shape);
+                stresses[i] = times_from_right(strains[i], &law);
+            }
+        }
+        if let Some(damping) = &mut damping {
+            let rate = combine_shapes(constants, k, &relative.rates);
+            let rate_slope = combine_slopes(constants, k, &relative.rates);
+            let [by_slope, by_shape] = strain_change_rates((d, d_slope), (rate, rate_slope));
+            let factor = constants.damping(k);
+            for m in 0..N {
+                if m != reference {
+                    let mut viscous = stresses[m];
+                    for row in 0..6 {
+                        viscous[row] = viscous[row] * factor;
+                    }
+                    for i in 0..N {
+                        if i != reference {
+                            add_rows(&mut damping[i][m], &transpose_times_rows(strains[i], &viscous));
+                        }
+                    }
+                    let slope = constants.slope(k, m) * factor;
+                    let shape = factor.scaled(constants.shape(k, m));
+                    let change = by_slope.scaled_by(slope).plus_scaled(by_shape, shape);
+                    add_rows(&mut stresses[m], &times_from_right(change, &law));
+                }
+            }
+        }
+        for i in 0..N {
+            for m in 0..N {
+                if i != reference && m != reference {
+                    add_rows(&mut stiffness[i][m], &transpose_times_rows(strains[i], &stresses[m]));
+                    let (own, other) = (constants.shape(k, i), constants.shape(k, m));
+                    turn.scaled_by(constants.slope(k, i).scaled(other))
+                        .plus_scaled(turn.transposed(), constants.slope(k, m).scaled(own))
+                        .plus_scaled(bend, zero.rotation.x.like(own * other))
+                        .add_to(&mut stiffness[i][m]);
+                }
+            }
+        }
+    }
+    conjugate
+}
+
+// The following has long formulas, which are compiled once for beams of any number of nodes.
+
+#[inline(always)]
+fn logarithm<R: Real>(motion: Pose<R>) -> Screw<R> {
+    motion.position.x.apart(
+        #[inline(always)]
+        || motion.logarithm(),
+    )
+}
+
+/// T(d) d'.
+#[inline(always)]
+fn strain<R: Real>(d: Screw<R>, d_slope: Screw<R>) -> Screw<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || d.tangent_times(d_slope),
+    )
+}
+
+/// ε̇ = T ḋ' + (∂(T d')/∂d) ḋ.
+#[inline(always)]
+fn strain_rate<R: Real>(
+    (d, d_slope): (Screw<R>, Screw<R>),
+    (rate, rate_slope): (Screw<R>, Screw<R>),
+) -> Screw<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || {
+            let operator = TangentOperator::new(d);
+            operator.times(rate_slope) + operator.rate_times(rate, d_slope)
+        },
+    )
+}
+
+/// Rates of the derivatives of strains with respect to d' and to d.
+#[inline(always)]
+fn strain_change_rates<R: Real>(
+    (d, d_slope): (Screw<R>, Screw<R>),
+    (rate, rate_slope): (Screw<R>, Screw<R>),
+) -> [DualMatrix<R>; 2] {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || {
+            let curved = CurvedTangent::new(d);
+            [curved.rate(rate), curved.derivative_rate((d_slope, rate_slope), rate)]
+        },
+    )
+}
+
+#[inline(always)]
+fn inverse_tangent<R: Real>(d: Screw<R>) -> TangentOperator<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || TangentOperator::inverse(d),
+    )
+}
+
+/// `W M` of rows W and a twist matrix M.
+#[inline(always)]
+fn times_from_right<R: Real>(matrix: DualMatrix<R>, rows: &Rows<R>) -> Rows<R> {
+    rows[0].rotation.x.apart(
+        #[inline(always)]
+        || matrix.times_from_right(rows),
+    )
+}
+
+/// `Mᵀ W` of a twist matrix M and rows W.
+#[inline(always)]
+fn transpose_times_rows<R: Real>(matrix: DualMatrix<R>, rows: &Rows<R>) -> Rows<R> {
+    rows[0].rotation.x.apart(
+        #[inline(always)]
+        || matrix.transpose_times_rows(rows),
+    )
+}
+
+/// Quantities of a station for all nodes, at T(d) and d', with the stress σ.
+struct AtStation<R> {
+    /// Tᵀ σ.
+    along: Screw<R>,
+    /// (∂(T d')/∂d)ᵀ σ.
+    across: Screw<R>,
+    /// ∂(Tᵀ σ)/∂d.
+    turn: DualMatrix<R>,
+    /// ∂²(σᵀ T d')/∂d∂d.
+    bend: DualMatrix<R>,
+    /// Derivatives of strains with respect to d' and to d.
+    by_slope: DualMatrix<R>,
+    by_shape: DualMatrix<R>,
+}
+
+#[inline(always)]
+fn at_station<R: Real>(d: Screw<R>, d_slope: Screw<R>, stress: Screw<R>) -> AtStation<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || {
+            let curved = CurvedTangent::new(d);
+            AtStation {
+                along: curved.operator.transpose_times(stress),
+                across: curved.operator.derivative_transpose_times(d_slope, stress),
+                turn: curved.operator.transpose_derivative(stress),
+                bend: curved.hessian(d_slope, stress),
+                by_slope: curved.operator.matrix(),
+                by_shape: curved.operator.derivative(d_slope),
+            }
+        },
+    )
+}
+
+/// From ∂g_i/∂d_k to ∂F_i/∂η_k.
+#[inline(always)]
+fn by_relative_variations<R: Real, const N: usize>(
+    blocks: &mut Matrices<R, N>,
+    relative: &Relative<R, N>,
+    conjugate: Option<&[Screw<R>; N]>,
+) {
+    let inverse = &relative.inverse;
+    for i in 0..N {
+        for m in 0..N {
+            if i != Beam::<N>::REFERENCE && m != Beam::<N>::REFERENCE {
+                let mut change = transpose_times_rows(inverse[i].matrix(), &blocks[i][m]);
+                if let Some(conjugate) = conjugate
+                    && i == m
+                {
+                    inverse[i].transpose_derivative(conjugate[i]).add_to(&mut change);
+                }
+                blocks[i][m] = times_from_right(inverse[m].matrix(), &change);
+            }
+        }
+    }
+}
+
+/// From ∂F_i/∂η_k of the relative nodes to all nodes: η_k = δh_k - A_k δh_r, F_r = - Σ A_iᵀ F_i and
+/// δ(A_iᵀ) F_i = - A_iᵀ X(F_i) η_i, where the last term belongs to variations of positions.
+#[inline(always)]
+fn spread<R: Real, const N: usize>(
+    blocks: &mut Matrices<R, N>,
+    relative: &Relative<R, N>,
+    conjugate: Option<&[Screw<R>; N]>,
+) {
+    let reference = Beam::<N>::REFERENCE;
+    for m in 0..N {
+        for i in 0..N {
+            if i != reference && m != reference {
+                let mut change = blocks[i][m];
+                if let Some(conjugate) = conjugate
+                    && i == m
+                {
+                    let force = relative.inverse[i].transpose_times(conjugate[i]);
+                    (-DualMatrix::coadjoint(force)).add_to(&mut change);
+                }
+                subtract_rows(
+                    &mut blocks[reference][m],
+                    &transpose_times_rows(relative.adjoints[i], &change),
+                );
+            }
+        }
     }
     for i in 0..N {
-        let mut sum = Matrix6::zeros();
-        for k in (0..N).filter(|&k| k != r) {
-            sum -= product(&blocks[i][k], &adjoints[k]);
+        for m in 0..N {
+            if m != reference {
+                let seen = times_from_right(relative.adjoints[m], &blocks[i][m]);
+                subtract_rows(&mut blocks[i][reference], &seen);
+            }
         }
-        blocks[i][r] = sum;
     }
+}
+
+/// From variations of the section frames to those of the nodes, relative to which the section frames are `offsets`.
+#[inline(always)]
+pub(super) fn through_offsets<R: Real, const N: usize>(blocks: &mut Matrices<R, N>, offsets: &[Pose<R>; N]) {
     for i in 0..N {
-        for k in 0..N {
-            let mut block = blocks[i][k];
-            if let Some(offset) = &beam.offsets[i] {
-                block = product(&offset.inverse().adjoint().transpose(), &block);
-            }
-            if let Some(offset) = &beam.offsets[k] {
-                block = product(&block, &offset.inverse().adjoint());
-            }
-            add_block(out, 6 * N, (6 * i, 6 * k), &block);
+        for m in 0..N {
+            let seen = times_from_right(offsets[m].adjoint_inverse(), &blocks[i][m]);
+            blocks[i][m] = transpose_times_rows(offsets[i].adjoint_inverse(), &seen);
         }
     }
 }
 
-/// A product of matrices, compiled once: it has 216 multiplications, and many callers.
-#[inline(never)]
-fn product(left: &Matrix6, right: &Matrix6) -> Matrix6 {
-    left * right
+#[inline(always)]
+fn add_rows<R: Real>(rows: &mut Rows<R>, other: &Rows<R>) {
+    for i in 0..6 {
+        rows[i] = rows[i] + other[i];
+    }
 }
 
-/// Ṫ for the rate ḋ.
-fn tangent_rate(d: &Vector6, rate: &Vector6) -> Matrix6 {
-    Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(|k| tangent_rate_times(d, rate, &unit(k))))
-}
-
-/// ∂/∂d of (∂(T a)/∂d) b, row by row from the Hessians of the components of T a.
-fn second_derivative_times(d: &Vector6, a: &Vector6, b: &Vector6) -> Matrix6 {
-    Matrix6::from_rows(&std::array::from_fn::<_, 6, _>(|k| (tangent_hessian(d, a, &unit(k)) * b).transpose()))
-}
-
-fn unit(k: usize) -> Vector6 {
-    let mut vector = Vector6::zeros();
-    vector[k] = 1.0;
-    vector
-}
-
-/// ∂ḋ_k/∂d_k at constant node twists: δ(T(d)⁻¹ w) with δw = ad_η Ad(exp(-d)) V_r, η = T δd.
-pub(super) fn rate_changes<const N: usize>(
-    beam: &Beam<N>,
-    at: &Kinematics,
-    relative: &Relative<N>,
-) -> [Matrix6; N] {
-    let twists = beam.relative_twists(at, relative);
-    let reference = beam.section_twist(at, Beam::<N>::REFERENCE);
-    std::array::from_fn(|k| {
-        let seen = Motion::exponential(&relative[k]).adjoint_inverse_times(&reference);
-        inverse_tangent_derivative(&relative[k], &twists[k])
-            - product(
-                &product(&inverse_tangent(&relative[k]), &lie_bracket_matrix(&seen)),
-                &tangent(&relative[k]),
-            )
-    })
+#[inline(always)]
+fn subtract_rows<R: Real>(rows: &mut Rows<R>, other: &Rows<R>) {
+    for i in 0..6 {
+        rows[i] = rows[i] - other[i];
+    }
 }

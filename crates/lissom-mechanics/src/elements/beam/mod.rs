@@ -25,21 +25,19 @@ pub mod section;
 pub mod section_error;
 mod section_gradient;
 mod step_stages;
-mod stiffness;
 
 use lissom_motion::{
-    Matrix6, Motion, Pose, Screw, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
-    inverse_tangent_times, inverse_tangent_transpose_derivative, inverse_tangent_transpose_times,
-    lie_bracket_matrix, tangent, tangent_derivative, tangent_derivative_transpose_times, tangent_hessian,
-    tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
+    Matrix6, Motion, Pose, Screw, Vector6, inverse_tangent_times, lie_bracket_matrix, tangent_rate_times,
+    tangent_times,
 };
 
 use blocks::BeamBlocks;
 use forces::{Constants, forces};
+use linearize::{Viscous, linearize, through_offsets};
 
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
-use super::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns, add_block};
+use super::{Capabilities, Deformable, Element, Energy, Tangents, Unknowns};
 use crate::evaluation::blocks::Blocks;
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{Kinematics, NodeId, split};
@@ -414,7 +412,22 @@ impl<const N: usize> Element for Beam<N> {
 
 impl<const N: usize> Deformable for Beam<N> {
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        linearize::Linearization::new(self, at, stressed).assemble(self, out);
+        let frames = [at, stressed].map(|at| std::array::from_fn(|i| Pose::from(&self.section_frame(at, i))));
+        let twists = [at, stressed].map(|at| std::array::from_fn(|i| (&self.section_twist(at, i)).into()));
+        let offsets = self.offsets.map(|offset| Pose::from(&offset.unwrap_or_default()));
+        let zeros = [[[Screw::zero(0.0); 6]; N]; N];
+        let [mut stiffness, mut damping] = [zeros; 2];
+        let viscous = self.is_damped().then(|| Viscous { twists: twists.each_ref(), damping: &mut damping });
+        linearize(self, &frames[0], &frames[1], &mut stiffness, viscous);
+        for (blocks, out) in [(&mut stiffness, &mut out.stiffness), (&mut damping, &mut out.damping)] {
+            through_offsets(blocks, &offsets);
+            for (i, k, row) in
+                (0..N).flat_map(|i| (0..N).flat_map(move |k| (0..6).map(move |row| (i, k, row))))
+            {
+                let own = &mut out[6 * N * (6 * i + row) + 6 * k..][..6];
+                own.iter_mut().zip(blocks[i][k][row].components()).for_each(|(sum, value)| *sum += value);
+            }
+        }
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {

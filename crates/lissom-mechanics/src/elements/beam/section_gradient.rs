@@ -7,11 +7,12 @@
 //! δS = δp + b (ad(f)ᵀ δc + X(c) δf),      δd_k = T(d_k)⁻¹ (δh_k - A_k δh_r),      A_k = Ad(exp(-d_k))
 //! ```
 
-use super::linearize::{rate_by_coordinates, rate_changes};
-use super::{
-    Beam, Kinematics, Matrix6, Motion, Vector6, coadjoint_matrix, combine, gauss_legendre, inverse_tangent,
-    lagrange, lie_bracket_matrix, tangent, tangent_derivative, tangent_times,
+use lissom_motion::{
+    Matrix6, Motion, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
+    lie_bracket_matrix, tangent, tangent_derivative, tangent_derivative_rate, tangent_rate, tangent_times,
 };
+
+use super::{Beam, Kinematics, Relative, Station, combine, gauss_legendre, lagrange};
 use crate::kinematics::local_derivatives::LocalDerivatives;
 
 impl<const N: usize> Beam<N> {
@@ -72,4 +73,30 @@ impl<const N: usize> Beam<N> {
         }
         out
     }
+}
+
+/// ∂ε̇/∂d at constant node twists, from derivatives of the strains and of the rates ḋ.
+fn rate_by_coordinates<const N: usize>(
+    station: &Station<N>,
+    (d, d_slope): (&Vector6, &Vector6),
+    strains: &[Matrix6; N],
+    rates: &Relative<N>,
+    changes: &[Matrix6; N],
+) -> [Matrix6; N] {
+    let (shape, slope) = (&station.shape, &station.slope);
+    let rate = combine(shape, rates);
+    let by_shape = tangent_derivative_rate(d, (d_slope, &combine(slope, rates)), &rate);
+    let by_slope = tangent_rate(d, &rate);
+    std::array::from_fn(|k| shape[k] * by_shape + slope[k] * by_slope + strains[k] * changes[k])
+}
+
+/// ∂ḋ_k/∂d_k at constant node twists: δ(T(d)⁻¹ w) with δw = ad_η Ad(exp(-d)) V_r, η = T δd.
+fn rate_changes<const N: usize>(beam: &Beam<N>, at: &Kinematics, relative: &Relative<N>) -> [Matrix6; N] {
+    let twists = beam.relative_twists(at, relative);
+    let reference = beam.section_twist(at, Beam::<N>::REFERENCE);
+    std::array::from_fn(|k| {
+        let seen = Motion::exponential(&relative[k]).adjoint_inverse_times(&reference);
+        inverse_tangent_derivative(&relative[k], &twists[k])
+            - inverse_tangent(&relative[k]) * lie_bracket_matrix(&seen) * tangent(&relative[k])
+    })
 }
