@@ -181,11 +181,12 @@ impl ConsistentInitialConditions {
     /// rest -= [M Bᵀ; B 0] x.
     pub(crate) fn subtract_product(&self, system: &System, x: &[f64], rest: &mut [f64]) {
         let pattern = &system.structure().pattern;
-        for column in 0..pattern.size() {
+        // The first solution is refined from zero.
+        for (column, &factor) in x.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-            for position in range {
-                let row = pattern.row_indices()[position];
-                rest[row] -= (self.weights[position] + self.linearization.constraint[position]) * x[column];
+            let entries = self.weights[range.clone()].iter().zip(&self.linearization.constraint[range]);
+            for (&row, (weight, constraint)) in pattern.column(column).iter().zip(entries) {
+                rest[row] -= (weight + constraint) * factor;
             }
         }
     }

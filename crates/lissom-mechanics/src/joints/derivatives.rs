@@ -313,6 +313,8 @@ impl Summation<'_> {
     #[inline(always)]
     fn rows<S: Simd>(&mut self, simd: S, side: usize, part: usize) {
         let (coordinates, equations) = (self.out.coordinates, self.out.equations);
+        let has_place = self.place != 0.0;
+        let augmented = if self.augmented == 0.0 { 0 } else { equations };
         let Derivatives { variation, gradient, charted_gradient, weights, columns, on_base, on_tip, .. } =
             &mut *self.out;
         let (bent, own) = if side == 0 { (on_base, 0) } else { (on_tip, coordinates) };
@@ -330,14 +332,17 @@ impl Summation<'_> {
             if half == 0 && place >= 6 {
                 continue;
             }
-            let mut sum = variation[0] * Lanes::splat(simd, bent[0][half][place]);
-            for m in 1..6 {
-                sum = sum.plus_product(variation[m], Lanes::splat(simd, bent[m][half][place]));
+            let mut sum = Lanes::splat(simd, 0.0);
+            // Records and initial values have no K, and each term of separate derivatives is alone.
+            if has_place {
+                for m in 0..6 {
+                    sum = sum.plus_product(variation[m], Lanes::splat(simd, bent[m][half][place]));
+                }
+                for k in 0..own {
+                    sum = sum.plus_product(variation[6 + k], Lanes::splat(simd, bent[6 + k][half][place]));
+                }
             }
-            for k in 0..own {
-                sum = sum.plus_product(variation[6 + k], Lanes::splat(simd, bent[6 + k][half][place]));
-            }
-            for e in 0..equations {
+            for e in 0..augmented {
                 sum = sum.plus_product(weighted[e], Lanes::splat(simd, charted_gradient[e][half][place]));
             }
             sum.store(&mut columns[column][side], part);
