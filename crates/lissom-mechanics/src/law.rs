@@ -110,12 +110,17 @@ pub trait ScalarLaw {
 pub type VisitLaw<'v> = dyn FnMut(&dyn ScalarLaw, &[f64]) + 'v;
 
 /// The narrowest interval that contains these values; every number if one of them is none.
+#[inline]
 pub fn hull(values: &[f64]) -> Interval {
-    if values.iter().any(|value| value.is_nan()) {
-        return EVERYTHING;
+    let [mut low, mut high] = [f64::INFINITY, f64::NEG_INFINITY];
+    for &value in values {
+        if value.is_nan() {
+            return EVERYTHING;
+        }
+        low = if value < low { value } else { low };
+        high = if value > high { value } else { high };
     }
-    let extend = |[low, high]: Interval, &value: &f64| [low.min(value), high.max(value)];
-    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], extend)
+    [low, high]
 }
 
 /// Sum of two intervals.

@@ -204,7 +204,11 @@ impl<'l> Course<'l> {
             return Found::Nothing;
         }
         let expected = self.interpolated(whole);
-        let is_found = |within: Interval| self.departure(&expected, within) > part * magnitude;
+        let is_found = |within: Interval| {
+            // The middle of a half is a quarter of the interval before it.
+            let shares: &[f64] = if within == whole { &[0.25, 0.5, 0.75] } else { &[0.25, 0.75] };
+            self.departure(&expected, within, shares) > part * magnitude
+        };
         // A law with kinks, for example of a contact, may act between two samples only.
         let least = if self.law.is_smooth() { NARROW_BOUNDS } else { part } * magnitude;
         let may_be = |within: Interval| self.may_hide(within, least);
@@ -219,8 +223,9 @@ impl<'l> Course<'l> {
     fn jump(&self, [mut from, mut to]: Interval, magnitude: f64) -> Option<f64> {
         for _ in 0..MAX_HALVINGS {
             let middle = 0.5 * (from + to);
-            let is_resolved =
-                |half: Interval| self.departure(&self.interpolated(half), half) <= DEPARTURE * magnitude;
+            let is_resolved = |half: Interval| {
+                self.departure(&self.interpolated(half), half, &[0.25, 0.5, 0.75]) <= DEPARTURE * magnitude
+            };
             if !is_resolved([from, middle]) {
                 to = middle;
             } else if !is_resolved([middle, to]) {
@@ -255,15 +260,20 @@ impl<'l> Course<'l> {
         ([from, to], [start, first, 3.0 * change - 2.0 * first - last, first + last - 2.0 * change])
     }
 
-    /// Largest deviation from a cubic at three points of an interval.
-    fn departure(&self, ([from, to], cubic): &(Interval, Cubic), [start, end]: Interval) -> f64 {
-        let departure = |share: f64| {
+    /// Largest deviation from a cubic at these fractions of an interval.
+    fn departure(
+        &self,
+        ([from, to], cubic): &(Interval, Cubic),
+        [start, end]: Interval,
+        shares: &[f64],
+    ) -> f64 {
+        let departure = |share: &f64| {
             let parameter = start + share * (end - start);
             let expected = at(cubic, ((parameter - from) / (to - from)).clamp(0.0, 1.0));
             (self.value(parameter) - expected).abs()
         };
         // Values that are not finite are reported elsewhere.
-        [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
+        shares.iter().map(departure).fold(0.0, f64::max)
     }
 
     /// Longest interval from `from` that is resolved except for jumps: `size`, or less by halving.

@@ -739,13 +739,17 @@ impl ScalarLaw for ForceOverGap<'_> {
     }
 
     fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
+        // Its bounds tell already that a separate pair has no force.
+        if !self.pair.is_linear() {
+            return None;
+        }
         let ranges: [Interval; MAX_GAP_ARGUMENTS] =
             std::array::from_fn(|k| arguments.get(k).map_or([0.0; 2], |own| own.value));
         let [low, high] = self.gaps(&ranges[..arguments.len()]);
         if low > 0.0 {
             return Some(Enclosure::of_constant([0.0; 2]));
         }
-        if high >= 0.0 || !self.pair.is_linear() {
+        if high >= 0.0 {
             return None;
         }
         // Of a point above a plane, in contact: g = n·x - r.
