@@ -37,7 +37,7 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "tolerance",
                 Shape::Positive,
                 "",
-                "tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`",
+                "tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`",
             ),
             optional(
                 "max_iterations",

@@ -28,7 +28,7 @@ class Dynamics(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: number of steps between records; default 1, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
@@ -83,7 +83,7 @@ class Statics(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: number of steps between records; default 1, or several records in each adaptive step; a whole number from 1 to 1000000000, or nothing.
@@ -126,7 +126,7 @@ class Path(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which is required; a number, or nothing.
@@ -165,7 +165,7 @@ class Buckling(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of load factors, default 5; a whole number from 1 to 10000, or nothing.
@@ -196,7 +196,7 @@ class Modes(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
+        tolerance: tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: maximum number of Newton iterations, default 40; a whole number from 1 to 10000, or nothing.
         without: optional features of the nonlinear solver to be disabled, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of modes, default 20; a whole number from 1 to 100000, or nothing.

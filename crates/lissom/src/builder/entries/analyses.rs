@@ -104,7 +104,7 @@ keys! {
     penalty: f64 = "penalty";
     /// Linear solver.
     solver: words::Solver = "solver";
-    /// Tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/100; 1e-12 for `energy-decaying`.
+    /// Tolerance of Newton's iteration, in scaled units, default 1e-8; with adaptive steps `relative_tolerance`/1000; 1e-12 for `energy-decaying`.
     tolerance: f64 = "tolerance";
     /// Maximum number of Newton iterations, default 40.
     max_iterations: usize = "max_iterations";
