@@ -198,11 +198,11 @@ impl RecoveryMatrix {
         !self.has_damping && report.is_some_and(|report| report.worst_cancellation > WELL_CONDITIONED)
     }
 
-    /// out += factor · K x over motions; equations of rates have no stiffness.
-    pub(super) fn add_stiffness_product(&self, factor: f64, x: &[f64], out: &mut [f64]) {
+    /// out += K x over motions, x by row; equations of rates have no stiffness.
+    pub(super) fn add_stiffness_product(&self, x: impl Fn(usize) -> f64, out: &mut [f64]) {
         let Some(stiff) = &self.stiff else { return };
         for run in &self.between_motions {
-            let value = factor * x[run.column];
+            let value = x(run.column);
             let entries = &stiff.stiffness[run.position..run.position + run.length];
             for (out, entry) in out[run.row..run.row + run.length].iter_mut().zip(entries) {
                 *out += value * entry;

@@ -217,11 +217,13 @@ impl Recovery {
         }
         let square = time * time;
         work.stiff.clone_from(&work.lacking);
-        matrix.add_stiffness_product(-square, &work.speeds, &mut work.stiff);
+        let speeds = &work.speeds;
+        matrix.add_stiffness_product(|row| -square * speeds[row], &mut work.stiff);
         matrix.solve(&mut work.stiff);
         for _ in 1..(*stages).max(2) {
             work.right.clone_from(&work.lacking);
-            matrix.add_stiffness_product(square, &work.stiff, &mut work.right);
+            let stiff = &work.stiff;
+            matrix.add_stiffness_product(|row| square * stiff[row], &mut work.right);
             matrix.solve(&mut work.right);
             std::mem::swap(&mut work.stiff, &mut work.right);
         }
@@ -254,11 +256,7 @@ impl Recovery {
                 *right = lacking - unbalanced;
             }
             if matrix.is_stiff() {
-                // The sum of both terms is the stiffness product of x - y.
-                matrix.add_stiffness_product(square, stiff, right);
-                if repetition > 0 {
-                    matrix.add_stiffness_product(-square, change, right);
-                }
+                matrix.add_stiffness_product(|row| square * (stiff[row] - change[row]), right);
             }
             matrix.solve(right);
             layout.states().for_each(|(row, ..)| right[row] = 0.0);
@@ -329,13 +327,13 @@ impl Recovery {
         for (stiff, (lacking, unbalanced)) in stiff.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
             *stiff += lacking - unbalanced;
         }
-        matrix.add_stiffness_product(-square, accelerations, stiff);
+        matrix.add_stiffness_product(|row| -square * accelerations[row], stiff);
         matrix.solve(stiff);
         for _ in 2..*stages {
             for (right, (lacking, unbalanced)) in right.iter_mut().zip(lacking.iter().zip(&*unbalanced)) {
                 *right = lacking - unbalanced;
             }
-            matrix.add_stiffness_product(square, stiff, right);
+            matrix.add_stiffness_product(|row| square * stiff[row], right);
             matrix.solve(right);
             std::mem::swap(stiff, right);
         }

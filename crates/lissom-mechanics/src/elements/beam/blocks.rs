@@ -301,11 +301,11 @@ impl<const N: usize> BeamBlock<N> {
                 let mut damping = [[[zero; 6]; N]; N];
                 let viscous = Viscous { twists: [&twists[0], &twists[1]], damping: &mut damping };
                 linearize(&here, &frames[0], &frames[1], &mut stiffness, Some(viscous));
-                self.store(part, damping, &offsets, &mut results[1]);
+                self.store(part, &mut damping, &offsets, &mut results[1]);
             } else {
                 linearize(&here, &frames[0], &frames[1], &mut stiffness, None);
             }
-            self.store(part, stiffness, &offsets, &mut results[0]);
+            self.store(part, &mut stiffness, &offsets, &mut results[0]);
         }
     }
 
@@ -313,12 +313,12 @@ impl<const N: usize> BeamBlock<N> {
     fn store<S: Simd>(
         &self,
         part: Part<S>,
-        mut matrices: Matrices<Lanes<S>, N>,
+        matrices: &mut Matrices<Lanes<S>, N>,
         offsets: &[Pose<Lanes<S>>; N],
         results: &mut Local<N>,
     ) {
         if self.offsets.is_some() {
-            through_offsets(&mut matrices, offsets);
+            through_offsets(matrices, offsets);
         }
         for i in 0..N {
             for m in 0..N {
