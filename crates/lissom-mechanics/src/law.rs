@@ -100,6 +100,11 @@ pub trait ScalarLaw {
     /// Bounds of the value over intervals of time [s] and of the arguments; none if none are known.
     fn bounds(&self, time: Interval, arguments: &[Interval]) -> Option<Interval>;
 
+    /// Whether bounds of derivatives may be known: if not, they are not requested.
+    fn has_enclosure(&self) -> bool {
+        true
+    }
+
     /// The same with bounds of its derivatives along a path, given those of time and of the arguments. Default: none are known.
     fn enclosure(&self, _time: &Enclosure, _arguments: &[Enclosure]) -> Option<Enclosure> {
         None

@@ -162,6 +162,9 @@ impl<'l> Course<'l> {
 
     /// Largest distance within an interval from the straight line between its ends, if a bound is known.
     fn bend(&self, [from, to]: Interval) -> Option<f64> {
+        if !self.law.has_enclosure() {
+            return None;
+        }
         let inside = round_off::STEP_END * (to - from);
         let [from, to] = [from + inside, to - inside];
         let mut arguments = [Enclosure::of_constant([0.0; 2]); MAX_ARGUMENTS];

@@ -51,9 +51,47 @@ pub trait Pair: Debug + Send + Sync {
         None
     }
 
-    /// Whether the gap is linear in x and independent of R. Default: it is not.
-    fn is_linear(&self) -> bool {
+    /// Whether the base is the plane z = 0: the gap is then x₃ and a function of the third row of R. Default: it is not.
+    fn is_on_plane(&self) -> bool {
         false
+    }
+}
+
+/// Largest number of [`arguments`](dyn Pair::arguments).
+pub(crate) const MAX_ARGUMENTS: usize = 12;
+
+impl dyn Pair + '_ {
+    /// Whether the gap is linear in x and independent of R.
+    pub(crate) fn is_linear(&self) -> bool {
+        self.is_on_plane() && self.reach() == 0.0
+    }
+
+    /// Number of components of x and, unless the gap is independent of it, of R, column by column, as arguments of a law.
+    pub(crate) fn arguments(&self) -> usize {
+        if self.reach() == 0.0 { 3 } else { MAX_ARGUMENTS }
+    }
+
+    /// The gap at these arguments.
+    pub(crate) fn gap_at(&self, arguments: &[f64]) -> f64 {
+        let (x, rotation) = arguments.split_at(3);
+        let rotation =
+            if rotation.is_empty() { Matrix3::identity() } else { Matrix3::from_column_slice(rotation) };
+        self.gap(&Vector3::from_column_slice(x), &rotation).value
+    }
+
+    /// Range of the gap over ranges of the arguments: it changes by no more than x does and `reach` times R, and above a plane by no
+    /// more than the height and the third row.
+    pub(crate) fn range(&self, arguments: &[[f64; 2]]) -> [f64; 2] {
+        let middle: [f64; MAX_ARGUMENTS] =
+            std::array::from_fn(|k| arguments.get(k).map_or(0.0, |[low, high]| 0.5 * (low + high)));
+        let gap = self.gap_at(&middle[..arguments.len()]);
+        let counts = |k: &usize| !self.is_on_plane() || k % 3 == 2;
+        let half = |all: &[[f64; 2]]| {
+            let squares = (0..all.len()).filter(counts).map(|k| 0.25 * (all[k][1] - all[k][0]).powi(2));
+            squares.sum::<f64>().sqrt()
+        };
+        let change = half(&arguments[..3]) + self.reach() * half(&arguments[3..]);
+        [gap - change, gap + change]
     }
 }
 

@@ -27,7 +27,7 @@ use super::contact_resistance::ContactResistance;
 use super::force_law::Response;
 use super::{Capabilities, Element, Energy, ForceLaws, Spring, StrainSlopes, Tangents, Unknowns, add_block};
 use crate::contact::compliance::Compliance;
-use crate::contact::gap::{Gap, Matrix3x6, Pair, side_by_side};
+use crate::contact::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 use crate::contact::hollow::Hollow;
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::frame_pair::{FramePair, RelativeMotion};
@@ -44,9 +44,6 @@ const ELASTIC_SHARE: f64 = 0.8;
 const SLIPPING: f64 = 0.95;
 /// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
 const SMALL_DEPTH: f64 = 1e-6;
-
-/// Position and rotation of the tip as arguments of a law.
-const MAX_GAP_ARGUMENTS: usize = 12;
 
 /// Dissipation of the normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -651,13 +648,12 @@ impl ForceLaws for Contact {
 
     fn laws(&self, at: &Kinematics, visit: &mut VisitLaw<'_>) {
         let motion = self.frames.motion(at);
-        let mut arguments = [0.0; MAX_GAP_ARGUMENTS];
+        let mut arguments = [0.0; MAX_ARGUMENTS];
         let (x, rotation) = arguments.split_at_mut(3);
         x.copy_from_slice(motion.position.as_slice());
         rotation.copy_from_slice(motion.rotation.as_slice());
         let law = ForceOverGap { pair: &*self.pair, compliance: self.compliance };
-        let count = if self.pair.reach() == 0.0 { 3 } else { MAX_GAP_ARGUMENTS };
-        visit(&law, &arguments[..count]);
+        visit(&law, &arguments[..self.pair.arguments()]);
     }
 }
 
@@ -693,33 +689,14 @@ struct ForceOverGap<'p> {
 }
 
 impl ForceOverGap<'_> {
-    fn gap(&self, arguments: &[f64]) -> f64 {
-        let (x, rotation) = arguments.split_at(3);
-        let rotation =
-            if rotation.is_empty() { Matrix3::identity() } else { Matrix3::from_column_slice(rotation) };
-        self.pair.gap(&Vector3::from_column_slice(x), &rotation).value
-    }
-
     fn force(&self, gap: f64) -> f64 {
         if gap < 0.0 { self.compliance.force(-gap, 0.0, 0.0)[0] } else { 0.0 }
-    }
-
-    /// Range of the gap.
-    fn gaps(&self, arguments: &[Interval]) -> Interval {
-        let middle: [f64; MAX_GAP_ARGUMENTS] =
-            std::array::from_fn(|k| arguments.get(k).map_or(0.0, |[low, high]| 0.5 * (low + high)));
-        let half = |all: &[Interval]| {
-            all.iter().map(|[low, high]| 0.25 * (high - low) * (high - low)).sum::<f64>().sqrt()
-        };
-        let change = half(&arguments[..3]) + self.pair.reach() * half(&arguments[3..]);
-        let gap = self.gap(&middle[..arguments.len()]);
-        [gap - change, gap + change]
     }
 }
 
 impl ScalarLaw for ForceOverGap<'_> {
     fn value(&self, _: f64, arguments: &[f64]) -> f64 {
-        self.force(self.gap(arguments))
+        self.force(self.pair.gap_at(arguments))
     }
 
     fn is_smooth(&self) -> bool {
@@ -734,25 +711,29 @@ impl ScalarLaw for ForceOverGap<'_> {
             // The force of the deepest penetration is not a measure of the forces of a motion.
             return Some([0.0, self.force(-SMALL_DEPTH)]);
         }
-        let [low, high] = self.gaps(arguments);
+        let [low, high] = self.pair.range(arguments);
         Some([self.force(high), self.force(low)])
     }
 
+    /// Of a point above a plane. The bounds of a separate pair's force are zero.
+    fn has_enclosure(&self) -> bool {
+        self.pair.is_linear()
+    }
+
     fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        // Its bounds tell already that a separate pair has no force.
-        if !self.pair.is_linear() {
+        if !self.has_enclosure() {
             return None;
         }
-        let ranges: [Interval; MAX_GAP_ARGUMENTS] =
+        let ranges: [Interval; MAX_ARGUMENTS] =
             std::array::from_fn(|k| arguments.get(k).map_or([0.0; 2], |own| own.value));
-        let [low, high] = self.gaps(&ranges[..arguments.len()]);
+        let [low, high] = self.pair.range(&ranges[..arguments.len()]);
         if low > 0.0 {
             return Some(Enclosure::of_constant([0.0; 2]));
         }
         if high >= 0.0 {
             return None;
         }
-        // Of a point above a plane, in contact: g = n·x - r.
+        // In contact: g = n·x - r.
         let n = self.pair.gap(&Vector3::zeros(), &Matrix3::identity()).normal;
         let along = |of: fn(&Enclosure) -> Interval| {
             (0..3).fold([0.0; 2], |all, k| sum(all, scaled(n[k], of(&arguments[k]))))

@@ -22,8 +22,8 @@ use nalgebra::{RowVector6, SMatrix};
 use super::constraint::{Constraint, Level, Port};
 use super::evaluation_point::Increments;
 use super::frame_pair::{FramePair, RelativeMotion};
-use super::rigid_gap::{MAX_ARGUMENTS, Penetration};
-use crate::contact::gap::{Gap, Matrix3x6, Pair, side_by_side};
+use super::rigid_gap::Penetration;
+use crate::contact::gap::{Gap, MAX_ARGUMENTS, Matrix3x6, Pair, side_by_side};
 use crate::kinematics::local_derivatives::add_block;
 use crate::kinematics::{CarriedFrame, DiscreteValueId, Kinematics, NodeId, Quantity};
 use crate::law::VisitLaw;
@@ -517,7 +517,7 @@ impl NonPenetration {
         x.copy_from_slice(motion.position.as_slice());
         rotation.copy_from_slice(motion.rotation.as_slice());
         let law = Penetration { pair: &*self.0.pair, is_apart: self.0.mode(at) == Mode::Open };
-        visit(&law, &arguments[..law.count()]);
+        visit(&law, &arguments[..law.pair.arguments()]);
     }
 }
 

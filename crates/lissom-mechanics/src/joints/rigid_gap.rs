@@ -3,16 +3,13 @@
 //! Legend: g gap, x position and R rotation of the tip's frame in the base's.
 //!
 //! ```text
-//! max(0, -g(x, R)),      |g(x + δx, R + δR) - g(x, R)| ≤ |δx| + reach |δR|
+//! max(0, -g(x, R))
 //! ```
 
 use lissom_motion::{Matrix3, Vector3};
 
-use crate::contact::gap::Pair;
+use crate::contact::gap::{MAX_ARGUMENTS, Pair};
 use crate::law::{Enclosure, Interval, ScalarLaw, scaled, sum};
-
-/// Position and rotation of the tip as arguments.
-pub(super) const MAX_ARGUMENTS: usize = 12;
 
 /// Of a contact that has not occurred yet, penetrations below a hundredth of this may be missed [m].
 const SMALL_DEPTH: f64 = 1e-6;
@@ -24,40 +21,9 @@ pub(super) struct Penetration<'p> {
     pub(super) is_apart: bool,
 }
 
-impl Penetration<'_> {
-    /// Number of arguments.
-    pub(super) fn count(&self) -> usize {
-        if self.pair.reach() == 0.0 { 3 } else { MAX_ARGUMENTS }
-    }
-
-    fn gap(&self, arguments: &[f64]) -> f64 {
-        let (x, rotation) = arguments.split_at(3);
-        let rotation =
-            if rotation.is_empty() { Matrix3::identity() } else { Matrix3::from_column_slice(rotation) };
-        self.pair.gap(&Vector3::from_column_slice(x), &rotation).value
-    }
-
-    /// Range of the gap.
-    fn gaps(&self, arguments: &[Interval]) -> Interval {
-        let middle: [f64; MAX_ARGUMENTS] =
-            std::array::from_fn(|k| arguments.get(k).map_or(0.0, |[low, high]| 0.5 * (low + high)));
-        let gap = self.gap(&middle[..arguments.len()]);
-        if self.pair.is_linear() {
-            let n = self.pair.gap(&Vector3::zeros(), &Matrix3::identity()).normal;
-            let change: f64 = (0..3).map(|k| n[k].abs() * 0.5 * (arguments[k][1] - arguments[k][0])).sum();
-            return [gap - change, gap + change];
-        }
-        let half = |all: &[Interval]| {
-            all.iter().map(|[low, high]| 0.25 * (high - low) * (high - low)).sum::<f64>().sqrt()
-        };
-        let change = half(&arguments[..3]) + self.pair.reach() * half(&arguments[3..]);
-        [gap - change, gap + change]
-    }
-}
-
 impl ScalarLaw for Penetration<'_> {
     fn value(&self, _: f64, arguments: &[f64]) -> f64 {
-        if self.is_apart { (-self.gap(arguments)).max(0.0) } else { 0.0 }
+        if self.is_apart { (-self.pair.gap_at(arguments)).max(0.0) } else { 0.0 }
     }
 
     fn is_smooth(&self) -> bool {
@@ -75,8 +41,13 @@ impl ScalarLaw for Penetration<'_> {
             // The deepest penetration is not a measure of those of a motion.
             return Some([0.0, SMALL_DEPTH]);
         }
-        let [low, high] = self.gaps(arguments);
+        let [low, high] = self.pair.range(arguments);
         Some([(-high).max(0.0), (-low).max(0.0)])
+    }
+
+    /// Of a point above a plane; the bounds of a separate pair's penetration are zero.
+    fn has_enclosure(&self) -> bool {
+        self.pair.is_linear()
     }
 
     fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
@@ -85,7 +56,7 @@ impl ScalarLaw for Penetration<'_> {
         }
         let ranges: [Interval; MAX_ARGUMENTS] =
             std::array::from_fn(|k| arguments.get(k).map_or([0.0; 2], |own| own.value));
-        let [low, high] = self.gaps(&ranges[..arguments.len()]);
+        let [low, high] = self.pair.range(&ranges[..arguments.len()]);
         if low > 0.0 {
             return Some(Enclosure::of_constant([0.0; 2]));
         }

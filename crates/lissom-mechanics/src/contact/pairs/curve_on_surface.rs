@@ -177,4 +177,8 @@ impl Pair for CurveOnSurface {
     fn reach(&self) -> f64 {
         self.curve.reach()
     }
+
+    fn is_on_plane(&self) -> bool {
+        self.surface.is_plane()
+    }
 }

@@ -46,4 +46,8 @@ impl Pair for EllipsoidOnPlane {
     fn reach(&self) -> f64 {
         self.semi_axes.into_iter().fold(0.0, f64::max)
     }
+
+    fn is_on_plane(&self) -> bool {
+        true
+    }
 }

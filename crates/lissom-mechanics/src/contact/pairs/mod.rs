@@ -20,6 +20,7 @@ mod tests {
     use crate::contact::curves::{Segment, Spline};
     use crate::contact::gap::{Gap, Pair};
     use crate::contact::surfaces::{Cuboid, HalfSpace, Ring, Rod, Surface};
+    use crate::law::hull;
 
     fn pairs() -> Vec<Box<dyn Pair>> {
         let point = |surface: Arc<dyn Surface>| -> Box<dyn Pair> {
@@ -106,6 +107,30 @@ mod tests {
                 }
             }
             assert!(compared > 200, "{index}: {compared}");
+        }
+    }
+
+    /// Values along a motion are within the range over its arguments, and sliding and spinning on a plane do not widen it.
+    #[test]
+    fn ranges_contain_all_values() {
+        let motions = [(Vector3::z(), 1.0), (Vector3::x(), 0.2), (Vector3::new(0.3, -0.8, 0.5), 0.7)];
+        for pair in pairs() {
+            for (axis, turn) in motions {
+                let arguments = |share: f64| -> Vec<f64> {
+                    let tilt = Rotation::exponential(&Vector3::new(0.4, 0.1, 0.0));
+                    let rotation = (Rotation::exponential(&(share * turn * axis)) * tilt).matrix();
+                    let x = Vector3::new(0.3, -0.2, 0.5) + share * Vector3::new(0.1, 0.3, 0.0);
+                    x.iter().chain(rotation.iter()).take(pair.arguments()).copied().collect()
+                };
+                let samples: Vec<Vec<f64>> = (0..=100).map(|k| arguments(f64::from(k) / 100.0)).collect();
+                let over = |k: usize| hull(&samples.iter().map(|own| own[k]).collect::<Vec<_>>());
+                let [low, high] = pair.range(&(0..pair.arguments()).map(over).collect::<Vec<_>>());
+                for sample in &samples {
+                    let value = pair.gap_at(sample);
+                    assert!(low <= value && value <= high, "{pair:?}: {value} not in {low} … {high}");
+                }
+                assert!(!pair.is_on_plane() || axis != Vector3::z() || high - low < 1e-12, "{pair:?}");
+            }
         }
     }
 }

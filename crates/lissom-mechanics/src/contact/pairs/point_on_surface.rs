@@ -58,7 +58,7 @@ impl Pair for PointOnSurface {
         hollow(&*self.surface, x, self.rounding)
     }
 
-    fn is_linear(&self) -> bool {
+    fn is_on_plane(&self) -> bool {
         self.surface.is_plane()
     }
 }

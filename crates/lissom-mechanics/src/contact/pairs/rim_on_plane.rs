@@ -63,4 +63,8 @@ impl Pair for RimOnPlane {
     fn reach(&self) -> f64 {
         self.radius
     }
+
+    fn is_on_plane(&self) -> bool {
+        true
+    }
 }

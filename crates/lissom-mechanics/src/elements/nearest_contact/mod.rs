@@ -25,7 +25,7 @@ use crate::contact::gap::side_by_side;
 use crate::evaluation::switch_states::{SwitchStates, is_on_upper_branch};
 use crate::joints::centerline::SUPPORT;
 use crate::kinematics::{GROUND, Kinematics, NodeId, Switch};
-use crate::law::{Enclosure, Interval, ScalarLaw, VisitLaw};
+use crate::law::{Interval, ScalarLaw, VisitLaw};
 use crate::signals::measurement::Gradient;
 use nearest_points::{Nearest, Placed, chord_distance, nearest};
 
@@ -425,8 +425,7 @@ impl ScalarLaw for ForceOverChords {
         Some([self.force(high), self.force(low)])
     }
 
-    fn enclosure(&self, _: &Enclosure, arguments: &[Enclosure]) -> Option<Enclosure> {
-        let ranges: [Interval; ARGUMENTS] = std::array::from_fn(|k| arguments[k].value);
-        (self.gaps(&ranges)[0] > 0.0).then(|| Enclosure::of_constant([0.0; 2]))
+    fn has_enclosure(&self) -> bool {
+        false
     }
 }
