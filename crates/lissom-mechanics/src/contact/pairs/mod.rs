@@ -127,7 +127,8 @@ mod tests {
                 let [low, high] = pair.range(&(0..pair.arguments()).map(over).collect::<Vec<_>>());
                 for sample in &samples {
                     let value = pair.gap_at(sample);
-                    assert!(low <= value && value <= high, "{pair:?}: {value} not in {low} … {high}");
+                    let is_within = low - 1e-14 <= value && value <= high + 1e-14;
+                    assert!(is_within, "{pair:?}: {value} not in {low} … {high}");
                 }
                 assert!(!pair.is_on_plane() || axis != Vector3::z() || high - low < 1e-12, "{pair:?}");
             }
