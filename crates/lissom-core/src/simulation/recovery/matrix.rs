@@ -21,6 +21,9 @@ use crate::system::{Blend, Linearization, Scratch, State, Sum, System, TangentAs
 /// Smallest pivot, relative to its terms, with which solutions are accurate to round-off.
 const WELL_CONDITIONED: f64 = 1e-6;
 
+/// Relative change of velocities by the filter below which it is omitted: it is small compared with the errors of any step.
+const NEGLIGIBLE_FILTER: f64 = 1e-10;
+
 /// Consecutive entries of a column in consecutive rows.
 #[derive(Clone, Copy, Debug)]
 struct Run {
@@ -36,6 +39,8 @@ pub(super) struct RecoveryMatrix {
     redundancy: Redundancy,
     /// Derivatives of the forces of elements that may be stiff, if there are any.
     stiff: Option<Linearization>,
+    /// Whether τ² K is not negligible at these positions.
+    is_stiff: bool,
     has_damping: bool,
     /// Scratch memory of the assembly.
     scratch: Option<Box<Scratch>>,
@@ -50,7 +55,8 @@ pub(super) struct RecoveryMatrix {
     starts: JointStarts,
     /// Whether a row is an equation of rates.
     is_of_rates: Vec<bool>,
-    /// Entries between motions, and those of Bᵀ.
+    /// Entries of the diagonal, those between motions, and those of Bᵀ.
+    diagonal: Vec<usize>,
     between_motions: Vec<Run>,
     of_constraints: Vec<Run>,
 }
@@ -80,6 +86,7 @@ impl RecoveryMatrix {
             saddle,
             redundancy,
             stiff: system.has_stiff_elements().then(|| system.empty_linearization()),
+            is_stiff: false,
             has_damping: false,
             scratch: None,
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
@@ -94,14 +101,20 @@ impl RecoveryMatrix {
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
             zero: vec![0.0; layout.multiplier_count],
             starts: JointStarts::default(),
+            diagonal: (0..count).filter_map(|row| pattern.position(row, row)).collect(),
             between_motions: runs(pattern, (0..count).filter(|&column| is_motion(column)), is_motion),
             of_constraints: runs(pattern, count..pattern.size(), |row| row < count),
             is_of_rates,
         }
     }
 
-    /// Assembles and factors the matrix at these positions; none if it is singular.
-    pub(super) fn factor(&mut self, system: &System, at: &Kinematics, time: f64) -> Option<()> {
+    /// Assembles and factors the matrix at these positions; none if it is singular. K is used by `solutions` that follow each other.
+    pub(super) fn factor(
+        &mut self,
+        (system, at): (&System, &Kinematics),
+        time: f64,
+        solutions: usize,
+    ) -> Option<()> {
         system.begin_step(at, &mut self.starts);
         if self.redundancy.follow(system, at) {
             self.saddle.omit(self.redundancy.omitted());
@@ -113,34 +126,25 @@ impl RecoveryMatrix {
             }
             let out = &mut TangentAssembler::Separate(stiff);
             system.linearize_elements(true, at, self.scratch.get_or_insert_default(), out);
-            self.has_damping = stiff.damping.iter().any(|value| *value != 0.0);
         }
-        self.assemble(system, at, time);
+        self.assemble((system, at), time, solutions);
         self.saddle.factor(system.structure(), self.scale).ok()?;
         Some(())
     }
 
-    fn assemble(&mut self, system: &System, at: &Kinematics, time: f64) {
+    fn assemble(&mut self, (system, at): (&System, &Kinematics), time: f64, solutions: usize) {
         let (layout, pattern) = (system.layout(), &system.structure().pattern);
         let mut values = std::mem::take(&mut self.saddle.matrices.values);
         let mut scratch = self.scratch.take().unwrap_or_default();
         values.fill(0.0);
-        let blend = Blend {
-            place: 0.0,
-            rate: 0.0,
-            acceleration: 1.0,
-            augmented: self.scale,
-            constraint: self.scale,
-            slip: self.scale,
-            turning: 0.0,
-        };
-        let mut out = TangentAssembler::Real(Sum { blend, values: &mut values, stiffness: &mut [] });
-        system.linearize_elements(false, at, &mut scratch, &mut out);
-        let point = self.point(at, &self.zero);
-        system.linearize_constraints(&point, Chart::Body, &mut scratch.joint, &mut out);
+        let scale = self.scale;
+        system.linearize_elements(false, at, &mut scratch, &mut inertial(scale, &mut values));
         if let Some(stiff) = &self.stiff {
             values.iter_mut().zip(&stiff.mass).for_each(|(value, mass)| *value += mass);
-            for run in &self.between_motions {
+            let limit = NEGLIGIBLE_FILTER.powf(1.0 / solutions as f64);
+            self.is_stiff = self.exceeds(limit, stiff, &values, time);
+            self.has_damping = self.is_stiff && stiff.damping.iter().any(|value| *value != 0.0);
+            for run in self.between_motions.iter().filter(|_| self.is_stiff) {
                 let own = run.position..run.position + run.length;
                 let derivatives = stiff.damping[own.clone()].iter().zip(&stiff.stiffness[own.clone()]);
                 for (value, (damping, stiffness)) in values[own].iter_mut().zip(derivatives) {
@@ -148,6 +152,13 @@ impl RecoveryMatrix {
                 }
             }
         }
+        let point = self.point(at, &self.zero);
+        system.linearize_constraints(
+            &point,
+            Chart::Body,
+            &mut scratch.joint,
+            &mut inertial(scale, &mut values),
+        );
         // States have no inertia: a unit diagonal decouples them.
         for (row, ..) in layout.states() {
             if let Some(diagonal) = pattern.position(row, row) {
@@ -156,6 +167,27 @@ impl RecoveryMatrix {
         }
         self.saddle.matrices.values = values;
         self.scratch = Some(scratch);
+    }
+
+    /// Whether τ² ω² may exceed `limit` at any frequency ω: by columns j of τ D + τ² K relative to the inertias `mass`,
+    ///
+    /// ```text
+    /// τ² ω² ≤ max Σ_i |τ D + τ² K|_ij / √(M_ii M_jj)
+    /// ```
+    fn exceeds(&self, limit: f64, stiff: &Linearization, mass: &[f64], time: f64) -> bool {
+        let inertia = |row: usize| mass[self.diagonal[row]];
+        self.between_motions.chunk_by(|run, next| run.column == next.column).any(|column| {
+            let of_run = |run: &Run| {
+                let entries = (run.row..run.row + run.length).zip(run.position..);
+                let terms = entries.map(|(row, k)| {
+                    let change = time * (stiff.damping[k] + time * stiff.stiffness[k]);
+                    if change == 0.0 { 0.0 } else { change.abs() / inertia(row).sqrt() }
+                });
+                terms.sum::<f64>()
+            };
+            let sum: f64 = column.iter().map(of_run).sum();
+            sum > 0.0 && sum > limit * inertia(column[0].column).sqrt()
+        })
     }
 
     /// Solves in place for motions and multipliers.
@@ -181,9 +213,9 @@ impl RecoveryMatrix {
         right[count..].iter_mut().for_each(|value| *value *= self.scale);
     }
 
-    /// Whether there are elements that may be stiff.
+    /// Whether there are elements that are stiff at these positions.
     pub(super) fn is_stiff(&self) -> bool {
-        self.stiff.is_some()
+        self.is_stiff
     }
 
     /// Replaces multipliers by those of least norm that are in equilibrium with the same loads.
@@ -244,6 +276,20 @@ impl RecoveryMatrix {
             augmentation: self.augmentation,
         }
     }
+}
+
+/// Adds derivatives with respect to accelerations, and constraints by this scale.
+fn inertial(scale: f64, values: &mut [f64]) -> TangentAssembler<'_> {
+    let blend = Blend {
+        place: 0.0,
+        rate: 0.0,
+        acceleration: 1.0,
+        augmented: scale,
+        constraint: scale,
+        slip: scale,
+        turning: 0.0,
+    };
+    TangentAssembler::Real(Sum { blend, values, stiffness: &mut [] })
 }
 
 /// Entries of these columns in the rows for which `is_wanted` is true, as runs of consecutive entries.

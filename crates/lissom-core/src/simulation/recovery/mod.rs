@@ -16,8 +16,8 @@
 //!
 //! Stiff parts are treated like constraints: their rates vanish except for those imposed by the surrounding motion. The second solution
 //! of each pair changes resolved vibrations by (h ω/2)⁴ instead of (h ω/2)² only. The last one is iterated until the forces are in
-//! equilibrium, also if friction depends on multipliers. Without elements that may be stiff nothing is filtered, and K, c and x are
-//! zero. Derivation: docs/theory/recovery.md.
+//! equilibrium, also if friction depends on multipliers. Nothing is filtered, and K, c and x are zero, without elements that are stiff:
+//! if τ² ω² ≤ ρ for all frequencies ω, n solutions remove a share of at most ρⁿ. Derivation: docs/theory/recovery.md.
 
 mod matrix;
 
@@ -137,7 +137,7 @@ impl Recovery {
         let time = 0.5 * step / self.stages.saturating_sub(1).max(1) as f64;
         self.found.rates.clone_from(state);
         hold_sides(system, &mut self.work.switches, &mut self.found.rates.kinematics);
-        self.matrix.factor(system, &self.found.rates.kinematics, time)?;
+        self.matrix.factor((system, &self.found.rates.kinematics), time, self.stages.max(2))?;
         self.find_lacking_velocities(system);
         if need == Need::Forces {
             self.found.forces.clone_from(&self.found.rates);
