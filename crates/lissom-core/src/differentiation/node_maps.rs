@@ -14,7 +14,8 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use lissom_motion::{
-    Block, Matrix6, Motion, ScrewTangent, Vector6, WIDTH, lie_bracket_matrix, tangent, tangent_hessian,
+    Block, Matrix6, Motion, ScrewTangent, Vector6, WIDTH, lie_bracket_matrix, tangent,
+    tangent_derivative_rate, tangent_rate,
 };
 
 use super::variation::NOTHING;
@@ -73,17 +74,9 @@ impl NodeMap {
         let (seen, turned) = (back, bracket * by_increment);
         let (bent, grown) = (operator.derivative(rate), by_increment);
         let rates = [seen, turned + bent, grown];
-        // Ṫ ζ = (∂(T b)/∂z) ζ at b = ζ.
-        let unit = |k: usize| Vector6::from_fn(|i, _| f64::from(u8::from(i == k)));
-        let mut by_place = operator.derivative(curvature);
-        let mut by_rate = bent;
-        for k in 0..6 {
-            let hessian = tangent_hessian(increment, rate, &unit(k));
-            let row = (hessian * rate).transpose() + by_place.row(k);
-            by_place.set_row(k, &row);
-            let column = operator.rate_times(rate, &unit(k)) + by_rate.column(k);
-            by_rate.set_column(k, &column);
-        }
+        // Of T κ + Ṫ ζ, where Ṫ ζ = (∂(T b)/∂z) ζ at b = ζ.
+        let by_place = tangent_derivative_rate(increment, (rate, curvature), rate);
+        let by_rate = bent + tangent_rate(increment, rate);
         let accelerations = [
             -by_gain * seen,
             by_place + bracket * bent - by_gain * turned,

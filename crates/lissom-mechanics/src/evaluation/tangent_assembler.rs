@@ -98,19 +98,8 @@ impl TangentAssembler<'_> {
     pub fn add_lane(&mut self, place: Slot<'_>, entries: [&[Block]; 2], lane: usize) {
         match self {
             Self::Separate(out) => {
-                let size = place.rows.len();
                 for (values, entries) in [&mut out.stiffness, &mut out.damping].into_iter().zip(entries) {
-                    if entries.is_empty() {
-                        continue;
-                    }
-                    for run in place.segments {
-                        let column = entries[usize::from(run.row) * size + usize::from(run.column)..]
-                            .iter()
-                            .step_by(size);
-                        for (value, entry) in values[run.positions()].iter_mut().zip(column) {
-                            *value += entry[lane];
-                        }
-                    }
+                    scatter_lane(place, (entries, lane), 1.0, values);
                 }
             }
             Self::Real(sum) => sum.add_lane(place, entries, lane),
@@ -204,25 +193,13 @@ impl<T: Scalar> Sum<'_, T> {
     }
 
     fn add_lane(&mut self, place: Slot<'_>, [stiffness, damping]: [&[Block]; 2], lane: usize) {
-        let Slot { rows, segments } = place;
-        let size = rows.len();
-        let factors = [T::from_real(self.blend.place), self.blend.rate];
-        for (factor, entries) in factors.into_iter().zip([stiffness, damping]) {
-            if entries.is_empty() {
-                continue;
-            }
-            for run in segments {
-                let column =
-                    entries[usize::from(run.row) * size + usize::from(run.column)..].iter().step_by(size);
-                for (value, entry) in self.values[run.positions()].iter_mut().zip(column) {
-                    *value += factor * T::from_real(entry[lane]);
-                }
-            }
-        }
+        let rows = place.rows;
+        scatter_lane(place, (stiffness, lane), T::from_real(self.blend.place), self.values);
+        scatter_lane(place, (damping, lane), self.blend.rate, self.values);
         for (i, &row) in rows.iter().enumerate() {
             // Locked rows are out of range.
             if let Some(sum) = self.stiffness.get_mut(row as usize) {
-                *sum += stiffness[i * size + i][lane];
+                *sum += stiffness[i * rows.len() + i][lane];
             }
         }
     }
@@ -240,6 +217,22 @@ impl<T: Scalar> Sum<'_, T> {
     fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
         let Blend { place: p, augmented: a, constraint: c, .. } = self.blend;
         self.values[position] += T::from_real(p * place + a * augmented + c * constraint);
+    }
+}
+
+/// Adds a factor times the entries of an element of a block, row after row; they may be empty.
+fn scatter_lane<T: Scalar>(
+    Slot { rows, segments }: Slot<'_>,
+    (entries, lane): (&[Block], usize),
+    factor: T,
+    values: &mut [T],
+) {
+    let size = rows.len();
+    for run in segments.iter().filter(|_| !entries.is_empty()) {
+        let column = entries[usize::from(run.row) * size + usize::from(run.column)..].iter().step_by(size);
+        for (value, entry) in values[run.positions()].iter_mut().zip(column) {
+            *value += factor * T::from_real(entry[lane]);
+        }
     }
 }
 
