@@ -5,6 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::Visit;
 use syn::{Item, UseTree, Visibility};
 
@@ -76,6 +77,27 @@ impl Source {
         }
     }
 
+    /// Adds the paths among the tokens of a macro.
+    fn add_tokens(&mut self, tokens: TokenStream) {
+        let (mut path, mut colons) = (Vec::new(), 0);
+        let mut ended = Vec::new();
+        for token in tokens {
+            match token {
+                TokenTree::Ident(name) if colons == 2 => path.push(name.to_string()),
+                TokenTree::Ident(name) => ended.push(std::mem::replace(&mut path, vec![name.to_string()])),
+                TokenTree::Punct(own) if own.as_char() == ':' => {
+                    colons += 1;
+                    continue;
+                }
+                TokenTree::Group(group) => self.add_tokens(group.stream()),
+                _ => ended.push(std::mem::take(&mut path)),
+            }
+            colons = 0;
+        }
+        ended.push(path);
+        self.paths.extend(ended.into_iter().filter(|path| path.len() > 1));
+    }
+
     fn count_constant(&mut self, kind: &syn::Type) {
         let name = |kind: &syn::Type| match kind {
             syn::Type::Path(own) => own.path.get_ident().map(ToString::to_string).unwrap_or_default(),
@@ -134,6 +156,11 @@ impl<'ast> Visit<'ast> for Source {
         let methods = item.items.iter().filter(|own| matches!(own, syn::TraitItem::Fn(_))).count();
         self.methods.insert(item.ident.to_string(), methods);
         syn::visit::visit_item_trait(self, item);
+    }
+
+    fn visit_macro(&mut self, own: &'ast syn::Macro) {
+        self.add_tokens(own.tokens.clone());
+        syn::visit::visit_macro(self, own);
     }
 
     fn visit_path(&mut self, path: &'ast syn::Path) {
@@ -272,6 +299,20 @@ pub(crate) fn cycles_of_folders(root: &Path) -> Result<Vec<Vec<String>>, Structu
     Ok(cycles_of(&edges))
 }
 
+/// Imports from one of these folders to another.
+///
+/// # Errors
+/// If a file cannot be read or is no Rust.
+fn arrows_between(root: &Path, folders: &[String]) -> Result<Vec<(String, String)>, StructureError> {
+    let is_inside = |module: &Module| module.first().is_some_and(|folder| folders.contains(folder));
+    let mut arrows = Vec::new();
+    for (from, targets) in Crate::read(root)?.edges() {
+        let others = targets.iter().filter(|to| is_inside(&from) && is_inside(to) && to[0] != from[0]);
+        arrows.extend(others.map(|to| (from.join("/"), to.join("/"))));
+    }
+    Ok(arrows)
+}
+
 /// Number of lines of its sources.
 ///
 /// # Errors
@@ -322,6 +363,9 @@ pub(crate) fn run(root: &Path) -> Result<(), StructureError> {
     }
     for folders in cycles_of_folders(root)? {
         println!("{} folders: {}", folders.len(), folders.join(", "));
+        for (from, to) in arrows_between(root, &folders)? {
+            println!("  {from} -> {to}");
+        }
     }
     println!("{} lines", lines(root)?);
     println!("{} numeric constants", constants(root)?);
